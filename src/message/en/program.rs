@@ -131,7 +131,6 @@ declare! {
     a_4b_block_cannot_be_calculated_anew(line) => "line {line}: a 4B block cannot be calculated anew";
     a_3b_program_cannot_leave_the_correction_to_the_controller => "a 3B program cannot leave the correction to the controller: set compensation to path, or to none where the contour is the wire's path";
     no_blocks_within_tolerance_lead_from_to(from, to) => "no blocks within tolerance lead from {from} to {to}";
-    the_path_of_the_wire_has_a_gap(gap, from) => "the wire's path has a gap of {gap:.3} µm at {from}";
     n4b_cannot_have_an_arc_inside_of_which_the_wire_runs(radius, correction) => "4B cannot have an arc of R {radius:.3} mm inside of which the wire runs, expected more than the correction {correction:.3} mm";
     the_word_between_blocks_cannot_be_read_again(word) => "the word {word:?} between blocks cannot be read again, expected letters and digits";
     the_path_is_shorter_than_the_smallest_step => "the path is shorter than the smallest step of a program: nothing of it can be written";

@@ -131,7 +131,6 @@ translate! {
     a_4b_block_cannot_be_calculated_anew(line) => "第 {line} 行：4B 程序段不能重新计算";
     a_3b_program_cannot_leave_the_correction_to_the_controller => "3B 程序不能由控制器补偿：请把 compensation 设为 path；轮廓就是丝的路线时设为 none";
     no_blocks_within_tolerance_lead_from_to(from, to) => "从 {from} 到 {to} 没有符合公差的程序段";
-    the_path_of_the_wire_has_a_gap(gap, from) => "切割路线在 {from} 有 {gap:.3} µm 的间隙";
     n4b_cannot_have_an_arc_inside_of_which_the_wire_runs(radius, correction) => "丝在内侧走时，4B 不能有 R {radius:.3} mm 的圆弧，应大于补偿量 {correction:.3} mm";
     the_word_between_blocks_cannot_be_read_again(word) => "程序段之间的代码 {word:?} 不能再读入，应为字母和数字";
     the_path_is_shorter_than_the_smallest_step => "路线比程序的最小步距还短：无法写出";

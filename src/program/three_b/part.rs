@@ -5,16 +5,31 @@
 //! wire runs inside of it. The ways in and out are lines: they lead to the start of the wire's path, beside the
 //! contour.
 
+use super::decode::decode;
+use super::encode::encode;
 use crate::finding::{Detail, Finding, Place, Rule, Severity, Side, Unwritable};
-use crate::geometry::{Arc, Locus, Point, Segment, left_normal, turn};
-use crate::program::grid::{best_center, point_of, snap};
+use crate::geometry::{Arc, Locus, Point, Segment, Vector, left_normal, turn};
+use crate::program::grid::{point_of, snap};
 use crate::program::path::is_tight_in_four_b;
 use crate::program::write::{ProofError, Proved, scaled, too_far_out};
 use crate::toolpath::{PathSegment, Source, WirePath, each};
 use std::f64::consts::PI;
 
-/// A joint that turns by less is tangent, radians: the wire's path has a step of less than 1 µm there for each millimetre of correction.
+/// An arc that leaves a side at less than this is tangent to it, radians.
 const TANGENT: f64 = 1e-3;
+
+/// A corner where the wire's path has a smaller step needs no transition, µm: on the grid its arc would be a micrometre
+/// or two long, and run anywhere.
+const LEAST_STEP: f64 = 0.5;
+
+/// The largest step of the wire's path where an arc, as it is on the grid, leaves a side, µm.
+const LARGEST_STEP: f64 = 2.0;
+
+/// The step of the wire's path, µm, at a joint that turns by `turn` radians: the controller moves what comes before it
+/// and what comes behind by the correction, each across its own direction.
+pub(super) fn wire_step(turn: f64, correction: f64) -> f64 {
+    2.0 * correction * (turn / 2.0).sin().abs()
+}
 
 /// The path of a part's contour, and behind it that of its tab, rounded as one.
 pub(super) fn rounded_with_tab(
@@ -95,14 +110,15 @@ pub(super) fn rounded(
                 radius: arc.radius / 1e3,
                 correction: correction / 1e3,
             };
-            return Err(unwritable(piece, fault));
+            return Err(unwritable(piece.source, fault));
         }
     }
     let entry = first.geometry.start();
     let closed = !path.is_open();
-    if closed && turn(last.geometry.end_tangent(), first.geometry.start_tangent()).abs() > TANGENT {
+    let turned = turn(last.geometry.end_tangent(), first.geometry.start_tangent());
+    if closed && wire_step(turned, correction) > LEAST_STEP {
         return Err(unwritable(
-            &first,
+            first.source,
             Unwritable::BeginsInCorner { at: mm(entry) },
         ));
     }
@@ -171,18 +187,18 @@ fn along_wire(thread: Point, arc: &Arc, begin: Point, correction: f64) -> Vec<Se
 }
 
 /// Reports at the contour's own piece what 4B cannot hold.
-fn unwritable(piece: &PathSegment, fault: Unwritable) -> ProofError {
+pub(super) fn unwritable(source: Source, fault: Unwritable) -> ProofError {
     ProofError::Unwritable(Box::new(Finding {
         rule: Rule::UnprovedPath,
         severity: Severity::Error,
-        place: piece.source.place().unwrap_or(Place::Document),
+        place: source.place().unwrap_or(Place::Document),
         detail: Detail::Unwritable(fault),
         related: Vec::new(),
     }))
 }
 
 /// A point of the path, µm, in mm.
-fn mm(point: Point) -> [f64; 2] {
+pub(super) fn mm(point: Point) -> [f64; 2] {
     [point.x / 1e3, point.y / 1e3]
 }
 
@@ -200,6 +216,19 @@ const AT_A_TIME: usize = 64;
 /// How much larger a transition may become so that it exceeds the correction on the grid, too, µm.
 const LARGER: i32 = 3;
 
+/// Beyond that it grows by this factor until it is so long that it keeps its direction on the grid, µm: a corner that
+/// turns by little is cut off by hundredths of a micrometre.
+const FACTOR: f64 = 1.25;
+const LONG: f64 = 60.0;
+
+/// The radii of a corner's transition, the smallest first, µm.
+fn sizes(radius: f64, angle: f64) -> impl Iterator<Item = f64> {
+    let larger = (0..=LARGER).map(move |more| radius + f64::from(more));
+    let grown = std::iter::successors(Some(radius), |radius| Some((radius * FACTOR).ceil()));
+    let grown = grown.skip_while(move |own| *own <= radius + f64::from(LARGER));
+    larger.chain(grown.take_while(move |own| own * angle.abs() <= LONG))
+}
+
 /// Transition arcs of `radius`, or of as little more as makes them sound on the grid, at the corners between lines and
 /// arcs alike. Each corner is made from the two pieces as they are drawn.
 fn with_transitions(
@@ -210,10 +239,10 @@ fn with_transitions(
     let corners = each(contour.len().saturating_sub(1), AT_A_TIME, |nth| {
         let [before, behind] = [nth, nth + 1].map(|nth| &contour[nth].geometry);
         let angle = turn(before.end_tangent(), behind.start_tangent());
-        let sizes = (0..=LARGER).map(|more| radius + f64::from(more));
+        let sizes = sizes(radius, angle);
         let mut fitting = sizes.filter_map(|radius| transition(before, behind, angle, radius));
-        let is_sound = |made: &Transition| !is_tight_in_four_b(on_grid(&made.arc), correction);
-        (angle.abs() > TANGENT).then(|| (angle, fitting.find(is_sound)))
+        let is_sound = |made: &Transition| is_sound(&made.arc, correction);
+        (wire_step(angle, correction) > LEAST_STEP).then(|| (angle, fitting.find(is_sound)))
     });
     let mut rounded: Vec<PathSegment> = Vec::with_capacity(contour.len() * 2);
     let mut from = 0.0;
@@ -236,7 +265,7 @@ fn with_transitions(
                 radius: radius / 1e3,
                 turn,
             };
-            return Err(unwritable(behind, fault));
+            return Err(unwritable(behind.source, fault));
         };
         rounded.push(until(leaves));
         rounded.push(PathSegment {
@@ -248,17 +277,29 @@ fn with_transitions(
     Ok(rounded)
 }
 
-/// The radius of the block that an arc becomes, µm: between nodes of the grid it may be a micrometre smaller.
-fn on_grid(arc: &Arc) -> f64 {
-    let radius = |from, to| {
-        (point_of(from) - point_of(best_center(arc, from, to)))
-            .norm()
-            .round()
+/// Whether a controller can move the blocks that an arc becomes: on the grid they are arcs, too, each larger than the
+/// correction, and the wire's path has hardly a step where they leave the sides and each other.
+fn is_sound(arc: &Arc, correction: f64) -> bool {
+    let (Some(from), Some(to)) = (snap(arc.start), snap(arc.end)) else {
+        return false;
     };
-    match (snap(arc.start), snap(arc.end)) {
-        (Some(from), Some(to)) => radius(from, to),
-        _ => 0.0,
+    let mut blocks = Vec::new();
+    if encode(&Segment::Arc(*arc), from, to, i64::MAX, &mut blocks).is_none() {
+        return false;
     }
+    let joins = |one: Vector, next: Vector| wire_step(turn(one, next), correction) <= LARGEST_STEP;
+    let mut along = arc.tangent_at(0.0);
+    for block in &blocks {
+        let Ok(Segment::Arc(own)) = decode(&block.block, point_of(block.from)) else {
+            return false;
+        };
+        if is_tight_in_four_b(own.radius.round(), correction) || !joins(along, own.tangent_at(0.0))
+        {
+            return false;
+        }
+        along = own.tangent_at(1.0);
+    }
+    !blocks.is_empty() && joins(along, arc.tangent_at(1.0))
 }
 
 /// The arc at a corner.

@@ -7,10 +7,10 @@ use super::encode::{self, Encoded};
 use super::layout::{push_block, push_start_point};
 use super::machine::travel;
 use super::parse::{Item, read_line};
-use super::part::{is_concave, rounded, rounded_with_tab};
+use super::part::{is_concave, mm, rounded, rounded_with_tab, unwritable, wire_step};
 use super::proof::{Proof, check_line};
 use super::words::{Word, Words};
-use crate::finding::Side;
+use crate::finding::{Side, Unwritable};
 use crate::geometry::{Segment, Vector, turn};
 use crate::program::encode::encode_all;
 use crate::program::grid::point_of;
@@ -81,6 +81,7 @@ pub(crate) fn write_four_b(
         settings,
         Some(Part {
             correction,
+            radius,
             side: Side::Left,
             direction: None,
         }),
@@ -132,6 +133,8 @@ fn transitions(settings: &Effective) -> (f64, f64) {
 struct Part {
     /// µm.
     correction: f64,
+    /// Of its transitions, µm.
+    radius: f64,
     side: Side,
     /// The end of the contour's last block.
     direction: Option<Vector>,
@@ -340,15 +343,15 @@ impl<'a> Blocks<'a> {
             return Ok(None);
         }
         if let Some(direction) = part.direction {
-            let gap = 2.0
-                * part.correction
-                * (turn(direction, decoded.start_tangent()) / 2.0).sin().abs();
-            if gap > WIRE_GAP {
-                return Err(ProofError::Mismatch(say!(
-                    the_path_of_the_wire_has_a_gap,
-                    gap,
-                    encoded.from
-                )));
+            let turn = turn(direction, decoded.start_tangent());
+            if wire_step(turn, part.correction) > WIRE_GAP {
+                // As of a side that is hardly longer than a step of the grid.
+                let fault = Unwritable::NoTransition {
+                    at: mm(point_of(encoded.from)),
+                    radius: part.radius / 1e3,
+                    turn,
+                };
+                return Err(unwritable(source, fault));
             }
         }
         part.direction = Some(decoded.end_tangent());

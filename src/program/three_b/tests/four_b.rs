@@ -261,3 +261,36 @@ fn tight_arcs_of_four_b_are_found_whatever_the_compensation() {
         [1, 1, 0]
     );
 }
+
+proptest::proptest! {
+    /// However little a side is bent: the transition must not become a block of a micrometre, which runs anywhere.
+    #[test]
+    fn a_corner_of_any_turn_is_written(
+        turned in 0.0..std::f64::consts::TAU,
+        [along, bent] in [0.1..0.9, -5.0..-1.5],
+        is_inwards: bool,
+        correction in 0.08..0.4,
+        bulge in proptest::prop_oneof![proptest::strategy::Just(0.0), 0.02..0.5],
+        is_left: bool,
+    ) {
+        use crate::finding::Side;
+        let aside = 10_f64.powf(bent) * 10.0 * if is_inwards { -1.0 } else { 1.0 };
+        let outline = [
+            [0.0, 0.0, 0.0],
+            [10.0, 0.0, 0.0],
+            [10.0 + aside, 10.0 * along, bulge],
+            [10.0, 10.0, 0.0],
+            [-10.0, 10.0, 0.0],
+            [-10.0, 0.0, 0.0],
+        ];
+        let (sine, cosine) = turned.sin_cos();
+        let vertices = outline.map(|[x, y, bulge]| [cosine * x - sine * y, sine * x + cosine * y, bulge]);
+        let settings = Effective { correction, ..Effective::default() };
+        let side = if is_left { Side::Left } else { Side::Right };
+        let pieces = part_of(&vertices, side, &settings).unwrap();
+        for pair in pieces[1..pieces.len() - 1].windows(2) {
+            let kink = turn(pair[0].0.end_tangent(), pair[1].0.start_tangent()).abs();
+            proptest::prop_assert!(kink * correction * 1e3 <= 3.01, "{} {:?}", kink, pair);
+        }
+    }
+}
