@@ -18,10 +18,13 @@ use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering::Relaxed};
 
 /// Runs that are compared in parallel: results beyond the bounds are dropped.
 const BATCH: usize = 8192;
-/// From this many runs on several threads are worth while.
+/// From this many runs on all that has been seen is asked about them, not each of them about it, and the walls of each are kept.
 const MANY_RUNS: usize = 512;
-/// Runs per task.
+/// From this many runs on several threads are worth while.
+const SEVERAL_RUNS: usize = if cfg!(test) { 2 } else { 64 };
+/// Runs per task, of many and of fewer.
 const SHARE: usize = 64;
+const SMALL_SHARE: usize = 8;
 
 /// The runs of all contours by place, and the observations between them.
 #[derive(Clone, Debug, Default)]
@@ -340,10 +343,11 @@ impl Pairs {
                     looked
                 })
             };
-            let ahead: Vec<Option<Looked>> = if runs.len() < MANY_RUNS {
+            let ahead: Vec<Option<Looked>> = if runs.len() < SEVERAL_RUNS {
                 Vec::new()
             } else {
-                let runs = runs.par_iter().enumerate().with_min_len(SHARE);
+                let share = if search.keeps { SHARE } else { SMALL_SHARE };
+                let runs = runs.par_iter().enumerate().with_min_len(share);
                 runs.map_init(|| Kept::new(outlook), look).collect()
             };
             let mut ahead = ahead.into_iter();

@@ -40,13 +40,22 @@ pub(crate) fn word(path: &Path) -> String {
 
 /// Text to stdout. A reader that has gone away is no error.
 pub(crate) fn print(text: impl AsRef<str>) -> Result<(), Failure> {
-    let mut stdout = anstream::stdout().lock();
-    accepted(
-        stdout
-            .write_all(shown(text.as_ref()).as_bytes())
-            .and_then(|()| stdout.flush()),
-        "stdout",
-    )
+    let text = text.as_ref();
+    let written = if takes_colours(&io::stdout()) {
+        let mut stdout = anstream::stdout().lock();
+        let written = stdout.write_all(shown(text, true).as_bytes());
+        written.and_then(|()| stdout.flush())
+    } else {
+        // The stream that takes colours off hands on each piece between two of them.
+        let mut stdout = io::stdout().lock();
+        let written = stdout.write_all(shown(text, false).as_bytes());
+        written.and_then(|()| stdout.flush())
+    };
+    accepted(written, "stdout")
+}
+
+fn takes_colours(stdout: &io::Stdout) -> bool {
+    anstream::AutoStream::choice(stdout) != anstream::ColorChoice::Never
 }
 
 /// JSON to stdout: control characters are escaped, which does not change the content.
@@ -80,12 +89,12 @@ pub(crate) fn print_bytes(bytes: &[u8]) -> Result<(), Failure> {
 /// True where a person reads stdout: it is a terminal, or shows colours.
 pub(crate) fn is_for_people() -> bool {
     let stdout = io::stdout();
-    stdout.is_terminal() || anstream::AutoStream::choice(&stdout) != anstream::ColorChoice::Never
+    stdout.is_terminal() || takes_colours(&stdout)
 }
 
 /// A line to stderr. Nobody can be told when that fails.
 pub(crate) fn say(text: &str) {
-    let _ = writeln!(anstream::stderr().lock(), "{}", shown(text));
+    let _ = writeln!(anstream::stderr().lock(), "{}", shown(text, true));
 }
 
 /// The first thread hole, to stderr; `unit_mm` is the unit of the holes.
@@ -101,15 +110,24 @@ pub(crate) fn complain(sentence: &str) {
     say(&say!(says, styled(ERROR, say!(error)), readable(sentence)));
 }
 
-/// Text of several lines with our own colours and no other control characters, even where a caller forgot to remove
-/// them.
-fn shown(text: &str) -> Cow<'_, str> {
+/// Text of several lines with our own colours, or without any, and no other control characters, even where a caller forgot
+/// to remove them.
+fn shown(text: &str, has_colours: bool) -> Cow<'_, str> {
     if !text.contains(|character| is_hidden(character) && character != '\n') {
         return Cow::Borrowed(text);
     }
     let mut out = String::with_capacity(text.len());
     let mut rest = text;
-    while let Some(character) = rest.chars().next() {
+    loop {
+        // Most of it is plain.
+        let is_plain = |byte: &u8| matches!(byte, b' '..=b'~' | b'\n');
+        let plain = rest.bytes().position(|byte| !is_plain(&byte));
+        let (plain, behind) = rest.split_at(plain.unwrap_or(rest.len()));
+        out.push_str(plain);
+        rest = behind;
+        let Some(character) = rest.chars().next() else {
+            return Cow::Owned(out);
+        };
         let style = if character == '\u{1b}' {
             style_length(rest)
         } else {
@@ -117,15 +135,14 @@ fn shown(text: &str) -> Cow<'_, str> {
         };
         let length = style.max(character.len_utf8());
         match character {
-            _ if style > 0 => out.push_str(&rest[..style]),
+            _ if style > 0 && has_colours => out.push_str(&rest[..style]),
+            _ if style > 0 => {}
             '\r' if rest[1..].starts_with('\n') => {}
-            '\n' => out.push(character),
             hidden if is_hidden(hidden) => out.push(char::REPLACEMENT_CHARACTER),
             other => out.push(other),
         }
         rest = &rest[length..];
     }
-    Cow::Owned(out)
 }
 
 /// Bytes of the colour or weight that `text` begins with: `ESC [ digits m`.
@@ -247,7 +264,8 @@ mod tests {
 
     #[test]
     fn nothing_but_lines_and_colours_reaches_a_terminal() {
-        let check = |text: &str, expected: &str| assert_eq!(shown(text), expected, "{text:?}");
+        let check =
+            |text: &str, expected: &str| assert_eq!(shown(text, true), expected, "{text:?}");
         check("plain\n\ttext\n", "plain\n\ttext\n");
         check(&styled(ERROR, "a"), &styled(ERROR, "a"));
         check(
@@ -256,6 +274,19 @@ mod tests {
         );
         check("a\r\nb\rc\u{9b}", "a\nb\u{fffd}c\u{fffd}");
         check("\u{202e}\u{1b}", "\u{fffd}\u{fffd}");
+    }
+
+    #[test]
+    fn without_colours_the_same_is_shown() {
+        let text =
+            styled(ERROR, "a\u{1b}[2Jb\t\u{e4}\u{202e}") + &styled(FAINT, "\n\u{6a21}c\r\nd\r");
+        let stripped = anstream::adapter::strip_str(&shown(&text, true)).to_string();
+        assert_eq!(shown(&text, false), stripped);
+        assert_eq!(
+            stripped,
+            "a\u{fffd}[2Jb\t\u{e4}\u{fffd}\n\u{6a21}c\nd\u{fffd}"
+        );
+        assert_eq!(shown("plain\n", false), "plain\n");
     }
 
     #[test]

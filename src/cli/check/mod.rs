@@ -237,14 +237,15 @@ fn survey(arguments: &Arguments) -> Survey {
     survey
 }
 
-/// The result for each file, in their order. The largest are begun first, over all cores: begun last, one of them alone would keep the others
-/// waiting.
+/// The result for each file, in their order. The largest are begun first, one after the other over all cores: begun last, one of them alone would
+/// keep the others waiting.
 fn largest_first<T: Send>(files: &[PathBuf], of: impl Fn(&PathBuf) -> T + Sync) -> Vec<T> {
     let size = |file: &PathBuf| std::fs::metadata(file).map_or(0, |about| about.len());
     let mut order: Vec<usize> = (0..files.len()).collect();
     order.sort_by_cached_key(|&index| std::cmp::Reverse(size(&files[index])));
-    let each = order.par_iter().with_max_len(1);
-    let mut made: Vec<(usize, T)> = each.map(|&index| (index, of(&files[index]))).collect();
+    // In parts, as other lists are shared out, small files would be begun before large ones.
+    let each = order.into_iter().par_bridge();
+    let mut made: Vec<(usize, T)> = each.map(|index| (index, of(&files[index]))).collect();
     made.sort_unstable_by_key(|(index, _)| *index);
     made.into_iter().map(|(_, made)| made).collect()
 }

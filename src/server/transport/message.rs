@@ -1,5 +1,6 @@
 //! Reads a JSON-RPC message from a body: request, notification, reply, or an error.
 
+use super::long_string;
 use super::weight::{LIMIT, is_too_heavy};
 use serde_json::Value;
 use std::borrow::Cow;
@@ -93,6 +94,9 @@ fn invalid(id: Id, reason: impl Into<Cow<'static, str>>) -> Incoming {
 }
 
 fn parse_json(body: &[u8]) -> Result<Value, String> {
+    if let Some(value) = long_string::parse(body) {
+        return Ok(value);
+    }
     match serde_json::from_slice(body) {
         Ok(value) => Ok(value),
         Err(error) => match quote_overflowing_numbers(body) {

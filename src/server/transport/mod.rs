@@ -5,6 +5,7 @@
 //! neither the next message nor a cancellation. Knows JSON-RPC, and of LSP only `initialize` and `exit`.
 
 mod frame;
+mod long_string;
 mod memory;
 mod message;
 mod stdio;
