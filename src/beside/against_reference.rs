@@ -348,7 +348,7 @@ impl<'a> Pairs<'a> {
             };
             found.push(named(place, segment, length, kind));
         }
-        found.extend(begun_elsewhere(traced, &reference.traced));
+        found.extend(begun_elsewhere(traced, &reference.traced, from));
         found.sort_by_key(|difference| difference.range.start);
         let contours = reference
             .traced
@@ -444,8 +444,9 @@ fn named(block: &Block, segment: Option<(EntityId, usize)>, off: f64, kind: Kind
     }
 }
 
-/// The line in which an ISO program states its start, where that is a little off.
-fn begun_elsewhere(traced: &Traced, reference: &Traced) -> Option<Difference> {
+/// The line in which an ISO program states its start, where that is a little off. All of the program is `from` the
+/// rewritten one: where it counts from its own start, which is zero, that is no change.
+fn begun_elsewhere(traced: &Traced, reference: &Traced, from: Vector) -> Option<Difference> {
     if traced.counts {
         return None;
     }
@@ -456,6 +457,9 @@ fn begun_elsewhere(traced: &Traced, reference: &Traced) -> Option<Difference> {
         words.find(|(_, _, said)| said.sets_place())
     };
     let ((line, range, own), (.., meant)) = (said(traced)?, said(reference)?);
+    if own.is_at_zero() && from != Vector::zeros() {
+        return None;
+    }
     let off = own
         .apart(&meant)
         .filter(|off| (ALIKE..=SLIP).contains(off))?;

@@ -390,9 +390,20 @@ impl<'a> Search<'a> {
         let others = [None, Some(HOLE)].into_iter();
         let others =
             others.filter(|hole| hole.is_some() != self.best.settings.start_hole.is_some());
+        // A length of the way in that was measured may be that to the hole, and stated nowhere.
+        let lengths = |own: &Effective| (own.lead_in, own.stated_lead_in);
+        let [own, best] = [&*self.drawn.settings, &self.best.settings].map(lengths);
+        let lengths = std::iter::once(own).chain((best != own).then_some(best));
         let of = |hole| {
-            [Lead::Perpendicular, Lead::Straight, Lead::Arc].map(|lead| {
-                self.with(|settings| (settings.start_hole, settings.lead) = (hole, lead))
+            let leads = [Lead::Perpendicular, Lead::Straight, Lead::Arc];
+            let all = lengths
+                .clone()
+                .flat_map(move |length| leads.map(|lead| (length, lead)));
+            all.map(move |((length, stated), lead)| {
+                self.with(|settings| {
+                    (settings.start_hole, settings.lead) = (hole, lead);
+                    (settings.lead_in, settings.stated_lead_in) = (length, stated);
+                })
             })
         };
         others.flat_map(of).collect()

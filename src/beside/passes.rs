@@ -3,16 +3,50 @@
 use super::drawn::Drawn;
 use super::traced::Traced;
 use super::{infer, measure};
+use crate::geometry::Segment;
+use std::collections::BTreeMap;
 
 /// The most passes that are considered.
 const PASSES: usize = 8;
 /// The largest deviation of a pass from its place among the passes, mm.
 const NEAR: f64 = 8e-3;
+/// How far the radius of a block may be from that of its arc, µm.
+const OF_GRID: f64 = 1.5;
 /// Settings are round numbers, mm.
 const ROUND: [f64; 3] = [5e-3, 1e-3, 1e-4];
 
 fn rounded(mm: f64, to: f64) -> f64 {
     ((mm / to).round() * to * 1e4).round() / 1e4
+}
+
+/// What the radius of 4B's transitions may come from, mm: of arcs that the drawing does not have, the most frequent.
+fn transitions(drawn: &Drawn, traced: &Traced) -> Option<f64> {
+    let scale = drawn.unit_mm * 1e3;
+    let radius_of = |segment: &Segment| segment.as_arc().map(|arc| arc.radius);
+    let segments = drawn
+        .contours()
+        .iter()
+        .flat_map(|contour| &contour.segments);
+    let mut drawn_radii: Vec<f64> = segments
+        .filter_map(|segment| Some(radius_of(&segment.geometry)? * scale))
+        .collect();
+    drawn_radii.sort_by(f64::total_cmp);
+    let is_drawn = |radius: f64| {
+        let at = drawn_radii.partition_point(|own| *own < radius - OF_GRID);
+        drawn_radii
+            .get(at)
+            .is_some_and(|own| *own <= radius + OF_GRID)
+    };
+    let mut counts: BTreeMap<i64, usize> = BTreeMap::new();
+    for block in traced.blocks.iter().filter(|_| traced.four_b) {
+        let radius = block.segment().and_then(radius_of);
+        if let Some(radius) = radius.filter(|radius| !is_drawn(*radius)) {
+            *counts.entry(radius.round() as i64).or_default() += 1;
+        }
+    }
+    // The smaller one of two that are as frequent: on the grid some are larger.
+    let most = counts.into_iter().rev().max_by_key(|(_, count)| *count)?;
+    Some(most.0 as f64 / 1e3 - 1e-3)
 }
 
 /// Corrections that a program may have been written with, mm; those of several passes fall.
@@ -33,12 +67,13 @@ pub(super) fn corrections(drawn: &Drawn, traced: &Traced) -> Vec<Vec<f64>> {
         .map(|arc| arc.radius / 1e3)
         .fold(f64::INFINITY, f64::min);
     let least = least.is_finite().then_some([least, least - 1e-3]);
+    let rounded_by = transitions(drawn, traced);
     // A way in whose length is counted from the contour is shorter by the correction.
     let leads = measure::leads(traced, 0.0).into_iter();
     let leads = leads.map(|(length, _)| drawn.settings.lead_in - length);
     let lead = leads.take(1).filter(|mm| (0.0..1.0).contains(mm));
     let likely = speaks_for.iter().copied().take(2).chain(lead);
-    let likely = likely.chain(least.into_iter().flatten());
+    let likely = likely.chain(least.into_iter().flatten()).chain(rounded_by);
     let near = |mm: f64| [0.0, -1e-3, 1e-3].map(|by| rounded(mm + by, 1e-3));
     let mut single: Vec<f64> = Vec::new();
     for mm in likely.flat_map(near).filter(|mm| *mm > 0.0) {

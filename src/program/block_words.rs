@@ -80,6 +80,11 @@ impl BlockWords {
         self.words.starts_with(b"G92X")
     }
 
+    /// All of its numbers are zero.
+    pub(crate) fn is_at_zero(&self) -> bool {
+        self.numbers.iter().all(|number| *number == 0.0)
+    }
+
     /// The same words and numbers, whatever stands behind them.
     pub(crate) fn is_like(&self, other: &BlockWords) -> bool {
         self.words == other.words && self.numbers == other.numbers

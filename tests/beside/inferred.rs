@@ -208,6 +208,54 @@ fn rows() -> Vec<Row> {
             "[passes]\ncorrections = [0.2, 0.15]\nskim-corner = \"constant-stock\"\n[program]\nlead = \"arc\"\n",
             true,
         ),
+        // The control counts from the thread hole, which lies a hair beside the drawing's origin.
+        (
+            Shape::Polyline(vec![
+                [-1.35, -0.739756, 0.0],
+                [1.35, -0.739756, 0.41421356],
+                [1.5, -0.589756, 0.0],
+                [1.5, 0.589756, 0.41421356],
+                [1.35, 0.739756, 0.0],
+                [-1.35, 0.739756, 0.41421356],
+                [-1.5, 0.589756, 0.0],
+                [-1.5, -0.589756, 0.41421356],
+            ]),
+            Role::Opening,
+            Format::Iso,
+            "[program]\nprofile = \"robofil\"\n",
+            false,
+        ),
+        // The length of its way in is that to a start hole.
+        (
+            Shape::Polyline(vec![
+                [-7.174865, -5.130121, 0.0],
+                [6.817366, -5.596458, 0.41421356],
+                [7.850121, -4.630323, 0.0],
+                [8.141, 4.097366, 0.41421356],
+                [7.174865, 5.130121, 0.0],
+                [-6.817366, 5.596458, 0.41421356],
+                [-7.850121, 4.630323, 0.0],
+                [-8.141, -4.097366, 0.41421356],
+            ]),
+            Role::Opening,
+            Format::ThreeB,
+            "correction = 0.18\n[program]\nstart-hole = 0.5\n",
+            true,
+        ),
+        // Arcs of the drawing smaller than the transitions of 4B, which tell of its correction.
+        (
+            Shape::Polyline(vec![
+                [16.0, -5.658, 0.0],
+                [19.0, -5.658, 1.0],
+                [19.0, -5.558, 0.0],
+                [17.5, 4.342, 0.0],
+                [8.0, 3.0, 0.0],
+            ]),
+            Role::Punch,
+            Format::FourB,
+            "correction = 0.125\n[program]\nlead = \"straight\"\n",
+            true,
+        ),
     ]
 }
 
