@@ -262,8 +262,13 @@ impl<'a> Pairs<'a> {
             // J of a circle is off by four times what its radius is; where it is wrong, so is the end.
             let arc = meant.segment().and_then(Segment::as_arc);
             let is_circle = !traced.four_b && arc.is_some_and(Arc::is_full_turn);
+            // The same arc, whose centre an ISO program counts from another place.
+            let is_said_otherwise =
+                |apart: f64| !traced.counts && arc.is_some() && apart > SLIP && away <= ALIKE;
             let off = match words.apart {
-                Some(apart) if is_in_our_words && !is_circle => away.max(apart),
+                Some(apart) if is_in_our_words && !is_circle && !is_said_otherwise(apart) => {
+                    away.max(apart)
+                }
                 _ => away,
             };
             beside += if off <= ALIKE { away } else { 0.0 };

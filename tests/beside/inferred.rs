@@ -225,6 +225,14 @@ fn rows() -> Vec<Row> {
             "[program]\nprofile = \"robofil\"\n",
             false,
         ),
+        // Its centre is the origin, from which and from the start of the arc the numbers are as many.
+        (
+            Shape::Circle([0.0, 0.0], 3.0),
+            Role::Opening,
+            Format::Iso,
+            "correction = 0.125\n[program]\nprofile = \"robofil\"\n",
+            false,
+        ),
         // The length of its way in is that to a start hole.
         (
             Shape::Polyline(vec![
