@@ -14,19 +14,22 @@ pub(super) struct Found<K> {
     pub(super) kept: K,
 }
 
+/// What findings are sorted by: severity, place and rule, and their number among all.
+type Key = (Severity, (usize, usize), Rule, usize);
+
 /// A program with known faults.
 pub(super) trait Report {
     /// The source for wording a finding: of many findings few are shown.
     type Kept;
 
-    fn found(&self) -> Vec<Found<Self::Kept>>;
+    fn found(&self) -> impl Iterator<Item = Found<Self::Kept>>;
 
     fn worded(&self, kept: Self::Kept) -> Option<Finding>;
 
     /// All findings, as the rules see them.
     fn all(&self) -> Vec<Finding> {
         let worded = |found: Found<Self::Kept>| self.worded(found.kept);
-        self.found().into_iter().filter_map(worded).collect()
+        self.found().filter_map(worded).collect()
     }
 
     /// Those without merely suspected blocks, and without a search for the slip behind them.
@@ -40,12 +43,27 @@ pub(super) trait Report {
             let severity = settings.severity_over(found.rule, found.severity)?;
             Some(Found { severity, ..found })
         };
-        let mut found: Vec<_> = self.found().into_iter().filter_map(under).collect();
-        found.sort_by_key(|found| (found.severity, found.place, found.rule));
-        let count = found.len();
-        found.truncate(limit);
-        let worded = |found: Found<Self::Kept>| Some(self.worded(found.kept)?.with(found.severity));
-        (found.into_iter().filter_map(worded).collect(), count)
+        let mut count = 0;
+        // Those of which some are the first, each by its key: the others are only counted.
+        let mut first: Vec<(Key, Self::Kept)> = Vec::new();
+        let (held, mut last) = (limit.max(1), None);
+        for found in self.found().filter_map(under) {
+            let key: Key = (found.severity, found.place, found.rule, count);
+            count += 1;
+            if last.is_some_and(|last| key > last) {
+                continue;
+            }
+            first.push((key, found.kept));
+            if first.len() == held.saturating_mul(2) {
+                let (_, greatest, _) = first.select_nth_unstable_by_key(held - 1, |(key, _)| *key);
+                last = Some(greatest.0);
+                first.truncate(held);
+            }
+        }
+        first.sort_unstable_by_key(|(key, _)| *key);
+        first.truncate(limit);
+        let worded = |(key, kept): (Key, Self::Kept)| Some(self.worded(kept)?.with(key.0));
+        (first.into_iter().filter_map(worded).collect(), count)
     }
 }
 

@@ -14,6 +14,7 @@ use super::repair::found::Repairs;
 use super::stretch::{Placed, StopAt, Stretch};
 use crate::program::chunks::{ChunkReader, Chunks, Reread};
 use crate::program::contours::{Contours, PartAt, Touched};
+use crate::program::of_cut::OfCut;
 use crate::program::path::Known;
 use crate::settings::Effective;
 use crate::text::SourceText;
@@ -38,6 +39,11 @@ pub struct Document {
     contours: Contours<JoinedCut>,
     /// The contours of which there is something to say, and those with which such a one may belong together.
     doubtful: Vec<JoinedCut>,
+    /// What is said of those that depends on them alone, and of the contours that cross themselves.
+    told: Vec<OfCut>,
+    /// The cuts of which that was last asked.
+    #[cfg(test)]
+    pub(in crate::program) judged: usize,
     /// The results of the search for crossings.
     known: Box<Known>,
     /// The settings that faults depend on.
@@ -67,6 +73,9 @@ impl Document {
             order: None,
             contours: Contours::default(),
             doubtful: Vec::new(),
+            told: Vec::new(),
+            #[cfg(test)]
+            judged: 0,
             known: Box::default(),
             limits: Box::new(limits),
             table: Box::default(),
@@ -170,6 +179,18 @@ impl Document {
 
     pub(super) fn doubtful(&self) -> &[JoinedCut] {
         &self.doubtful
+    }
+
+    pub(super) fn doubtful_mut(&mut self) -> &mut [JoinedCut] {
+        &mut self.doubtful
+    }
+
+    pub(super) fn told(&self) -> &[OfCut] {
+        &self.told
+    }
+
+    pub(super) fn chunks(&self) -> &Chunks<Stretch> {
+        &self.stretches
     }
 
     /// Byte of the text from which the places of a stretch count.
@@ -313,6 +334,7 @@ impl Document {
             Some(reread) => self.touched(reread),
             None => {
                 (contours, doubtful) = (Contours::default(), Vec::new());
+                self.told.clear();
                 let all = Reread::all(&self.stretches);
                 (all, [(0, 0), (self.stretches.len(), 0)])
             }
@@ -334,6 +356,8 @@ impl Document {
             cut.follow(self.stretches[cut.begin().0].moved);
         }
         (self.contours, self.doubtful, self.known) = (contours, doubtful, known);
+        let told = self.tell(looked_at.from..looked_at.to);
+        OfCut::splice(&mut self.told, &looked_at, told);
         let last = self.stretches.len().min(looked_at.to.0 + 1);
         for index in self.clean(looked_at.from.0..last) {
             self.stretches[index].let_go();
