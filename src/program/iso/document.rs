@@ -4,6 +4,7 @@ use super::block::{Block, Offset};
 use super::control::{Control, lines_from};
 use super::cut::JoinedCut;
 use super::evidence::Evidence;
+use super::layout::{LOOKED_AT, is_parted};
 use super::limits::Limits;
 use super::machine::Machine;
 use super::moves::Reading;
@@ -52,6 +53,8 @@ pub struct Document {
     pub(crate) table: Box<Table>,
     /// The slips that may explain the findings, once somebody has asked for them.
     pub(super) repairs: OnceLock<Arc<Repairs>>,
+    /// Whether its words stand apart, once somebody has asked.
+    is_parted: OnceLock<bool>,
 }
 
 /// The last value of each place of the control's table, nm.
@@ -80,6 +83,7 @@ impl Document {
             limits: Box::new(limits),
             table: Box::default(),
             repairs: OnceLock::new(),
+            is_parted: OnceLock::new(),
         };
         document.guess_reading();
         document.run_all();
@@ -135,6 +139,11 @@ impl Document {
         if !again.fold(true, |all, is_held| all & is_held) {
             self.run_stretches();
         }
+    }
+
+    /// Whether its words stand apart.
+    pub(super) fn is_parted(&self) -> bool {
+        *self.is_parted.get_or_init(|| is_parted(&self.text))
     }
 
     /// A line's bytes, without its end.
@@ -240,6 +249,11 @@ impl Document {
     /// Replaces a range of bytes and runs again what it touched.
     pub fn edit(&mut self, range: Range<usize>, replacement: &str) {
         self.repairs = OnceLock::new();
+        // The byte before belongs to the edit: a CR there may become one line end with an inserted LF.
+        let first = range.start.min(self.text.len()).saturating_sub(1);
+        if self.text.line_of(first) < LOOKED_AT {
+            self.is_parted = OnceLock::new();
+        }
         if self.order.is_some() {
             let end = range.end.min(self.text.len());
             self.text.replace(range.start.min(end)..end, replacement);
