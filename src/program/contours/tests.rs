@@ -107,6 +107,14 @@ fn assert_as_afresh(document: &Document) -> Result<(), TestCaseError> {
     let text = document.text().bytes().to_vec();
     let fresh = Document::read(document.language(), text, &Effective::default());
     prop_assert_eq!(told(document), told(&fresh));
+    let (all, count) = document.findings(&Effective::default(), usize::MAX);
+    for limit in [0, 1, 2, 7] {
+        let some = all[..limit.min(count)].to_vec();
+        prop_assert_eq!(
+            document.findings(&Effective::default(), limit),
+            (some, count)
+        );
+    }
     prop_assert_eq!(document.trace(), fresh.trace());
     let all = 0..document.text().len();
     prop_assert_eq!(document.steps_in(all.clone()), fresh.steps_in(all));

@@ -4,7 +4,7 @@ use super::super::fields::fields_of;
 use super::super::rules::{self, Counts};
 use super::super::stretch::Local;
 use super::{Document, JoinedCut};
-use crate::finding::{Detail, Finding, Severity};
+use crate::finding::{Detail, Finding, Rule, Severity};
 use crate::program::of_cut::OfCut;
 use crate::program::repair::gate::Tried;
 use crate::program::report::{Found, Report, place_of};
@@ -23,16 +23,6 @@ impl Report for Document {
     type Kept = Kept;
 
     fn found(&self) -> impl Iterator<Item = Found<Kept>> {
-        let of_stretch = move |stretch: usize| {
-            let faults = self.stretches[stretch].faults.iter().enumerate();
-            let counting = faults.filter(move |(_, local)| self.counts(stretch, local));
-            counting.map(move |(index, local)| Found {
-                rule: local.rule,
-                severity: self.own_severity(stretch, local),
-                place: (local.range.start + self.stretches.byte(stretch), 0),
-                kept: Kept::InBlock { stretch, index },
-            })
-        };
         let of_cut = move |(index, told): (usize, &OfCut)| Found {
             rule: told.rule,
             severity: told.severity,
@@ -45,10 +35,29 @@ impl Report for Document {
             place: (place_of(finding).0, 0),
             kept: Kept::OnWhole { index },
         };
-        let of_blocks = (0..self.stretches.len()).flat_map(of_stretch);
         let of_whole = self.view.findings.iter().enumerate().map(on_whole);
         let of_cuts = self.view.told.found().iter().enumerate().map(of_cut);
-        of_blocks.chain(of_cuts).chain(of_whole)
+        of_cuts.chain(of_whole)
+    }
+
+    fn chunks(&self) -> usize {
+        self.stretches.len()
+    }
+
+    fn tally(&self, stretch: usize) -> Option<(usize, &[(Rule, usize)])> {
+        let tally = self.stretches.get(stretch)?.tally.as_deref()?;
+        Some((self.stretches.byte(stretch), tally))
+    }
+
+    fn found_in(&self, stretch: usize) -> impl Iterator<Item = Found<Kept>> {
+        let faults = self.stretches[stretch].faults.iter().enumerate();
+        let counting = faults.filter(move |(_, local)| self.counts(stretch, local));
+        counting.map(move |(index, local)| Found {
+            rule: local.rule,
+            severity: self.own_severity(stretch, local),
+            place: (local.range.start + self.stretches.byte(stretch), 0),
+            kept: Kept::InBlock { stretch, index },
+        })
     }
 
     fn worded(&self, kept: Kept) -> Option<Finding> {
