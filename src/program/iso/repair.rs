@@ -12,6 +12,7 @@ mod words;
 
 use super::block::{Block, word_range};
 use super::document::Document;
+use super::labels::LOOKED_BACK;
 use super::line::push_changed;
 use super::machine::Machine;
 use super::moves::{Move, distance};
@@ -25,6 +26,7 @@ use around::{LONGEST, begins_astray, cut_around, is_way, stands_alone};
 use found::{Repair, Repairs};
 use scan::{Against, Line, Way};
 use std::borrow::Cow;
+use std::cell::OnceCell;
 use std::ops::Range;
 use std::sync::Arc;
 use words::{Meant, Pool, Words, prior};
@@ -163,6 +165,8 @@ struct Suspect<'a> {
     pool: Pool,
     total: Against,
     order: Vec<usize>,
+    /// The block numbers of its lines and of those before it, where somebody has asked.
+    numbers: Vec<OnceCell<Option<u32>>>,
     /// The cut before it has missed the place where this one should begin.
     begins_astray: bool,
 }
@@ -293,6 +297,7 @@ impl<'a> Suspect<'a> {
             document,
             total: way.total(),
             begins_astray: begins_astray(document, &lines),
+            numbers: vec![OnceCell::new(); lines.end - lines.start.saturating_sub(LOOKED_BACK)],
             lines,
             way,
             pool,
