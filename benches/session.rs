@@ -74,8 +74,11 @@ fn main() {
         ISO_HOLES,
         THREE_B_TABS,
         ISO_TABS,
+        THREE_B_OPEN,
+        FOUR_B_OPEN,
+        ISO_OPEN,
     ] {
-        if is_chosen(program.session) {
+        if is_chosen(program.session) || is_chosen(program.name) {
             program_session(&program, rounds);
         }
     }
@@ -405,6 +408,27 @@ const THREE_B_TABS: Program = Program {
 const ISO_TABS: Program = Program {
     name: "5 MB ISO, passes before tabs",
     text: generated::iso_tabs,
+    ..ISO
+};
+
+/// Contours that do not close, each of a size of its own.
+const THREE_B_OPEN: Program = Program {
+    name: "5 MB 3B, contours that stay open",
+    text: generated::three_b_open,
+    refactorings: &[],
+    ..THREE_B
+};
+
+const FOUR_B_OPEN: Program = Program {
+    name: "5 MB 4B, contours that stay open",
+    text: generated::four_b_open,
+    refactorings: &[],
+    ..THREE_B
+};
+
+const ISO_OPEN: Program = Program {
+    name: "5 MB ISO, contours that stay open",
+    text: generated::iso_open,
     ..ISO
 };
 

@@ -273,6 +273,73 @@ pub fn three_b_tabs(blocks: usize) -> String {
     text + "DD\n"
 }
 
+/// The blocks of a contour of 3B with a number that is 500 too small, so that it does not close, and its radii as 4B
+/// writes them.
+fn open_contour(nth: usize) -> [(i64, i64, i64, &'static str, i64); 8] {
+    let (side, r) = (6000 + nth as i64 % 4093, 1000);
+    [
+        (2000, 0, 2000, "GXL1", 0),
+        (0, side, side, "GYL2", 0),
+        (r, 0, r, "GXNR1", r),
+        (side, 0, side, "GXL3", 0),
+        (0, r, r, "GYNR2", r),
+        (0, side - 500, side - 500, "GYL4", 0),
+        (side + 2 * r, 0, side + 2 * r, "GXL1", 0),
+        (0, r, r, "GYL4", 0),
+    ]
+}
+
+/// A 3B program of contours that all stay open, each of another size.
+pub fn three_b_open(blocks: usize) -> String {
+    let mut text = String::with_capacity(blocks * 22);
+    for contour in 0..blocks / 9 {
+        for (x, y, j, z, _) in open_contour(contour) {
+            let _ = writeln!(text, "B{x}B{y}B{j}{z}");
+        }
+        text.push_str("D\nB20000B0B20000GXL1\nD\n");
+    }
+    text + "DD\n"
+}
+
+/// The same as a 4B program.
+pub fn four_b_open(blocks: usize) -> String {
+    let mut text = String::with_capacity(blocks * 26);
+    for contour in 0..blocks / 9 {
+        for (x, y, j, z, radius) in open_contour(contour) {
+            let (axis, motion) = z.split_at(2);
+            let _ = match radius {
+                0 => writeln!(text, "B{x}B{y}B{j}{z}"),
+                _ => writeln!(text, "B{x}B{y}B{j}B{radius}{axis}D{motion}"),
+            };
+        }
+        text.push_str("D\nB20000B0B20000GXL1\nD\n");
+    }
+    text + "DD\n"
+}
+
+/// An ISO program of contours that all stay open, each of another size.
+pub fn iso_open(blocks: usize) -> String {
+    let mut text = String::from("%\nG90\nG92 X0.000 Y0.000\n");
+    for contour in 0..blocks / 9 {
+        let (x, y) = (contour as i64 % 200 * 20, contour as i64 / 200 * 20);
+        let side = 6000 + contour as i64 % 4093;
+        let _ = writeln!(text, "G00 X{x}.000 Y{y}.000\nM00");
+        let (x, y) = (x * 1000, y * 1000);
+        for (dx, dy) in [
+            (2000, 0),
+            (2000, side),
+            (2000 + side, side),
+            (2000 + side, -500),
+            (2500, -500),
+        ] {
+            let [x, y] = [x + dx, y + dy].map(|um| um as f64 / 1e3);
+            let _ = writeln!(text, "G01 X{x:.3} Y{y:.3}");
+        }
+        text.push_str("M00\n");
+    }
+    text + "M02\n"
+}
+
 /// Vertices of one closed polyline of `count` vertices: a saw round a large circle, every tenth tooth rounded.
 pub fn long_outline(count: usize) -> Vec<[f64; 3]> {
     let radius = count as f64 * 0.2;

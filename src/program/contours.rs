@@ -233,10 +233,12 @@ impl<C: Clone> Contours<C> {
         before(chunk + 1) - before(chunk)
     }
 
-    /// The beginnings of the contours that do not close.
-    pub(crate) fn open(&self) -> impl Iterator<Item = PartAt> {
-        let open = self.heads.iter().filter(|head| head.is_open);
-        open.map(|head| head.begin)
+    /// The beginnings of the contours that do not close, from one place up to another.
+    pub(crate) fn open_within(&self, places: Range<PartAt>) -> impl Iterator<Item = PartAt> {
+        let first = self.heads.partition_point(|head| head.begin < places.start);
+        let within = self.heads[first..].iter();
+        let within = within.take_while(move |head| head.begin < places.end);
+        within.filter(|head| head.is_open).map(|head| head.begin)
     }
 
     /// Whether the cut that begins at a place is such a contour.

@@ -80,6 +80,15 @@ impl Document {
         }
     }
 
+    /// The contours that the last reading judged again, and in how many of them it searched for a block to blame.
+    #[cfg(test)]
+    pub(in crate::program) fn contours_judged(&self) -> [usize; 2] {
+        match self {
+            Document::ThreeB(document) => document.judged(),
+            Document::Iso(document) => [document.judged, 0],
+        }
+    }
+
     pub(crate) fn language(&self) -> Language {
         match self {
             Document::ThreeB(_) => Language::ThreeB,

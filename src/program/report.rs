@@ -14,19 +14,38 @@ pub(super) struct Found<K> {
     pub(super) kept: K,
 }
 
+/// What findings are sorted by: severity, place and rule, and their number among all.
+type Key = (Severity, (usize, usize), Rule, usize);
+
 /// A program with known faults.
 pub(super) trait Report {
     /// The source for wording a finding: of many findings few are shown.
     type Kept;
 
-    fn found(&self) -> Vec<Found<Self::Kept>>;
+    fn found(&self) -> impl Iterator<Item = Found<Self::Kept>>;
+
+    /// The number of chunks that have findings of their own, beside the others.
+    fn chunks(&self) -> usize {
+        0
+    }
+
+    /// The first byte of such a chunk, and how many findings of each rule are there, in the severity of their rule; `None`
+    /// where that is not known without a look at each.
+    fn tally(&self, _chunk: usize) -> Option<(usize, &[(Rule, usize)])> {
+        None
+    }
+
+    fn found_in(&self, _chunk: usize) -> impl Iterator<Item = Found<Self::Kept>> {
+        std::iter::empty()
+    }
 
     fn worded(&self, kept: Self::Kept) -> Option<Finding>;
 
     /// All findings, as the rules see them.
     fn all(&self) -> Vec<Finding> {
         let worded = |found: Found<Self::Kept>| self.worded(found.kept);
-        self.found().into_iter().filter_map(worded).collect()
+        let in_chunks = (0..self.chunks()).flat_map(|chunk| self.found_in(chunk));
+        in_chunks.chain(self.found()).filter_map(worded).collect()
     }
 
     /// Those without merely suspected blocks, and without a search for the slip behind them.
@@ -36,16 +55,87 @@ pub(super) trait Report {
 
     /// At most `limit` findings, and how many there are in all.
     fn told(&self, settings: &Effective, limit: usize) -> (Vec<Finding>, usize) {
-        let under = |found: Found<Self::Kept>| {
+        let under_settings = |found: Found<Self::Kept>| {
             let severity = settings.severity_over(found.rule, found.severity)?;
             Some(Found { severity, ..found })
         };
-        let mut found: Vec<_> = self.found().into_iter().filter_map(under).collect();
-        found.sort_by_key(|found| (found.severity, found.place, found.rule));
-        let count = found.len();
-        found.truncate(limit);
-        let worded = |found: Found<Self::Kept>| Some(self.worded(found.kept)?.with(found.severity));
-        (found.into_iter().filter_map(worded).collect(), count)
+        // Of many findings those are held of which some are the first, each by its key; the others are only counted.
+        let mut first: First<Self::Kept> = First::of(limit.max(1));
+        for chunk in 0..self.chunks() {
+            match self
+                .tally(chunk)
+                .and_then(|tally| first.passed(settings, tally))
+            {
+                Some(count) => first.count += count,
+                None => self
+                    .found_in(chunk)
+                    .filter_map(under_settings)
+                    .for_each(|found| first.push(found)),
+            }
+        }
+        for found in self.found().filter_map(under_settings) {
+            first.push(found);
+        }
+        let First {
+            held: mut first,
+            count,
+            ..
+        } = first;
+        first.sort_unstable_by_key(|(key, _)| *key);
+        first.truncate(limit);
+        let worded = |(key, kept): (Key, Self::Kept)| Some(self.worded(kept)?.with(key.0));
+        (first.into_iter().filter_map(worded).collect(), count)
+    }
+}
+
+/// The first of many findings, in no order, and how many there are in all.
+struct First<K> {
+    held: Vec<(Key, K)>,
+    most: usize,
+    /// What is behind it is not among the first.
+    last: Option<Key>,
+    count: usize,
+}
+
+impl<K> First<K> {
+    fn of(most: usize) -> First<K> {
+        First {
+            held: Vec::new(),
+            most,
+            last: None,
+            count: 0,
+        }
+    }
+
+    fn push(&mut self, found: Found<K>) {
+        let key: Key = (found.severity, found.place, found.rule, self.count);
+        self.count += 1;
+        if self.last.is_some_and(|last| key > last) {
+            return;
+        }
+        self.held.push((key, found.kept));
+        if self.held.len() == self.most.saturating_mul(2) {
+            let last = self.most - 1;
+            let (_, greatest, _) = self.held.select_nth_unstable_by_key(last, |(key, _)| *key);
+            self.last = Some(greatest.0);
+            self.held.truncate(self.most);
+        }
+    }
+
+    /// How many findings count of a chunk that begins at a byte, where none of them is among the first.
+    fn passed(
+        &self,
+        settings: &Effective,
+        (byte, tally): (usize, &[(Rule, usize)]),
+    ) -> Option<usize> {
+        let mut all = 0;
+        for (rule, count) in tally {
+            if let Some(severity) = settings.severity_over(*rule, rule.default_severity()) {
+                let (last, place, ..) = self.last?;
+                all += ((severity, byte) > (last, place.0)).then_some(*count)?;
+            }
+        }
+        Some(all)
     }
 }
 

@@ -107,6 +107,14 @@ fn assert_as_afresh(document: &Document) -> Result<(), TestCaseError> {
     let text = document.text().bytes().to_vec();
     let fresh = Document::read(document.language(), text, &Effective::default());
     prop_assert_eq!(told(document), told(&fresh));
+    let (all, count) = document.findings(&Effective::default(), usize::MAX);
+    for limit in [0, 1, 2, 7] {
+        let some = all[..limit.min(count)].to_vec();
+        prop_assert_eq!(
+            document.findings(&Effective::default(), limit),
+            (some, count)
+        );
+    }
     prop_assert_eq!(document.trace(), fresh.trace());
     let all = 0..document.text().len();
     prop_assert_eq!(document.steps_in(all.clone()), fresh.steps_in(all));
@@ -183,6 +191,120 @@ fn an_edit_among_many_stops_looks_at_few_cuts() {
                         "{language:?} {is_relative} {at} {line:?} {word:?}: {looked_at}"
                     );
                 }
+            }
+        }
+    }
+}
+
+/// Small contours that stay open, a few of them crossing themselves, each with the way to the next; some are numbered, and
+/// some share a line.
+fn open_contours(language: Language, contours: &[(u8, i32)], is_numbered: bool) -> String {
+    let openings = contours.iter().map(|(kind, size)| match kind {
+        0 => vec![[2, 0], [*size, 0], [*size, 7], [3, 7], [3, 1]],
+        1 => vec![[2, 0], [*size, 0], [*size, 7], [2, 7], [2, 1]],
+        2 => vec![[2, 0], [*size, 0], [*size, 7], [4, -7], [1, -7], [1, -3]],
+        3 => vec![[2, 0], [*size, 0]],
+        _ => vec![[2, 0], [*size, 0], [*size, 7], [2, 7], [2, 0], [0, 0]],
+    });
+    let (mut text, mut at) = (String::new(), [0, 0]);
+    let mut number = 0;
+    for (nth, own) in openings.enumerate() {
+        let begin = 40 * nth as i32;
+        for (index, [x, y]) in [[0, 0]].into_iter().chain(own).enumerate() {
+            let to = [begin + x, y];
+            let [dx, dy] = [to[0] - at[0], to[1] - at[1]];
+            at = to;
+            number += 1;
+            if is_numbered && nth % 3 != 1 {
+                let _ = write!(text, "N{number} ");
+            }
+            let stop = match language {
+                Language::ThreeB => {
+                    let quadrant = match (dx, dy) {
+                        (1.., 0..) => 1,
+                        (..=0, 1..) => 2,
+                        (..0, ..=0) => 3,
+                        _ => 4,
+                    };
+                    let [dx, dy] = [dx.abs() * 1000, dy.abs() * 1000];
+                    let axis = if dx > dy { 'X' } else { 'Y' };
+                    let _ = write!(text, "B{dx}B{dy}B{}G{axis}L{quadrant}", dx.max(dy));
+                    "D\n"
+                }
+                Language::Iso => {
+                    let word = if index == 0 { "G00" } else { "G01" };
+                    let [x, y] = to;
+                    let _ = write!(text, "{word} X{x}. Y{y}.");
+                    "M00\n"
+                }
+            };
+            text.push('\n');
+            if index == 0 {
+                text += stop;
+            }
+        }
+        text += if language == Language::Iso {
+            "M00\n"
+        } else {
+            "D\n"
+        };
+    }
+    text + if language == Language::Iso {
+        "M02\n"
+    } else {
+        "DD\n"
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(32))]
+    #[test]
+    fn an_edit_among_open_contours_leaves_what_is_said_of_them_as_read_afresh(
+        contours in prop::collection::vec((0_u8..6, 5_i32..14), 1..60),
+        language in prop::sample::select(Language::ALL.to_vec()),
+        is_numbered in any::<bool>(),
+        edits in prop::collection::vec((0.0..1.0, 0_usize..3, any::<prop::sample::Index>()), 1..5),
+    ) {
+        let words = match language {
+            Language::ThreeB => ["", "7", "N3 ", "\n", "D\n", "DD\n", "B2000B0B2000GXL3\n", "x", "; 2.000 , 1.000"],
+            Language::Iso => ["", "7", "N3 ", "\n", "M00\n", "M02\n", "G00 X3. Y0.\n", "G91\n", "G41 D1 "],
+        };
+        let text = open_contours(language, &contours, is_numbered);
+        let mut document = Document::read(language, text.into_bytes(), &Effective::default());
+        for (place, length, word) in edits {
+            let start = (document.text().len() as f64 * place) as usize;
+            let start = if length == 0 { document.text().line_start(document.text().line_of(start)) } else { start };
+            let word = words[word.index(words.len())];
+            document.edit(start..start + length, word);
+            assert_as_afresh(&document)?;
+        }
+    }
+}
+
+/// What an edit judges and searches does not grow with the program, wherever it is made.
+#[test]
+fn an_edit_among_many_open_contours_judges_few() {
+    for language in Language::ALL {
+        let contours: Vec<(u8, i32)> = (0..600).map(|nth| (nth as u8 % 3, 5 + nth % 97)).collect();
+        let text = open_contours(language, &contours, false);
+        let mut document =
+            Document::read(language, text.clone().into_bytes(), &Effective::default());
+        let [all, _] = document.contours_judged();
+        assert!(all >= 300, "{language:?}: {all}");
+        for (at, _) in text.match_indices('\n').skip(5).step_by(211) {
+            for word in ["1", "\n", "x"] {
+                document.edit(at..at, word);
+                let come = document.contours_judged();
+                document.edit(at..at + 1, "");
+                let gone = document.contours_judged();
+                assert!(
+                    come[0] <= 80 && gone[0] <= 80,
+                    "{language:?} {at} {word:?}: {come:?} {gone:?}"
+                );
+                assert!(
+                    come[1] <= 4 && gone[1] <= 4,
+                    "{language:?} {at} {word:?}: {come:?} {gone:?}"
+                );
             }
         }
     }

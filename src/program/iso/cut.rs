@@ -25,6 +25,8 @@ pub(crate) struct JoinedCut {
     pub(crate) before_tab: Option<u32>,
     /// Where the wire was first sent to the other side, and the line that did so.
     pub(crate) flip: Option<(Place, BytesAt)>,
+    /// All that is said of it depends on it alone, and is kept.
+    pub(crate) is_told: bool,
     /// How far its first stretch had been moved when it was put together.
     moved: Place,
 }
@@ -41,6 +43,7 @@ impl JoinedCut {
             stop: None,
             stops: 0,
             before_tab: None,
+            is_told: false,
             moved: of.moved,
         };
         cut.stopped(its.stop, stretch);

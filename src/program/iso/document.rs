@@ -4,6 +4,7 @@ use super::block::{Block, Offset};
 use super::control::{Control, lines_from};
 use super::cut::JoinedCut;
 use super::evidence::Evidence;
+use super::layout::{LOOKED_AT, is_parted};
 use super::limits::Limits;
 use super::machine::Machine;
 use super::moves::Reading;
@@ -14,6 +15,7 @@ use super::repair::found::Repairs;
 use super::stretch::{Placed, StopAt, Stretch};
 use crate::program::chunks::{ChunkReader, Chunks, Reread};
 use crate::program::contours::{Contours, PartAt, Touched};
+use crate::program::of_cut::OfCut;
 use crate::program::path::Known;
 use crate::settings::Effective;
 use crate::text::SourceText;
@@ -38,6 +40,11 @@ pub struct Document {
     contours: Contours<JoinedCut>,
     /// The contours of which there is something to say, and those with which such a one may belong together.
     doubtful: Vec<JoinedCut>,
+    /// What is said of those that depends on them alone, and of the contours that cross themselves.
+    told: Vec<OfCut>,
+    /// The cuts of which that was last asked.
+    #[cfg(test)]
+    pub(in crate::program) judged: usize,
     /// The results of the search for crossings.
     known: Box<Known>,
     /// The settings that faults depend on.
@@ -46,6 +53,8 @@ pub struct Document {
     pub(crate) table: Box<Table>,
     /// The slips that may explain the findings, once somebody has asked for them.
     pub(super) repairs: OnceLock<Arc<Repairs>>,
+    /// Whether its words stand apart, once somebody has asked.
+    is_parted: OnceLock<bool>,
 }
 
 /// The last value of each place of the control's table, nm.
@@ -67,10 +76,14 @@ impl Document {
             order: None,
             contours: Contours::default(),
             doubtful: Vec::new(),
+            told: Vec::new(),
+            #[cfg(test)]
+            judged: 0,
             known: Box::default(),
             limits: Box::new(limits),
             table: Box::default(),
             repairs: OnceLock::new(),
+            is_parted: OnceLock::new(),
         };
         document.guess_reading();
         document.run_all();
@@ -128,6 +141,11 @@ impl Document {
         }
     }
 
+    /// Whether its words stand apart.
+    pub(super) fn is_parted(&self) -> bool {
+        *self.is_parted.get_or_init(|| is_parted(&self.text))
+    }
+
     /// A line's bytes, without its end.
     pub(super) fn line_bytes(&self, line: usize) -> &[u8] {
         self.text.line(line)
@@ -170,6 +188,18 @@ impl Document {
 
     pub(super) fn doubtful(&self) -> &[JoinedCut] {
         &self.doubtful
+    }
+
+    pub(super) fn doubtful_mut(&mut self) -> &mut [JoinedCut] {
+        &mut self.doubtful
+    }
+
+    pub(super) fn told(&self) -> &[OfCut] {
+        &self.told
+    }
+
+    pub(super) fn chunks(&self) -> &Chunks<Stretch> {
+        &self.stretches
     }
 
     /// Byte of the text from which the places of a stretch count.
@@ -219,6 +249,11 @@ impl Document {
     /// Replaces a range of bytes and runs again what it touched.
     pub fn edit(&mut self, range: Range<usize>, replacement: &str) {
         self.repairs = OnceLock::new();
+        // The byte before belongs to the edit: a CR there may become one line end with an inserted LF.
+        let first = range.start.min(self.text.len()).saturating_sub(1);
+        if self.text.line_of(first) < LOOKED_AT {
+            self.is_parted = OnceLock::new();
+        }
         if self.order.is_some() {
             let end = range.end.min(self.text.len());
             self.text.replace(range.start.min(end)..end, replacement);
@@ -313,6 +348,7 @@ impl Document {
             Some(reread) => self.touched(reread),
             None => {
                 (contours, doubtful) = (Contours::default(), Vec::new());
+                self.told.clear();
                 let all = Reread::all(&self.stretches);
                 (all, [(0, 0), (self.stretches.len(), 0)])
             }
@@ -334,6 +370,8 @@ impl Document {
             cut.follow(self.stretches[cut.begin().0].moved);
         }
         (self.contours, self.doubtful, self.known) = (contours, doubtful, known);
+        let told = self.tell(looked_at.from..looked_at.to);
+        OfCut::splice(&mut self.told, &looked_at, told);
         let last = self.stretches.len().min(looked_at.to.0 + 1);
         for index in self.clean(looked_at.from.0..last) {
             self.stretches[index].let_go();

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// How many lines back block numbers are searched for.
-const LOOKED_BACK: usize = 50;
+pub(super) const LOOKED_BACK: usize = 50;
 
 impl Document {
     /// Whether some line calls the subprogram with a number.
@@ -51,9 +51,17 @@ impl Document {
 
     /// The last block number before a line, and the step of the numbers there.
     pub(crate) fn numbers_before(&self, line: usize) -> Option<(u32, u32)> {
+        Document::last_numbers(line, |line| self.block(line).number)
+    }
+
+    /// The same where the number of each line is told.
+    pub(super) fn last_numbers(
+        line: usize,
+        number_of: impl Fn(usize) -> Option<u32>,
+    ) -> Option<(u32, u32)> {
         let mut numbers = (line.saturating_sub(LOOKED_BACK)..line)
             .rev()
-            .filter_map(|line| self.block(line).number)
+            .filter_map(number_of)
             .filter(|number| *number < u32::MAX);
         let last = numbers.next()?;
         let step = numbers

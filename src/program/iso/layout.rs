@@ -10,7 +10,7 @@ use crate::text::{SourceText, TextEdit};
 use std::ops::Range;
 
 /// Lines that are read to find whether spaces separate words.
-const LOOKED_AT: usize = 1000;
+pub(super) const LOOKED_AT: usize = 1000;
 
 /// The edits that bring `lines` into an even form, sorted and disjoint: words close up in the compact layout and are
 /// separated by one space in the others; without a layout, as in most lines of the text.

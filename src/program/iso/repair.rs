@@ -12,18 +12,21 @@ mod words;
 
 use super::block::{Block, word_range};
 use super::document::Document;
+use super::labels::LOOKED_BACK;
 use super::line::push_changed;
 use super::machine::Machine;
 use super::moves::{Move, distance};
 use super::plain::plain;
 use crate::finding::{Detail, Fault, Finding, FixKind, Place, Rule, Severity};
 use crate::geometry::{Segment, Vector};
+use crate::program::of_cut::OfCut;
 use crate::program::repair::search::{self, Contour, Verdict, search};
 use crate::text::TextEdit;
 use around::{LONGEST, begins_astray, cut_around, is_way, stands_alone};
 use found::{Repair, Repairs};
 use scan::{Against, Line, Way};
 use std::borrow::Cow;
+use std::cell::OnceCell;
 use std::ops::Range;
 use std::sync::Arc;
 use words::{Meant, Pool, Words, prior};
@@ -51,26 +54,24 @@ impl Document {
     /// The slips that may explain the faults, by the lines of the cuts that they stand in.
     pub(super) fn repairs(&self) -> &Repairs {
         self.repairs
-            .get_or_init(|| Arc::new(repairs(self, &self.plain_findings())))
+            .get_or_init(|| Arc::new(repairs(self, &troubles(self, &self.plain_findings(), &[]))))
     }
 
-    /// The same where the independent faults are at hand.
-    pub(super) fn repairs_of(&self, plain: &[Finding]) -> &Repairs {
-        self.repairs.get_or_init(|| Arc::new(repairs(self, plain)))
+    /// The same where the first bytes of the faults that a slip may explain are at hand.
+    pub(super) fn repairs_of(&self, troubles: &[usize]) -> &Repairs {
+        self.repairs
+            .get_or_init(|| Arc::new(repairs(self, troubles)))
     }
 }
 
 /// Searches the faulty cuts.
-fn repairs(document: &Document, findings: &[Finding]) -> Repairs {
+fn repairs(document: &Document, troubles: &[usize]) -> Repairs {
     let mut found: Repairs = Vec::new();
     let mut too_long: Vec<Range<usize>> = Vec::new();
     let mut left = MOST_RUNS;
-    let places: Vec<usize> = findings
-        .iter()
-        .filter(|finding| is_trouble(finding))
-        .filter_map(|finding| line_of(document, finding))
-        .collect();
-    for &line in &places {
+    let text = document.text();
+    for &trouble in troubles {
+        let line = text.line_of(trouble);
         let known = found.iter().map(|(lines, _)| lines).chain(&too_long);
         if known.clone().any(|lines| lines.contains(&line)) {
             continue;
@@ -87,11 +88,10 @@ fn repairs(document: &Document, findings: &[Finding]) -> Repairs {
             too_long.push(lines);
             continue;
         };
-        let own: Vec<usize> = places
-            .iter()
-            .copied()
-            .filter(|line| lines.contains(line))
-            .collect();
+        let [first, behind] = [lines.start, lines.end]
+            .map(|line| troubles.partition_point(|trouble| text.line_of(*trouble) < line));
+        let own = troubles[first..behind].iter();
+        let own: Vec<usize> = own.map(|trouble| text.line_of(*trouble)).collect();
         // One slip does not cause so much.
         let is_long = |line: usize| document.line_bytes(line).len() > LONGEST_LINE;
         if own.len() > MOST_TROUBLES || lines.clone().any(is_long) {
@@ -109,12 +109,31 @@ fn repairs(document: &Document, findings: &[Finding]) -> Repairs {
     found
 }
 
-/// The findings that one slip may explain.
+/// The first bytes of the findings that one slip may explain, in the order of the text.
+pub(crate) fn troubles(document: &Document, findings: &[Finding], told: &[OfCut]) -> Vec<usize> {
+    let findings = findings.iter().filter(|one| is_trouble(one));
+    let findings = findings.filter_map(|one| match &one.place {
+        Place::Text { range } => Some(range.start),
+        _ => None,
+    });
+    let of_cut = |one: &&OfCut| may_be_slip(one.rule, one.severity, &one.detail);
+    let told = told
+        .iter()
+        .filter(of_cut)
+        .map(|one| one.range(document.chunks()).start);
+    let mut all: Vec<usize> = findings.chain(told).collect();
+    all.sort();
+    all
+}
+
+/// Whether one slip may explain a finding.
 pub(crate) fn is_trouble(finding: &Finding) -> bool {
-    match finding.rule {
-        Rule::Syntax | Rule::NotClosed | Rule::MixedNumbers => {
-            finding.severity <= Severity::Warning
-        }
+    may_be_slip(finding.rule, finding.severity, &finding.detail)
+}
+
+fn may_be_slip(rule: Rule, severity: Severity, detail: &Detail) -> bool {
+    match rule {
+        Rule::Syntax | Rule::NotClosed | Rule::MixedNumbers => severity <= Severity::Warning,
         Rule::TooManyDigits
         | Rule::ArcOffRadius
         | Rule::ArcWithoutRadius
@@ -124,7 +143,7 @@ pub(crate) fn is_trouble(finding: &Finding) -> bool {
         | Rule::WordTwice
         | Rule::Spur => true,
         Rule::DoubledBlock => !matches!(
-            &finding.detail,
+            detail,
             Detail::Program(fault) if matches!(**fault, Fault::DoubledBlock { arc: false })
         ),
         _ => false,
@@ -146,6 +165,8 @@ struct Suspect<'a> {
     pool: Pool,
     total: Against,
     order: Vec<usize>,
+    /// The block numbers of its lines and of those before it, where somebody has asked.
+    numbers: Vec<OnceCell<Option<u32>>>,
     /// The cut before it has missed the place where this one should begin.
     begins_astray: bool,
 }
@@ -276,6 +297,7 @@ impl<'a> Suspect<'a> {
             document,
             total: way.total(),
             begins_astray: begins_astray(document, &lines),
+            numbers: vec![OnceCell::new(); lines.end - lines.start.saturating_sub(LOOKED_BACK)],
             lines,
             way,
             pool,

@@ -2,6 +2,7 @@
 
 mod arcs;
 mod text;
+mod told;
 
 use super::block::Code;
 use super::cut::JoinedCut;
@@ -12,13 +13,13 @@ use super::moves::{Place as Spot, Reading, apart, distance, micrometres};
 use super::part::{Part, WireSide};
 use super::plain::word_at;
 use super::repair::found::Repair;
-use super::repair::{is_trouble, line_of};
+use super::repair::{line_of, troubles};
 use super::stretch::Stretch;
 use crate::finding::{Detail, Fault, Finding, Place, Rule, Severity, Side};
 use crate::geometry::cross;
 use crate::program::path::{HasCuts, tolerance};
 use crate::program::repair::gate::Tried;
-use crate::program::report::{self, Found, place_of};
+use crate::program::report::place_of;
 use crate::settings::{CenterRule, SideSetting};
 use crate::text::SourceText;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -40,7 +41,7 @@ impl Document {
     /// The findings of the program, in the order of the text.
     pub fn findings(&self) -> Vec<Finding> {
         let mut findings = self.plain_findings();
-        let suspects = suspects(self, &findings);
+        let suspects = suspects(self, &troubles(self, &findings, &[]));
         if !suspects.is_empty() {
             findings.extend(suspects);
             sort(&mut findings);
@@ -50,6 +51,15 @@ impl Document {
 
     /// The same without merely suspected blocks, and without a search for the slip behind them.
     pub(crate) fn plain_findings(&self) -> Vec<Finding> {
+        let mut report = self.report();
+        let told = self.told().iter();
+        let told = told.map(|told| told.finding(self.chunks(), self.text()));
+        report.findings.extend(told);
+        report.finish()
+    }
+
+    /// What there is to say beside what is told already.
+    fn report(&self) -> Report<'_> {
         let mut report = Report::new(self);
         let mut last_words = None;
         let mut is_ended = false;
@@ -69,10 +79,12 @@ impl Document {
             }
         }
         report.spurs();
-        for cut in self.doubtful() {
+        for cut in self.doubtful().iter().filter(|cut| !cut.is_told) {
             report.judge(cut, self.doubtful());
         }
-        for (cut, found) in self.contours().crossing() {
+        // With subprograms nothing is kept.
+        let crossing = self.contours().crossing().iter();
+        for (cut, found) in crossing.filter(|_| self.order().is_some()) {
             let crossings = found.findings(&self.way(cut), self.last_block(cut), self.text());
             report.findings.extend(crossings);
         }
@@ -109,7 +121,7 @@ impl Document {
             };
             report.add(range, Fault::said(Rule::AmbiguousCenter, sentence));
         }
-        report.finish()
+        report
     }
 
     /// Of some stretches those whose cuts are sound: those that begin and end there have no fault as a whole.
@@ -140,14 +152,16 @@ impl Document {
 }
 
 /// The blocks that may explain the findings by one slip, unless they have a finding already.
-fn suspects(document: &Document, findings: &[Finding]) -> Vec<Finding> {
+fn suspects(document: &Document, troubles: &[usize]) -> Vec<Finding> {
     let is_said = |line: usize| {
-        findings
-            .iter()
-            .any(|finding| is_trouble(finding) && line_of(document, finding) == Some(line))
+        let line_of = |byte: usize| document.text().line_of(byte);
+        let next = troubles.partition_point(|byte| line_of(*byte) < line);
+        troubles
+            .get(next)
+            .is_some_and(|byte| line_of(*byte) == line)
     };
     let first = |(_, repairs): &(Range<usize>, Vec<Repair>)| repairs.first().cloned();
-    let repairs = document.repairs_of(findings).iter().filter_map(first);
+    let repairs = document.repairs_of(troubles).iter().filter_map(first);
     let suspect = |repair: Repair| {
         let range = document.words_of(repair.line);
         let fault = Fault::Suspect {
@@ -165,28 +179,6 @@ fn suspects(document: &Document, findings: &[Finding]) -> Vec<Finding> {
         .filter(|repair| repair.explains && !is_said(repair.line))
         .map(suspect)
         .collect()
-}
-
-impl report::Report for Document {
-    type Kept = Finding;
-
-    fn found(&self) -> Vec<Found<Finding>> {
-        let found = |finding: Finding| Found {
-            rule: finding.rule,
-            severity: finding.severity,
-            place: place_of(&finding),
-            kept: finding,
-        };
-        self.findings().into_iter().map(found).collect()
-    }
-
-    fn worded(&self, kept: Finding) -> Option<Finding> {
-        Some(kept)
-    }
-
-    fn plain(&self) -> Vec<Finding> {
-        self.plain_findings()
-    }
 }
 
 impl Tried for Document {

@@ -11,6 +11,7 @@ mod judge;
 mod repairs;
 mod report;
 mod sequence;
+mod told;
 mod walk;
 mod way;
 
@@ -26,7 +27,9 @@ use crate::program::contours::{Contours, PartAt, Touched};
 use crate::program::path::Known;
 use crate::settings::Effective;
 use crate::text::SourceText;
+use sequence::Numbers;
 use std::ops::Range;
+use told::Told;
 
 /// A 3B or 4B program as text, and its reading.
 #[derive(Clone, Debug)]
@@ -97,7 +100,9 @@ struct View {
     /// The word that ends the program.
     end: Option<At>,
     last_block: Option<At>,
-    /// In no order; the places are bytes of the text.
+    numbers: Numbers,
+    /// What is said of single contours, and of all else, that in no order and with places in bytes of the text.
+    told: Told,
     findings: Vec<Finding>,
 }
 
@@ -170,6 +175,11 @@ impl Document {
         &self.view.contours
     }
 
+    #[cfg(test)]
+    pub(in crate::program) fn judged(&self) -> [usize; 2] {
+        self.view.told.judged
+    }
+
     /// Bytes of an entry in the text.
     fn range_of(&self, at: At) -> Range<usize> {
         let byte = self.stretches.byte(at.stretch);
@@ -189,19 +199,21 @@ impl Document {
             };
             before.end.map(moved) == self.view.end.map(Some)
         };
-        let (reread, mut outer, mut contours) = match reread.filter(same_end) {
-            Some(reread) => (reread, before.outer, before.contours),
-            None => (
-                Reread::all(&self.stretches),
-                Vec::new(),
-                Contours::default(),
-            ),
+        let reread = reread.filter(same_end);
+        let mut before = if reread.is_some() {
+            before
+        } else {
+            View::default()
         };
+        let reread = reread.unwrap_or_else(|| Reread::all(&self.stretches));
+        let mut outer = std::mem::take(&mut before.outer);
+        let mut contours = std::mem::take(&mut before.contours);
         let [from, to] = self.find_outer(&mut outer, &reread);
         self.view.outer = outer;
         self.view.last_block = self.last_block(self.view.end);
         let off = self.off_positions();
         self.view.taken = self.taken(&off);
+        self.view.numbers = self.numbers();
         self.view.begins = self.begins(&self.view.taken);
         let touched = Touched {
             reread: &reread,
@@ -211,13 +223,16 @@ impl Document {
         // The contours within one stretch that are now known not to cross themselves.
         let mut clean: Vec<PartAt> = Vec::new();
         let mut known = std::mem::take(&mut self.known);
-        contours.look(self, touched, &mut known, |cut, crosses| {
+        let looked_at = contours.look(self, touched, &mut known, |cut, crosses| {
             let is_inner = cut.parts[0] == cut.parts[1];
             clean.extend((is_inner && crosses == Some(false)).then_some(cut.parts[0]));
         });
         self.known = known;
         self.view.contours = contours;
-        self.judge(off);
+        let mut findings = Vec::new();
+        self.view.odd = self.judge_joints(&mut findings);
+        self.judge_contours(before, looked_at);
+        self.judge(off, findings);
         // The findings of a contour within one stretch depend on nothing else: it is not checked again.
         for of_stretch in clean.chunk_by(|a, b| a.0 == b.0) {
             let stretch = of_stretch

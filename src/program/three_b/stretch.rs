@@ -173,6 +173,8 @@ impl Open {
 pub(super) struct Stretch {
     pub(crate) entries: Vec<Entry>,
     pub(crate) faults: Vec<Local>,
+    /// How many faults of each rule; `None` where one of them counts only under conditions.
+    pub(crate) tally: Option<Vec<(Rule, usize)>>,
     pub(crate) parts: Vec<Part>,
     pub(crate) blocks: usize,
     pub(crate) arcs: usize,
@@ -288,7 +290,20 @@ impl Stretch {
                 self.may_cross.extend(may_cross.then_some(index));
             }
         }
+        self.tally = self.tallied();
         self.let_go();
+    }
+
+    fn tallied(&self) -> Option<Vec<(Rule, usize)>> {
+        let mut tally: Vec<(Rule, usize)> = Vec::new();
+        for fault in &self.faults {
+            let rule = (fault.counts == Counts::Always).then_some(fault.rule)?;
+            match tally.iter_mut().find(|(own, _)| *own == rule) {
+                Some((_, count)) => *count += 1,
+                None => tally.push((rule, 1)),
+            }
+        }
+        Some(tally)
     }
 
     /// Of parts that are sound by themselves nothing is held.

@@ -5,6 +5,7 @@ use super::words::{Meant, prior};
 use crate::geometry::{Segment, Vector, left_normal};
 use crate::program::iso::block::Motion;
 use crate::program::iso::document::Document;
+use crate::program::iso::labels::LOOKED_BACK;
 use crate::program::iso::line::with_word;
 use crate::program::iso::moves::{
     Bend, CenterRule, Move, Place, Reading, added, distance, micrometres,
@@ -73,7 +74,7 @@ impl Suspect<'_> {
             ]);
         }
         let meant = words.join(if self.pool.is_parted { " " } else { "" });
-        let line = match free_number(self.document, self.lines.start + index) {
+        let line = match self.free_number(self.lines.start + index) {
             Some(number) => with_word(meant.as_bytes(), &format!("N{number}"), self.pool.is_parted),
             None => meant.clone().into_bytes(),
         };
@@ -94,17 +95,25 @@ impl Suspect<'_> {
         };
         Some((meant, prior))
     }
-}
 
-/// The number of a block before a line, where there is room for one.
-fn free_number(document: &Document, line: usize) -> Option<u32> {
-    let (last, step) = document.numbers_before(line)?;
-    let number = last.checked_add(step)?;
-    let next = document
-        .block(line)
-        .number
-        .or_else(|| document.number_behind(line));
-    next.is_none_or(|next| next > number).then_some(number)
+    /// The number of a block before a line, where there is room for one.
+    fn free_number(&self, line: usize) -> Option<u32> {
+        let document = self.document;
+        let (last, step) = Document::last_numbers(line, |line| self.number_of(line))?;
+        let number = last.checked_add(step)?;
+        let next = self
+            .number_of(line)
+            .or_else(|| document.number_behind(line));
+        next.is_none_or(|next| next > number).then_some(number)
+    }
+
+    /// The number of a line of the cut, or of one not far before it: many changes ask for it.
+    fn number_of(&self, line: usize) -> Option<u32> {
+        let first = self.lines.start.saturating_sub(LOOKED_BACK);
+        let read = || self.document.block(line).number;
+        let known = line.checked_sub(first).and_then(|at| self.numbers.get(at));
+        known.map_or_else(read, |known| *known.get_or_init(read))
+    }
 }
 
 /// From the start of an arc to its start after a lost tangent line: its end stays, and its centre moves along where I

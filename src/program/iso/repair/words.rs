@@ -3,7 +3,6 @@
 use super::scan::{Line, Way};
 use crate::program::iso::block::Motion;
 use crate::program::iso::document::Document;
-use crate::program::iso::layout::is_parted;
 use crate::program::iso::line::with_word;
 use crate::program::iso::machine::Machine;
 use crate::program::iso::moves::{Bend, Move, Place, to_center};
@@ -55,7 +54,7 @@ impl Pool {
         let mut pool = Pool {
             counts: Default::default(),
             coordinates: Default::default(),
-            is_parted: is_parted(document.text()),
+            is_parted: document.is_parted(),
             styles: [false, true].map(|inch| Style::of(document, inch)),
         };
         let length = |number: Number| document.reading().length(number, false).abs();

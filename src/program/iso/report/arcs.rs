@@ -13,7 +13,7 @@ use std::ops::Range;
 
 impl Report<'_> {
     /// The arcs of a cut that may be too tight, with their places in the text.
-    fn tight_of(&self, cut: &JoinedCut) -> Vec<(Tight, Range<usize>)> {
+    pub(super) fn tight_of(&self, cut: &JoinedCut) -> Vec<(Tight, Range<usize>)> {
         let mut found = Vec::new();
         for &(index, part) in &cut.parts {
             let Some(stretch) = self.document.stretches().get(index) else {

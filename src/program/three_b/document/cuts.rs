@@ -292,14 +292,20 @@ impl Document {
             entries((first_stretch, first_part)),
             entries((last_stretch, last_part)),
         );
-        let is_within = move |at: &At| {
-            (at.stretch > first_stretch || at.entry >= first.start)
-                && (at.stretch < last_stretch || at.entry < last.end)
-        };
-        let all = self
-            .entries(first_stretch..last_stretch + 1)
-            .map(|(at, _)| at);
-        all.filter(is_within)
+        (first_stretch..last_stretch + 1).flat_map(move |stretch| {
+            let from = if stretch == first_stretch {
+                first.start
+            } else {
+                0
+            };
+            let all = self.entries_in(stretch).len();
+            let to = if stretch == last_stretch {
+                last.end
+            } else {
+                all
+            };
+            (from..to).map(move |entry| At { stretch, entry })
+        })
     }
 
     /// The blocks of a cut in their order.

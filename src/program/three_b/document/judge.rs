@@ -1,33 +1,17 @@
-//! The findings of a program as a whole: contours that do not close or cross themselves, its end, texts, numbers,
-//! places.
+//! The findings of a program as a whole: its end, texts, numbers, places, size.
 
 use super::super::entry::{Move, What};
-use super::super::fields::fields_of;
 use super::super::parse::unexpected;
-use super::super::repair::FEWEST_BLAMED;
-use super::super::rules;
+use super::Document;
 use super::sequence::OffPosition;
-use super::{Document, JoinedCut};
-use crate::finding::{Axis, Detail, Fault, Finding, Rule, Severity};
+use crate::finding::{Detail, Fault, Finding, Rule, Severity};
 use crate::geometry::{Bounds, Vector};
-use crate::program::path::{HasCuts, absurd_size, tolerance};
+use crate::program::path::absurd_size;
 use std::ops::Range;
 
 impl Document {
-    /// Finds what is to be said of the program as a whole.
-    pub(super) fn judge(&mut self, off: Vec<OffPosition>) {
-        let mut findings = Vec::new();
-        for begin in self.view.contours.open() {
-            let cut = self.cut_from(begin);
-            findings.extend(cut.into_iter().flat_map(|cut| self.judge_open(&cut)));
-        }
-        self.view.odd = self.judge_joints(&mut findings);
-        for (cut, found) in self.view.contours.crossing() {
-            if !self.is_odd(cut) {
-                let last = HasCuts::last_block(self, cut);
-                findings.extend(found.findings(&self.way(cut), last, &self.text));
-            }
-        }
+    /// Finds what is to be said of the program as a whole, beside what is found already.
+    pub(super) fn judge(&mut self, off: Vec<OffPosition>, mut findings: Vec<Finding>) {
         self.judge_end(&mut findings);
         self.judge_texts(&mut findings);
         self.judge_numbers(&mut findings);
@@ -60,65 +44,6 @@ impl Document {
         {
             findings.push(Finding::of(fault, range));
         }
-    }
-
-    /// True for the way back to the thread hole, behind a stop at the end of a closed contour.
-    fn leads_out(&self, cut: &JoinedCut) -> bool {
-        let (stretch, part) = cut.parts[0];
-        let before = part
-            .checked_sub(1)
-            .and_then(|part| self.cut_of_part((stretch, part)));
-        before.is_some_and(|before| {
-            let whole = before.sum.then(&cut.sum);
-            !before.is_jump && whole.travel.is_within(tolerance(whole.arcs))
-        })
-    }
-
-    /// `not-closed`, and the block to blame where that is plain.
-    fn judge_open(&self, cut: &JoinedCut) -> Vec<Finding> {
-        let is_fragment = self.view.end.is_none() || self.is_fragment(cut);
-        if cut.sum.unread > 0 || (is_fragment && self.leads_out(cut)) {
-            return Vec::new();
-        }
-        let mut findings: Vec<Finding> = self.not_closed(cut, is_fragment).into_iter().collect();
-        let may_be_one_field =
-            cut.sum.errors == 0 && cut.sum.blocks >= FEWEST_BLAMED && !self.lacks_a_number(cut);
-        if !is_fragment
-            && may_be_one_field
-            && let Some((nth, fault)) = self.blamed(cut)
-            && let Some(at) = self.blocks_of(cut).nth(nth)
-        {
-            let spot = match &fault {
-                Fault::QuadrantKeepsOpen { .. } => rules::Spot::Motion,
-                Fault::AxisKeepsOpen { .. } => rules::Spot::Axis,
-                Fault::JKeepsOpen { .. } => rules::Spot::J,
-                Fault::NumberKeepsOpen { axis: Axis::X, .. } => rules::Spot::X,
-                Fault::NumberKeepsOpen { axis: Axis::Y, .. } => rules::Spot::Y,
-                _ => rules::Spot::Block,
-            };
-            let block = self.range_of(at);
-            let range = fields_of(self.text.bytes(), block.clone())
-                .map_or(block.clone(), |fields| spot.range(&fields, block));
-            findings.push(Finding::of(fault, range));
-        }
-        findings
-    }
-
-    /// Whether the numbers of a cut have a gap: a block is lost then.
-    fn lacks_a_number(&self, cut: &JoinedCut) -> bool {
-        let numbers: Vec<u32> = self
-            .blocks_of(cut)
-            .filter_map(|at| self.entry(at)?.number())
-            .collect();
-        let steps = || {
-            numbers
-                .windows(2)
-                .map(|pair| pair[1].saturating_sub(pair[0]))
-                .filter(|step| *step > 0)
-        };
-        steps()
-            .min()
-            .is_some_and(|usual| steps().any(|step| step > usual))
     }
 
     /// `missing-end` and `text-after-end`.

@@ -9,13 +9,15 @@ use super::super::layout::{
 use super::super::repair::{
     BLOCKS, Change, Item, Loose, Number, Path, Piece, Repair, Scope, Slip, is_sound, loose, repairs,
 };
-use super::super::rules::{TextFix, block_number};
+use super::super::rules::TextFix;
 use super::{At, Document, JoinedCut};
 use crate::finding::{Axis, Fault, Finding, FixKind, Place, Rule};
 use crate::program::grid::Node;
 use crate::program::repair::offered;
 use crate::program::three_b::block::{Block, Motion};
 use crate::text::TextEdit;
+use rustc_hash::FxHasher;
+use std::hash::{Hash, Hasher};
 use std::ops::Range;
 
 impl Document {
@@ -88,16 +90,45 @@ impl Document {
         offered(fixes)
     }
 
-    /// The block that keeps a contour open, by its number in the cut, where no other repair is as likely.
-    pub(super) fn blamed(&self, cut: &JoinedCut) -> Option<(usize, Fault)> {
-        let whole = self.with_open_beside(cut);
-        let whole = whole.as_ref().unwrap_or(cut);
+    /// The block that keeps a contour open, by its number in the cut, where no other repair is as likely. It is searched
+    /// for in the `whole` of the cut and the open ones beside it.
+    pub(super) fn blamed(&self, cut: &JoinedCut, whole: &JoinedCut) -> Option<(usize, Fault)> {
         let (places, pieces) = self.pieces_of(whole)?;
         let first = self.blocks_of(cut).next()?;
         let before = places.iter().position(|at| *at == first)?;
         let (index, fault) = self.blamed_of(whole, &places, &pieces)?;
         let own = index.checked_sub(before)?;
         (own < cut.sum.blocks).then_some((own, fault))
+    }
+
+    /// A mark of all that this search looks at; `None` where there are no blocks.
+    pub(super) fn mark_of_search(&self, cut: &JoinedCut, whole: &JoinedCut) -> Option<u64> {
+        let is_piece = |at: &At| {
+            let what = self.entry(*at).map(|entry| &entry.what);
+            matches!(what, Some(What::Block(_) | What::Unread))
+        };
+        let first = self.entries_of(whole).find(is_piece)?;
+        let last = self.entries_of(whole).rfind(is_piece)?;
+        let own = self.range_of(self.blocks_of(cut).next()?);
+        let [begin, end] = [first, last].map(|at| self.range_of(at));
+        let from = self.text.line_start(self.text.line_of(begin.start));
+        let to = self
+            .text
+            .line_range(self.text.line_of(end.start))
+            .end
+            .max(end.end);
+        let mut hasher = FxHasher::default();
+        self.text.bytes().get(from..to)?.hash(&mut hasher);
+        let places = [begin.start, end.end, own.start].map(|byte| byte - from);
+        (places, cut.sum.blocks, whole.is_jump).hash(&mut hasher);
+        (self.number_before(first), self.view.numbers.step).hash(&mut hasher);
+        let stated = |stated: StatedPoint| (stated.at.map(f64::to_bits), stated.decimals);
+        self.stated_begin(first).map(stated).hash(&mut hasher);
+        let beside = self.beside(&[first, last]).into_iter();
+        let beside =
+            beside.map(|motions| motions.into_iter().map(Motion::name).collect::<Vec<_>>());
+        beside.collect::<Vec<_>>().hash(&mut hasher);
+        Some(hasher.finish())
     }
 
     fn blamed_of(
@@ -179,7 +210,7 @@ impl Document {
             pieces,
             start: first.and_then(|first| self.stated_begin(first)),
             number: first.and_then(|first| self.number_before(first)),
-            step: self.number_step(),
+            step: self.view.numbers.step,
             limits: &self.limits,
             is_jump: cut.is_jump,
             is_closed,
@@ -195,21 +226,6 @@ impl Document {
         let mut before = motions_of(self.before(*first));
         before.reverse();
         vec![before, motions_of(self.from(*last).skip(1))]
-    }
-
-    /// The usual step of the numbers, by the first of them.
-    fn number_step(&self) -> Option<u32> {
-        let blocks = self.entries(0..self.stretches.len());
-        let numbers = blocks
-            .filter(|(_, entry)| entry.block().is_some())
-            .map(|(_, entry)| entry.number())
-            .take(block_number::FIRST);
-        block_number::usual_step(&numbers.collect::<Vec<_>>())
-    }
-
-    /// The last number before a block.
-    fn number_before(&self, at: At) -> Option<u32> {
-        self.before(at).find_map(|(_, entry)| entry.number())
     }
 
     /// The blocks of a contour, including unreadable ones; `None` where there are too few or too many.
@@ -371,7 +387,7 @@ impl Document {
         let first = || self.number_before(*places.first()?);
         let number = item(model)
             .and_then(|item| item.number)
-            .zip(self.number_step())
+            .zip(self.view.numbers.step)
             .map(|(own, step)| match index {
                 0 => first().map_or(own.saturating_sub(step), |last| {
                     last.saturating_add(step).min(own)

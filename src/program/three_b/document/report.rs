@@ -4,7 +4,8 @@ use super::super::fields::fields_of;
 use super::super::rules::{self, Counts};
 use super::super::stretch::Local;
 use super::{Document, JoinedCut};
-use crate::finding::{Detail, Finding, Severity};
+use crate::finding::{Detail, Finding, Rule, Severity};
+use crate::program::of_cut::OfCut;
 use crate::program::repair::gate::Tried;
 use crate::program::report::{Found, Report, place_of};
 use crate::settings::SideSetting;
@@ -14,32 +15,49 @@ use std::ops::Range;
 #[derive(Clone, Copy, Debug)]
 pub(in crate::program) enum Kept {
     InBlock { stretch: usize, index: usize },
+    OfCut { index: usize },
     OnWhole { index: usize },
 }
 
 impl Report for Document {
     type Kept = Kept;
 
-    fn found(&self) -> Vec<Found<Kept>> {
-        let of_stretch = |stretch: usize| {
-            let faults = self.stretches[stretch].faults.iter().enumerate();
-            let counting = faults.filter(move |(_, local)| self.counts(stretch, local));
-            counting.map(move |(index, local)| Found {
-                rule: local.rule,
-                severity: self.own_severity(stretch, local),
-                place: (local.range.start + self.stretches.byte(stretch), 0),
-                kept: Kept::InBlock { stretch, index },
-            })
+    fn found(&self) -> impl Iterator<Item = Found<Kept>> {
+        let of_cut = move |(index, told): (usize, &OfCut)| Found {
+            rule: told.rule,
+            severity: told.severity,
+            place: (told.range(&self.stretches).start, 0),
+            kept: Kept::OfCut { index },
         };
-        let on_whole = |(index, finding): (usize, &Finding)| Found {
+        let on_whole = move |(index, finding): (usize, &Finding)| Found {
             rule: finding.rule,
             severity: finding.severity,
             place: (place_of(finding).0, 0),
             kept: Kept::OnWhole { index },
         };
-        let of_blocks = (0..self.stretches.len()).flat_map(of_stretch);
         let of_whole = self.view.findings.iter().enumerate().map(on_whole);
-        of_blocks.chain(of_whole).collect()
+        let of_cuts = self.view.told.found().iter().enumerate().map(of_cut);
+        of_cuts.chain(of_whole)
+    }
+
+    fn chunks(&self) -> usize {
+        self.stretches.len()
+    }
+
+    fn tally(&self, stretch: usize) -> Option<(usize, &[(Rule, usize)])> {
+        let tally = self.stretches.get(stretch)?.tally.as_deref()?;
+        Some((self.stretches.byte(stretch), tally))
+    }
+
+    fn found_in(&self, stretch: usize) -> impl Iterator<Item = Found<Kept>> {
+        let faults = self.stretches[stretch].faults.iter().enumerate();
+        let counting = faults.filter(move |(_, local)| self.counts(stretch, local));
+        counting.map(move |(index, local)| Found {
+            rule: local.rule,
+            severity: self.own_severity(stretch, local),
+            place: (local.range.start + self.stretches.byte(stretch), 0),
+            kept: Kept::InBlock { stretch, index },
+        })
     }
 
     fn worded(&self, kept: Kept) -> Option<Finding> {
@@ -47,6 +65,10 @@ impl Report for Document {
             Kept::InBlock { stretch, index } => {
                 let local = self.stretches.get(stretch)?.faults.get(index)?;
                 Some(self.materialized(stretch, local))
+            }
+            Kept::OfCut { index } => {
+                let told = self.view.told.found().get(index)?;
+                Some(told.finding(&self.stretches, &self.text))
             }
             Kept::OnWhole { index } => self.view.findings.get(index).cloned(),
         }

@@ -7,6 +7,7 @@ use super::super::rules::position_mismatch;
 use super::{At, Document};
 use crate::finding::{Fault, Finding};
 use crate::geometry::Vector;
+use crate::program::chunks::Reread;
 
 /// A block by its number in the program and its place, and by how much its end point is off, µm.
 pub(super) type OffPosition = (usize, At, [f64; 2]);
@@ -26,7 +27,56 @@ pub(super) fn place_before(stated: &StatedPoint, travel: &Move) -> StatedPoint {
     }
 }
 
+/// What is to be known of the numbers before a block.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Numbers {
+    /// The usual step of the program's numbers, by the first of them.
+    pub(super) step: Option<u32>,
+    /// The last number before each stretch.
+    before: Vec<Option<u32>>,
+}
+
+impl Numbers {
+    /// The stretches that were not read again before which another number stands `now`.
+    pub(super) fn others(&self, now: &Numbers, reread: &Reread) -> impl Iterator<Item = usize> {
+        let moved = self.before.iter().enumerate();
+        let moved = moved.filter_map(|(stretch, number)| Some((reread.moved(stretch)?, number)));
+        let is_other =
+            |(stretch, number): &(usize, &Option<u32>)| now.before.get(*stretch) != Some(*number);
+        moved.filter(is_other).map(|(stretch, _)| stretch)
+    }
+}
+
 impl Document {
+    pub(super) fn numbers(&self) -> Numbers {
+        let blocks = self.entries(0..self.stretches.len());
+        let first = blocks
+            .filter(|(_, entry)| entry.block().is_some())
+            .map(|(_, entry)| entry.number())
+            .take(block_number::FIRST);
+        let mut last = None;
+        let before = self.stretches.iter().map(|of| {
+            let own = || of.entries.iter().rev().find_map(Entry::number);
+            let next = if of.numbered > 0 {
+                own().or(last)
+            } else {
+                last
+            };
+            std::mem::replace(&mut last, next)
+        });
+        Numbers {
+            step: block_number::usual_step(&first.collect::<Vec<_>>()),
+            before: before.collect(),
+        }
+    }
+
+    /// The last number before a block.
+    pub(super) fn number_before(&self, at: At) -> Option<u32> {
+        let own = self.entries_in(at.stretch).get(..at.entry)?;
+        let own = own.iter().rev().find_map(Entry::number);
+        own.or_else(|| *self.view.numbers.before.get(at.stretch)?)
+    }
+
     pub(super) fn judge_numbers(&self, findings: &mut Vec<Finding>) {
         let numbering = self
             .stretches

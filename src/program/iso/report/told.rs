@@ -1,0 +1,118 @@
+//! What is said of single cuts, kept from one edit to the next where it depends on them alone; and all findings before
+//! they are worded.
+
+use super::super::cut::JoinedCut;
+use super::super::document::Document;
+use super::super::repair::troubles;
+use super::{Report, sort, suspects};
+use crate::finding::Finding;
+use crate::program::contours::PartAt;
+use crate::program::of_cut::OfCut;
+use crate::program::path::HasCuts;
+use crate::program::report::{self, Found, place_of};
+use std::ops::Range;
+
+/// The source of a finding.
+pub(in crate::program) enum Kept {
+    Found(Finding),
+    OfCut { index: usize },
+}
+
+impl report::Report for Document {
+    type Kept = Kept;
+
+    fn found(&self) -> impl Iterator<Item = Found<Kept>> {
+        let mut others = self.report().finish();
+        others.extend(suspects(self, &troubles(self, &others, self.told())));
+        sort(&mut others);
+        let found = |finding: Finding| Found {
+            rule: finding.rule,
+            severity: finding.severity,
+            place: place_of(&finding),
+            kept: Kept::Found(finding),
+        };
+        let of_cut = |(index, told): (usize, &OfCut)| {
+            let Range { start, end } = told.range(self.chunks());
+            Found {
+                rule: told.rule,
+                severity: told.severity,
+                place: (start, end),
+                kept: Kept::OfCut { index },
+            }
+        };
+        let of_cuts = self.told().iter().enumerate().map(of_cut);
+        others.into_iter().map(found).chain(of_cuts)
+    }
+
+    fn worded(&self, kept: Kept) -> Option<Finding> {
+        match kept {
+            Kept::Found(finding) => Some(finding),
+            Kept::OfCut { index } => {
+                let told = self.told().get(index)?;
+                Some(told.finding(self.chunks(), self.text()))
+            }
+        }
+    }
+
+    fn plain(&self) -> Vec<Finding> {
+        self.plain_findings()
+    }
+}
+
+impl Document {
+    /// Judges the doubtful cuts that begin in a range, where that depends on nothing else, and marks them; and tells where
+    /// cuts cross themselves there.
+    pub(in crate::program::iso) fn tell(&mut self, places: Range<PartAt>) -> Vec<OfCut> {
+        if self.order().is_some() {
+            return Vec::new();
+        }
+        let (mut told, mut alone) = (Vec::new(), Vec::new());
+        let mut asked = 0;
+        let mut report = Report::new(self);
+        let first = self
+            .doubtful()
+            .partition_point(|cut| cut.begin() < places.start);
+        let doubtful = self.doubtful().iter().enumerate().skip(first);
+        for (index, cut) in doubtful.take_while(|(_, cut)| cut.begin() < places.end) {
+            asked += 1;
+            if report.stands_alone(cut) {
+                alone.push(index);
+                report.judge(cut, &[]);
+                let found = report.findings.drain(..);
+                let of_cut = |finding| OfCut::new(self.chunks(), cut.begin(), finding);
+                told.extend(found.filter_map(of_cut).map(|found| (cut.begin(), found)));
+            }
+        }
+        let crossing = self.contours().crossing();
+        let first = crossing.partition_point(|(cut, _)| cut.begin() < places.start);
+        let within = crossing[first..].iter();
+        for (cut, found) in within.take_while(|(cut, _)| cut.begin() < places.end) {
+            asked += 1;
+            let found = found.findings(&self.way(cut), self.last_block(cut), self.text());
+            let of_cut = |finding| OfCut::new(self.chunks(), cut.begin(), finding);
+            told.extend(
+                found
+                    .into_iter()
+                    .filter_map(of_cut)
+                    .map(|found| (cut.begin(), found)),
+            );
+        }
+        told.sort_by_key(|(begin, _)| *begin);
+        #[cfg(test)]
+        (self.judged = asked);
+        #[cfg(not(test))]
+        let _ = asked;
+        for index in alone {
+            self.doubtful_mut()[index].is_told = true;
+        }
+        told.into_iter().map(|(_, found)| found).collect()
+    }
+}
+
+impl Report<'_> {
+    /// Whether what is said of a cut depends on it alone: it is open, and the wire stays on one side. The sides of others
+    /// are compared with those of the cuts beside them, and with the words before them; arcs are told where they lie.
+    fn stands_alone(&self, cut: &JoinedCut) -> bool {
+        !self.document.is_closed(cut) && cut.flip.is_none() && self.tight_of(cut).is_empty()
+    }
+}

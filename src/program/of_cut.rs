@@ -1,0 +1,96 @@
+//! A finding of a cut, kept by places that no edit elsewhere moves, in any language.
+
+use super::chunks::Chunks;
+use super::contours::{PartAt, Touched};
+use crate::finding::{Detail, Fault, Finding, Place, Rule, Severity};
+use crate::text::SourceText;
+use std::ops::Range;
+
+/// Some bytes of a chunk.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Local {
+    chunk: u32,
+    bytes: (u32, u32),
+}
+
+impl Local {
+    fn of<C>(chunks: &Chunks<C>, place: &Place) -> Option<Local> {
+        let Place::Text { range } = place else {
+            return None;
+        };
+        let chunk = chunks.at(range.start);
+        let byte = chunks.byte(chunk);
+        Some(Local {
+            chunk: chunk as u32,
+            bytes: ((range.start - byte) as u32, (range.end - byte) as u32),
+        })
+    }
+
+    fn range<C>(&self, chunks: &Chunks<C>) -> Range<usize> {
+        let byte = chunks.byte(self.chunk as usize);
+        byte + self.bytes.0 as usize..byte + self.bytes.1 as usize
+    }
+
+    fn renumber(&mut self, moved: &dyn Fn(usize) -> usize) {
+        self.chunk = moved(self.chunk as usize) as u32;
+    }
+}
+
+/// A finding of a cut.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::program) struct OfCut {
+    begin: (u32, u32),
+    pub(in crate::program) rule: Rule,
+    pub(in crate::program) severity: Severity,
+    place: Local,
+    /// The other place that is concerned.
+    other: Option<Local>,
+    pub(in crate::program) detail: Detail,
+}
+
+impl OfCut {
+    /// Of the cut that begins at a part; `None` where it is not about bytes of the text.
+    pub(crate) fn new<C>(chunks: &Chunks<C>, begin: PartAt, finding: Finding) -> Option<OfCut> {
+        let local = |place: &Place| Local::of(chunks, place);
+        Some(OfCut {
+            begin: (begin.0 as u32, begin.1 as u32),
+            rule: finding.rule,
+            severity: finding.severity,
+            place: local(&finding.place)?,
+            other: finding.related.first().and_then(local),
+            detail: finding.detail,
+        })
+    }
+
+    /// Its bytes in the text.
+    pub(crate) fn range<C>(&self, chunks: &Chunks<C>) -> Range<usize> {
+        self.place.range(chunks)
+    }
+
+    /// It as a finding at its present place.
+    pub(crate) fn finding<C>(&self, chunks: &Chunks<C>, text: &SourceText) -> Finding {
+        let mut detail = self.detail.clone();
+        let related = self.other.map(|other| other.range(chunks));
+        if let (Some(range), Detail::Program(fault)) = (&related, &mut detail)
+            && let Fault::PathCrossesItself { other, .. } = &mut **fault
+        {
+            *other = text.line_of(range.start);
+        }
+        let related = related.into_iter().map(|range| Place::Text { range });
+        Finding {
+            related: related.collect(),
+            ..Finding::in_text(self.rule, self.range(chunks), detail).with(self.severity)
+        }
+    }
+
+    /// Puts what is found of the touched cuts in the place of what was, in a list in the order in which cuts begin.
+    pub(crate) fn splice(list: &mut Vec<OfCut>, touched: &Touched<'_>, fresh: Vec<OfCut>) {
+        let begin = |one: &OfCut| (one.begin.0 as usize, one.begin.1 as usize);
+        let renumber = |one: &mut OfCut, moved: &dyn Fn(usize) -> usize| {
+            one.begin.0 = moved(one.begin.0 as usize) as u32;
+            one.place.renumber(moved);
+            one.other.iter_mut().for_each(|other| other.renumber(moved));
+        };
+        touched.splice(list, begin, renumber, fresh);
+    }
+}
