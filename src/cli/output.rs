@@ -41,16 +41,15 @@ pub(crate) fn word(path: &Path) -> String {
 /// Text to stdout. A reader that has gone away is no error.
 pub(crate) fn print(text: impl AsRef<str>) -> Result<(), Failure> {
     let text = text.as_ref();
-    let written = if takes_colours(&io::stdout()) {
-        let mut stdout = anstream::stdout().lock();
-        let written = stdout.write_all(shown(text, true).as_bytes());
-        written.and_then(|()| stdout.flush())
-    } else {
-        // The stream that takes colours off hands on each piece between two of them.
-        let mut stdout = io::stdout().lock();
-        let written = stdout.write_all(shown(text, false).as_bytes());
-        written.and_then(|()| stdout.flush())
-    };
+    if takes_colours(&io::stdout()) {
+        return write_out(anstream::stdout().lock(), shown(text, true).as_bytes());
+    }
+    // The stream that takes colours off hands on each piece between two of them.
+    write_out(io::stdout().lock(), shown(text, false).as_bytes())
+}
+
+fn write_out(mut stdout: impl Write, bytes: &[u8]) -> Result<(), Failure> {
+    let written = stdout.write_all(bytes).and_then(|()| stdout.flush());
     accepted(written, "stdout")
 }
 
@@ -79,11 +78,7 @@ pub(crate) fn print_bytes(bytes: &[u8]) -> Result<(), Failure> {
     if io::stdout().is_terminal() {
         return print(String::from_utf8_lossy(bytes));
     }
-    let mut stdout = io::stdout().lock();
-    accepted(
-        stdout.write_all(bytes).and_then(|()| stdout.flush()),
-        "stdout",
-    )
+    write_out(io::stdout().lock(), bytes)
 }
 
 /// True where a person reads stdout: it is a terminal, or shows colours.
