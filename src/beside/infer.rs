@@ -53,10 +53,9 @@ impl Program {
     /// The blocks that may have a vote for a segment: they begin about as it begins, or as it ends.
     fn beside(&self, own: &Turned) -> impl Iterator<Item = &Turned> {
         let ends = [own.segment.start_tangent(), own.segment.end_tangent()].map(Program::sector);
+        // The same sector, or one beside it.
         let is_about = move |sector: usize| {
-            let next = (sector + 1) % Program::SECTORS;
-            let is_it =
-                |end: usize| end == sector || end == next || (end + 1) % Program::SECTORS == sector;
+            let is_it = |end: usize| (sector + 1 + Program::SECTORS - end) % Program::SECTORS <= 2;
             ends.into_iter().any(is_it)
         };
         let about = (0..Program::SECTORS).filter(move |sector| is_about(*sector));
@@ -212,7 +211,7 @@ fn vote(own: &Turned, block: &Turned) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Point;
+    use crate::geometry::{Point, direction};
     use proptest::prelude::*;
 
     /// A line or an arc of any direction.
@@ -221,7 +220,7 @@ mod tests {
         let place = || (-100i32..100).prop_map(|it| f64::from(it) / 10.0);
         (place(), place(), 0.0..std::f64::consts::TAU, bulge).prop_map(|(x, y, angle, bulge)| {
             let start = Point::new(x, y);
-            let end = start + 7.0 * Vector::new(angle.cos(), angle.sin());
+            let end = start + 7.0 * direction(angle);
             Segment::from_bulge(start, end, bulge)
         })
     }
@@ -243,11 +242,6 @@ mod tests {
                 true => own.segment.end_tangent(),
                 false => own.segment.start_tangent(),
             };
-            let (sine, cosine) = f64::sin_cos(by);
-            let along = Vector::new(
-                cosine * towards.x - sine * towards.y,
-                sine * towards.x + cosine * towards.y,
-            );
             let from = own.segment.end();
             let sweep = if is_behind {
                 own.behind
@@ -255,11 +249,7 @@ mod tests {
                 own.segment.as_arc().map_or(0.0, |arc| arc.sweep)
             };
             // An arc that begins that way bends away from its chord by half of its sweep.
-            let (sine, cosine) = f64::sin_cos(sweep / 2.0);
-            let chord = Vector::new(
-                cosine * along.x - sine * along.y,
-                sine * along.x + cosine * along.y,
-            );
+            let chord = direction(towards.y.atan2(towards.x) + by + sweep / 2.0);
             let block = Turned {
                 segment: Segment::from_bulge(from, from + 5.0 * chord, (sweep / 4.0).tan()),
                 before: own.before,
