@@ -121,6 +121,25 @@ fn assert_as_afresh(document: &Document) -> Result<(), TestCaseError> {
     Ok(())
 }
 
+/// Puts one of the `words` in the place of a few characters again and again: where, how many, and which.
+fn assert_edited_as_afresh(
+    language: Language,
+    text: String,
+    words: &[&str],
+    edits: &[(f64, usize, prop::sample::Index)],
+) -> Result<(), TestCaseError> {
+    let mut document = Document::read(language, text.into_bytes(), &Effective::default());
+    for (place, length, word) in edits {
+        let mut start = (document.text().len() as f64 * place) as usize;
+        if *length == 0 {
+            start = document.text().line_start(document.text().line_of(start));
+        }
+        document.edit(start..start + length, words[word.index(words.len())]);
+        assert_as_afresh(&document)?;
+    }
+    Ok(())
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(48))]
     #[test]
@@ -135,14 +154,7 @@ proptest! {
             Language::Iso => ["", "7", "1", "\n", "M00\n", "M02\n", "G00 X3. Y0.\n", "G91\n"],
         };
         let text = program(language, &openings, is_relative);
-        let mut document = Document::read(language, text.into_bytes(), &Effective::default());
-        for (place, length, word) in edits {
-            let start = (document.text().len() as f64 * place) as usize;
-            let start = if length == 0 { document.text().line_start(document.text().line_of(start)) } else { start };
-            let word = words[word.index(words.len())];
-            document.edit(start..start + length, word);
-            assert_as_afresh(&document)?;
-        }
+        assert_edited_as_afresh(language, text, &words, &edits)?;
     }
 
     #[test]
@@ -270,14 +282,7 @@ proptest! {
             Language::Iso => ["", "7", "N3 ", "\n", "M00\n", "M02\n", "G00 X3. Y0.\n", "G91\n", "G41 D1 "],
         };
         let text = open_contours(language, &contours, is_numbered);
-        let mut document = Document::read(language, text.into_bytes(), &Effective::default());
-        for (place, length, word) in edits {
-            let start = (document.text().len() as f64 * place) as usize;
-            let start = if length == 0 { document.text().line_start(document.text().line_of(start)) } else { start };
-            let word = words[word.index(words.len())];
-            document.edit(start..start + length, word);
-            assert_as_afresh(&document)?;
-        }
+        assert_edited_as_afresh(language, text, &words, &edits)?;
     }
 }
 
