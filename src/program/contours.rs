@@ -253,6 +253,17 @@ impl<C: Clone> Contours<C> {
     pub(crate) fn crossing(&self) -> &[(C, Arc<Found>)] {
         &self.crossing
     }
+
+    /// Those of them that begin from one place up to another.
+    pub(crate) fn crossing_within(
+        &self,
+        places: Range<PartAt>,
+        begin: impl Fn(&C) -> PartAt,
+    ) -> &[(C, Arc<Found>)] {
+        let before = |to: PartAt| self.crossing.partition_point(|(cut, _)| begin(cut) < to);
+        let within = self.crossing.get(before(places.start)..before(places.end));
+        within.unwrap_or_default()
+    }
 }
 
 #[cfg(test)]

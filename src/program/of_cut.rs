@@ -62,6 +62,11 @@ impl OfCut {
         })
     }
 
+    /// The part that its cut begins with.
+    pub(crate) fn begin(&self) -> PartAt {
+        (self.begin.0 as usize, self.begin.1 as usize)
+    }
+
     /// Its bytes in the text.
     pub(crate) fn range<C>(&self, chunks: &Chunks<C>) -> Range<usize> {
         self.place.range(chunks)
@@ -85,12 +90,11 @@ impl OfCut {
 
     /// Puts what is found of the touched cuts in the place of what was, in a list in the order in which cuts begin.
     pub(crate) fn splice(list: &mut Vec<OfCut>, touched: &Touched<'_>, fresh: Vec<OfCut>) {
-        let begin = |one: &OfCut| (one.begin.0 as usize, one.begin.1 as usize);
         let renumber = |one: &mut OfCut, moved: &dyn Fn(usize) -> usize| {
             one.begin.0 = moved(one.begin.0 as usize) as u32;
             one.place.renumber(moved);
             one.other.iter_mut().for_each(|other| other.renumber(moved));
         };
-        touched.splice(list, begin, renumber, fresh);
+        touched.splice(list, OfCut::begin, renumber, fresh);
     }
 }

@@ -66,7 +66,7 @@ impl Document {
         if self.order().is_some() {
             return Vec::new();
         }
-        let (mut told, mut alone) = (Vec::new(), Vec::new());
+        let (mut told, mut alone): (Vec<OfCut>, _) = (Vec::new(), Vec::new());
         let mut asked = 0;
         let mut report = Report::new(self);
         let first = self
@@ -80,24 +80,17 @@ impl Document {
                 report.judge(cut, &[]);
                 let found = report.findings.drain(..);
                 let of_cut = |finding| OfCut::new(self.chunks(), cut.begin(), finding);
-                told.extend(found.filter_map(of_cut).map(|found| (cut.begin(), found)));
+                told.extend(found.filter_map(of_cut));
             }
         }
-        let crossing = self.contours().crossing();
-        let first = crossing.partition_point(|(cut, _)| cut.begin() < places.start);
-        let within = crossing[first..].iter();
-        for (cut, found) in within.take_while(|(cut, _)| cut.begin() < places.end) {
+        let crossing = self.contours().crossing_within(places, JoinedCut::begin);
+        for (cut, found) in crossing {
             asked += 1;
             let found = found.findings(&self.way(cut), self.last_block(cut), self.text());
             let of_cut = |finding| OfCut::new(self.chunks(), cut.begin(), finding);
-            told.extend(
-                found
-                    .into_iter()
-                    .filter_map(of_cut)
-                    .map(|found| (cut.begin(), found)),
-            );
+            told.extend(found.into_iter().filter_map(of_cut));
         }
-        told.sort_by_key(|(begin, _)| *begin);
+        told.sort_by_key(OfCut::begin);
         #[cfg(test)]
         (self.judged = asked);
         #[cfg(not(test))]
@@ -105,7 +98,7 @@ impl Document {
         for index in alone {
             self.doubtful_mut()[index].is_told = true;
         }
-        told.into_iter().map(|(_, found)| found).collect()
+        told
     }
 }
 

@@ -92,46 +92,33 @@ impl Document {
         let gone = gone.take_while(|one| is_gone(one));
         let mut known: FxHashMap<u64, Blamed> =
             gone.map(|one| (one.mark, one.blamed.clone())).collect();
-        let (mut found, mut searched) = (Vec::new(), Vec::new());
+        let (mut found, mut searched): (Vec<OfCut>, _) = (Vec::new(), Vec::new());
         let mut heard = |begin: PartAt, findings: Vec<Finding>| {
-            found.extend(
-                findings
-                    .into_iter()
-                    .filter_map(|finding| OfCut::new(&self.stretches, begin, finding)),
-            );
+            let of_cut = |finding| OfCut::new(&self.stretches, begin, finding);
+            found.extend(findings.into_iter().filter_map(of_cut));
         };
         let mut judged = [0, 0];
-        let open = self.view.contours.open_within(from..to).map(Ok);
-        let crossing = self.view.contours.crossing();
-        let first = crossing.partition_point(|(cut, _)| cut.parts[0] < from);
-        let crossing = crossing[first..].iter();
-        let crossing = crossing.take_while(|(cut, _)| cut.parts[0] < to).map(Err);
-        let mut all: Vec<(PartAt, Result<PartAt, &(JoinedCut, _)>)> = open
-            .chain(crossing)
-            .map(|one| (one.unwrap_or_else(|(cut, _)| cut.parts[0]), one))
-            .collect();
-        all.sort_by_key(|(begin, _)| *begin);
-        for (begin, one) in all {
+        for begin in self.view.contours.open_within(from..to) {
             judged[0] += 1;
-            match one {
-                Ok(_) => {
-                    let Some(cut) = self.cut_from(begin) else {
-                        continue;
-                    };
-                    let before = known.len();
-                    let (findings, own) = self.judge_open(&cut, &mut known);
-                    heard(begin, findings);
-                    searched.extend(own);
-                    judged[1] += known.len() - before;
-                }
-                Err((cut, crossings)) => {
-                    if !self.is_odd(cut) {
-                        let last = HasCuts::last_block(self, cut);
-                        heard(begin, crossings.findings(&self.way(cut), last, &self.text));
-                    }
-                }
+            let Some(cut) = self.cut_from(begin) else {
+                continue;
+            };
+            let before = known.len();
+            let (findings, own) = self.judge_open(&cut, &mut known);
+            heard(begin, findings);
+            searched.extend(own);
+            judged[1] += known.len() - before;
+        }
+        let contours = &self.view.contours;
+        for (cut, crossings) in contours.crossing_within(from..to, |cut| cut.parts[0]) {
+            judged[0] += 1;
+            if !self.is_odd(cut) {
+                let last = HasCuts::last_block(self, cut);
+                let findings = crossings.findings(&self.way(cut), last, &self.text);
+                heard(cut.parts[0], findings);
             }
         }
+        found.sort_by_key(OfCut::begin);
         OfCut::splice(&mut told.found, &touched, found);
         touched.splice(
             &mut told.searched,
