@@ -286,11 +286,12 @@ impl<'a> Pairs<'a> {
         let most = FEW.min(traced.blocks.len() / 3);
         let (mut found, mut stated) = (Vec::new(), Vec::new());
         let (mut elsewhere, mut ways, mut unlike, mut strays) = (0, 0, 0, false);
-        // Of the last that is named: its number, and whether the program is elsewhere since.
-        let mut run: Option<(usize, bool)> = None;
+        // Of the last that is named: its number, whether the program is elsewhere since, and whether it is a way to another
+        // hole.
+        let mut run: Option<(usize, bool, bool)> = None;
         for (number, (pair, (off, is_behind))) in self.pairs.iter().zip(&all).enumerate() {
             let (own, meant, words) = (pair.own, pair.meant, pair.words);
-            if let Some((_, is_elsewhere)) = &mut run {
+            if let Some((_, is_elsewhere, _)) = &mut run {
                 *is_elsewhere &= *off > alike || !self.is_placed(number, from);
             }
             if *off <= alike {
@@ -308,11 +309,17 @@ impl<'a> Pairs<'a> {
             let source = reference.source_of(&meant.motion);
             ways += usize::from(source.is_none());
             unlike += usize::from(source.is_some());
-            let goes_on = run.is_some_and(|(last, is_elsewhere)| {
+            let is_of_contour = source.is_some();
+            let goes_on = run.is_some_and(|(last, is_elsewhere, is_aside)| {
+                if is_aside && is_of_contour {
+                    return false;
+                }
                 number - last <= FEW && is_elsewhere
                     || last + 1 == number && self.are_exchanged(last)
             });
-            run = Some((number, !self.is_placed(number, from)));
+            // What moves a way by more, or by less, than what lies behind it is another hole, and no change of a contour.
+            let is_aside = !is_of_contour && !self.moves_on(number, from, *off);
+            run = Some((number, !self.is_placed(number, from), is_aside));
             // A move and its return are one change, and so are two exchanged blocks.
             if goes_on && self.comes_back(number, from) {
                 continue;
@@ -393,6 +400,15 @@ impl<'a> Pairs<'a> {
     /// Whether a block ends where it should.
     fn is_placed(&self, number: usize, from: Vector) -> bool {
         self.ends_near(number, from, ROUNDED)
+    }
+
+    /// Whether a block ends as far from where it should as it deviates.
+    fn moves_on(&self, number: usize, from: Vector, off: f64) -> bool {
+        let ends = self.pairs.get(number).and_then(|pair| {
+            let ([_, end], [_, meant]) = (pair.own.motion.ends()?, pair.meant.motion.ends()?);
+            Some((end - from - meant).norm())
+        });
+        ends.is_none_or(|away| (away - off).abs() <= ROUNDED)
     }
 
     fn ends_near(&self, number: usize, from: Vector, most: f64) -> bool {

@@ -4,10 +4,8 @@
 //! overlap. What cannot is tried: for each guess the program is generated; the guess that shares most blocks is
 //! refined, one setting at a time.
 
-use super::about_stops::{FAR, differs_from_stop_to_stop, is_amid, parts_at_a_stop};
 use super::against_reference::{Told, against_reference};
 use super::cache::Guess;
-use super::comparison::{Difference, FEW};
 use super::drawn::Drawn;
 use super::measure;
 use super::passes::corrections;
@@ -15,7 +13,7 @@ use super::reference::{Reference, Under};
 use super::sides::Sides;
 use super::tabs::{tabs, threads};
 use super::traced::Traced;
-use super::walk::Kind;
+use super::verdict::{is_certain, is_told, rank, without_leads};
 use super::way::{Way, way};
 use crate::settings::{
     Compensation, Corner, Direction, Effective, Lead, LengthSetting, Order, Sequence, SkimCorner,
@@ -28,22 +26,10 @@ use std::cmp::Ordering;
 const MOST_TRIED: usize = 300_000;
 const MOST_AGAIN: usize = 30_000;
 const LEAST_COST: usize = 60;
-/// A program whose blocks deviate by more than this in the mean is by another writer, µm.
-const OURS: f64 = 0.5;
 /// A guess of the sides whose score is lower by at most this may still be right.
 const LESS: f64 = 0.05;
-/// A smaller deviation may come from a guess that is not exact, mm.
-const CHANGED: f64 = 3e-3;
-/// The same where all other blocks are as the guess has them.
-const SLIGHTLY: f64 = 2.5e-3;
 /// A correction may have four decimals: it is at most this many steps of 0.1 µm away from one that was found.
 const STEPS: i32 = 12;
-/// A way in or out that deviates by more has another setting, mm; and the same where it depends on unknown settings.
-const SLIP: f64 = 1e-2;
-const SLIGHT: f64 = 5e-3;
-/// One that deviates by less does so by the rounding of a setting, mm; and how far a whole number may be off, µm.
-const LEAST_SLIP: f64 = 2.9e-3;
-const WHOLE: f64 = 0.1;
 /// A diameter of thread holes for which there is room nearly everywhere, mm.
 const HOLE: f64 = 0.5;
 
@@ -86,7 +72,9 @@ pub(super) fn otherwise(drawn: &Drawn, traced: &Traced) -> Option<Told> {
         fuel = search.fuel;
         let is_done = search.is_done();
         let own = search.told.take();
-        let is_better = |own: &(Told, Under), told: &(Told, Under)| rank(&own.0) < rank(&told.0);
+        let is_better = |own: &(Told, Under), told: &(Told, Under)| {
+            rank(traced, &own.0) < rank(traced, &told.0)
+        };
         if told
             .as_ref()
             .is_none_or(|told| own.as_ref().is_some_and(|own| is_better(own, told)))
@@ -103,81 +91,6 @@ pub(super) fn otherwise(drawn: &Drawn, traced: &Traced) -> Option<Told> {
     let left = told.as_ref().map_or(0, differences);
     drawn.cache().note(Guess::of(traced, under, left));
     told
-}
-
-/// Where the control adds the correction, the program does not state it, and ways in and out depend on it.
-fn without_leads(traced: &Traced, told: Told) -> Told {
-    let is_offset = traced.blocks.iter().any(|block| block.is_offset);
-    let most = if is_offset { SLIGHT } else { SLIP };
-    // One number that was changed moves a way by whole micrometres; a guess that is not exact moves both of its ends.
-    let is_whole = |um: f64| (um - um.round()).abs() <= WHOLE;
-    told.without_leads(|off| (LEAST_SLIP..=most).contains(&off) && is_whole(off * 1e3))
-}
-
-/// Nothing differs, or one block of a contour that no setting changes by itself.
-fn is_certain(traced: &Traced, told: &Told, under: &Under) -> bool {
-    // Corners of another kind may differ in one place alone.
-    let most = match under.settings.corrections.len() {
-        0 | 1 => f64::INFINITY,
-        _ => FAR,
-    };
-    match &told.comparison.differences[..] {
-        _ if told.elsewhere > 0 => false,
-        [] => told.is_exact(),
-        // Hardly any setting has one way alone elsewhere by so little.
-        [one] if one.kind == Kind::Lead => told.is_exact() && one.off <= SLIGHT,
-        [one]
-            if told.is_exact()
-                && !told.has_gap
-                && one.kind == Kind::Block
-                && (SLIGHTLY..=most).contains(&one.off) =>
-        {
-            is_amid(traced, one)
-        }
-        _ => false,
-    }
-}
-
-/// Of guesses that are not exact the nearest comes first: one that is farther off may hide a change. They come before
-/// those with lost or superfluous blocks, which may be an overlap.
-fn rank(told: &Told) -> ((bool, usize, bool), f64) {
-    match told.is_exact() {
-        true if told.has_gap => ((true, 0, true), told.mean),
-        true => (told.doubt(), told.mean),
-        false => ((true, 0, false), told.mean),
-    }
-}
-
-/// Whether the differences that a guess leaves are changes by somebody and not due to the guess: the program is ours to
-/// the last block, or has one change that is too large for a correction.
-fn is_told(traced: &Traced, told: &Told) -> bool {
-    let all = &told.comparison.differences;
-    // Several that are far off are so because the guess goes another way.
-    let is_little = |one: &Difference| one.off <= FAR || one.kind == Kind::Stated;
-    // Of so few that are alike none speaks for the guess; and what is off by little is so by a tenth of a micrometre of a correction.
-    let is_slight = |one: &Difference| one.kind == Kind::Block && one.off < SLIGHTLY;
-    // Coordinates that stand behind a block are others where the wire comes from elsewhere.
-    let is_of_ways = |one: &Difference| one.kind == Kind::Stated && told.ways > 0;
-    // At a stop or an end another tab, overlap or hole is as likely, but none of them loses a block or leaves each in its place.
-    let may_be_set = told.strays && !told.has_gap;
-    let is_set =
-        |one: &Difference| one.kind == Kind::Block && one.off > FAR && !is_amid(traced, one);
-    if told.is_mostly_unlike()
-        || all.iter().any(|one| is_slight(one) || is_of_ways(one))
-        || may_be_set && all.iter().any(is_set)
-    {
-        return false;
-    }
-    let is_ours = match told.is_exact() {
-        true => all.len() < 2 || all.len() <= FEW && all.iter().all(is_little),
-        false => {
-            let is_change = |one: &Difference| {
-                one.off >= CHANGED && (one.kind == Kind::Block || one.off <= SLIGHT)
-            };
-            told.mean < OURS && all.len() < 2 && !told.has_gap && all.iter().all(is_change)
-        }
-    };
-    is_ours && !parts_at_a_stop(traced, told) && !differs_from_stop_to_stop(traced, told)
 }
 
 struct Search<'a> {
@@ -251,6 +164,7 @@ impl<'a> Search<'a> {
     fn begin(&mut self) {
         let base = self.best.clone();
         self.each(false, self.of_corrections());
+        self.each(true, self.of_ways());
         if self.score <= 0.0 && base.handles.is_some() {
             // The contours may have been taken for others.
             let settings = self.drawn.settings.order;
@@ -276,6 +190,7 @@ impl<'a> Search<'a> {
             self.each(true, self.of_passes());
             self.each(true, self.of_leads());
             self.each(true, self.of_holes());
+            self.each(true, self.of_ways());
             if nth == 0 {
                 self.each(true, self.of_threads());
             }
@@ -307,7 +222,9 @@ impl<'a> Search<'a> {
             let told = against_reference(self.drawn, self.traced, &guess);
             let told = told.filter(|told| is_told(self.traced, told));
             if let Some(told) = told {
-                let is_better = |(other, _): &(Told, Under)| rank(&told) < rank(other);
+                let is_better = |(other, _): &(Told, Under)| {
+                    rank(self.traced, &told) < rank(self.traced, other)
+                };
                 if self.told.as_ref().is_none_or(is_better) {
                     self.told = Some((told, guess.clone()));
                 }
@@ -358,6 +275,27 @@ impl<'a> Search<'a> {
                 }
             }
         }
+        guesses
+    }
+
+    /// 4B has no word for the correction: where it has no transition either, only its ways in and out tell it.
+    fn of_ways(&self) -> Vec<Under> {
+        let own = self.best.settings.each_correction();
+        if !self.traced.four_b {
+            return Vec::new();
+        }
+        let Some(reference) = self.drawn.reference(self.traced, &self.best) else {
+            return Vec::new();
+        };
+        let of = |longer: f64| {
+            let by = (longer * 10.0).round() / 1e4;
+            let corrections: Vec<f64> = own.iter().map(|mm| mm - by).collect();
+            let is_some = corrections.iter().all(|mm| *mm > 0.0);
+            is_some.then(|| self.with(|settings| correct(settings, &corrections)))
+        };
+        let longer = measure::longer_ways(self.traced, &reference.traced);
+        let mut guesses: Vec<Under> = longer.into_iter().filter_map(of).collect();
+        guesses.sort_by_key(|guess| !is_round(guess.settings.correction));
         guesses
     }
 
@@ -471,6 +409,11 @@ impl<'a> Search<'a> {
         }
         guesses
     }
+}
+
+/// Whether a setting is a number of hundredths, or of halves of them, mm.
+fn is_round(mm: f64) -> bool {
+    (mm * 200.0 - (mm * 200.0).round()).abs() < 1e-6
 }
 
 fn correct(settings: &mut Effective, corrections: &[f64]) {

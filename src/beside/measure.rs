@@ -204,6 +204,27 @@ fn aside(own: &Segment, other: &Segment) -> Option<f64> {
     }
 }
 
+/// The ways in and out of the first cuts, µm.
+fn ways(traced: &Traced) -> impl Iterator<Item = f64> {
+    let cuts = traced.cuts.iter().take(ASKED);
+    cuts.flat_map(|[all, contour]| {
+        let way = |blocks: Range<usize>| segments(traced, blocks).map(Segment::length).sum::<f64>();
+        [way(all.start..contour.start), way(contour.end..all.end)]
+    })
+}
+
+/// How much longer the ways of a program are than those of another one, µm: what most of them say comes first. From
+/// a hole to the wire's path they are shorter by the correction.
+pub(super) fn longer_ways(traced: &Traced, than: &Traced) -> Vec<f64> {
+    let by = ways(traced).zip(ways(than)).map(|(own, other)| own - other);
+    let mut by: Vec<f64> = by.filter(|by| (1.0..=BESIDE).contains(&by.abs())).collect();
+    by.sort_by(f64::total_cmp);
+    let mut groups: Vec<&[f64]> = by.chunk_by(|one, next| next - one <= 1.0).collect();
+    groups.sort_by_key(|group| std::cmp::Reverse(group.len()));
+    let middles = groups.into_iter().take(LEADS);
+    middles.map(|group| group[group.len() / 2]).collect()
+}
+
 /// The possible settings of the ways' length, mm, the longest first: a way is shorter where there is no room. And
 /// whether the setting is stated: then it counts from the path, else from the contour.
 pub(super) fn leads(traced: &Traced, correction: f64) -> Vec<(f64, Option<f64>)> {

@@ -31,6 +31,7 @@ mod sides;
 mod single;
 mod tabs;
 mod traced;
+mod verdict;
 mod walk;
 mod way;
 

@@ -19,8 +19,8 @@ fn rounded(mm: f64, to: f64) -> f64 {
     ((mm / to).round() * to * 1e4).round() / 1e4
 }
 
-/// What the radius of 4B's transitions may come from, mm: of arcs that the drawing does not have, the most frequent.
-fn transitions(drawn: &Drawn, traced: &Traced) -> Option<f64> {
+/// The radii of a program's arcs, µm; of 4B, which holds the part's contour, those that the drawing does not have.
+fn radii(drawn: &Drawn, traced: &Traced) -> Vec<f64> {
     let scale = drawn.unit_mm * 1e3;
     let radius_of = |segment: &Segment| segment.as_arc().map(|arc| arc.radius);
     let segments = drawn
@@ -28,6 +28,7 @@ fn transitions(drawn: &Drawn, traced: &Traced) -> Option<f64> {
         .iter()
         .flat_map(|contour| &contour.segments);
     let mut drawn_radii: Vec<f64> = segments
+        .filter(|_| traced.four_b)
         .filter_map(|segment| Some(radius_of(&segment.geometry)? * scale))
         .collect();
     drawn_radii.sort_by(f64::total_cmp);
@@ -37,12 +38,16 @@ fn transitions(drawn: &Drawn, traced: &Traced) -> Option<f64> {
             .get(at)
             .is_some_and(|own| *own <= radius + OF_GRID)
     };
+    let all = traced.blocks.iter();
+    let all = all.filter_map(|block| block.segment().and_then(radius_of));
+    all.filter(|radius| !is_drawn(*radius)).collect()
+}
+
+/// What 4B's transitions may come from, mm: the most frequent of the radii that the drawing does not have.
+fn transitions(radii: &[f64]) -> Option<f64> {
     let mut counts: BTreeMap<i64, usize> = BTreeMap::new();
-    for block in traced.blocks.iter().filter(|_| traced.four_b) {
-        let radius = block.segment().and_then(radius_of);
-        if let Some(radius) = radius.filter(|radius| !is_drawn(*radius)) {
-            *counts.entry(radius.round() as i64).or_default() += 1;
-        }
+    for radius in radii {
+        *counts.entry(radius.round() as i64).or_default() += 1;
     }
     // The smaller one of two that are as frequent: on the grid some are larger.
     let most = counts.into_iter().rev().max_by_key(|(_, count)| *count)?;
@@ -58,16 +63,11 @@ pub(super) fn corrections(drawn: &Drawn, traced: &Traced) -> Vec<Vec<f64>> {
     let first = [0.0];
     let known = steps.as_deref().unwrap_or(&first);
     let speaks_for = infer::of_passes(drawn.contours(), scale, &passes, known);
-    let arcs = traced
-        .blocks
-        .iter()
-        .filter_map(|block| block.segment()?.as_arc());
+    let radii = radii(drawn, traced);
     // Round a corner it is the radius; a transition of 4B is larger by a step.
-    let least = arcs
-        .map(|arc| arc.radius / 1e3)
-        .fold(f64::INFINITY, f64::min);
+    let least = radii.iter().copied().fold(f64::INFINITY, f64::min) / 1e3;
     let least = least.is_finite().then_some([least, least - 1e-3]);
-    let rounded_by = transitions(drawn, traced);
+    let rounded_by = transitions(&radii).filter(|_| traced.four_b);
     // A way in whose length is counted from the contour is shorter by the correction.
     let leads = measure::leads(traced, 0.0).into_iter();
     let leads = leads.map(|(length, _)| drawn.settings.lead_in - length);
@@ -101,10 +101,10 @@ pub(super) fn corrections(drawn: &Drawn, traced: &Traced) -> Vec<Vec<f64>> {
                 let mut single = all.iter().take(4).map(|list| list[0]);
                 let own = single.next();
                 let aside = measure::switching(traced);
-                let radii = least.into_iter().flatten().rev();
-                let radii = radii.map(|mm| rounded(mm, 1e-3)).filter(|mm| *mm > 0.0);
+                let least = least.into_iter().flatten().rev();
+                let least = least.map(|mm| rounded(mm, 1e-3)).filter(|mm| *mm > 0.0);
                 // Where several are alike as likely, the drawing's own.
-                let first = aside.into_iter().chain(own).chain(radii).chain(single);
+                let first = aside.into_iter().chain(own).chain(least).chain(single);
                 first.map(falling).collect()
             }
             false => Vec::new(),

@@ -77,6 +77,15 @@ pub(super) fn tabs(
             }
         }
     }
+    // Its transitions are no pieces of the path, but all of a tab is cut in one pass behind its stop.
+    if traced.four_b {
+        lengths.extend(
+            traced
+                .cuts
+                .iter()
+                .flat_map(|[cut, _]| behind_stops(traced, cut)),
+        );
+    }
     // That which most stops and entries speak for first, and of these the rounder number.
     let mut rounded: Vec<(usize, usize, f64)> = Vec::new();
     let mut known: FxHashMap<u64, usize> = FxHashMap::default();
@@ -236,6 +245,24 @@ fn places(traced: &Traced, cut: &Range<usize>) -> Vec<Point> {
     let near = cut.clone().filter(|index| is_near(*index));
     let segments = near.filter_map(|index| traced.blocks.get(index)?.segment());
     segments.map(Segment::end).collect()
+}
+
+/// How far the wire goes from each stop of a cut to the ends of the next blocks, µm.
+fn behind_stops(traced: &Traced, cut: &Range<usize>) -> Vec<f64> {
+    let mut lengths = Vec::new();
+    let is_stop = |index: &usize| {
+        let block = traced.blocks.get(*index);
+        block.is_some_and(|block| block.motion == Motion::Stop)
+    };
+    for stop in cut.clone().filter(is_stop) {
+        let behind = traced.blocks.get(stop + 1..cut.end).unwrap_or_default();
+        let mut way = 0.0;
+        for segment in behind.iter().map_while(|block| block.segment()).take(ABOUT) {
+            way += segment.length();
+            lengths.push(way);
+        }
+    }
+    lengths
 }
 
 /// The pieces of a written program's path, by what stays the same wherever they lie.

@@ -264,6 +264,45 @@ fn rows() -> Vec<Row> {
             "correction = 0.125\n[program]\nlead = \"straight\"\n",
             true,
         ),
+        // The correction of 4B and a tab were both unknown.
+        (
+            Shape::Polyline(vec![
+                [3.00105, 0.301109, 0.0],
+                [0.424266, 1.950696, 0.0],
+                [-2.125838, 1.240768, 0.0],
+                [-2.238884, -1.996847, 0.0],
+                [1.127363, -2.564608, 0.0],
+            ]),
+            Role::Punch,
+            Format::FourB,
+            "correction = 0.08\n[program]\ntab = 0.5\n",
+            true,
+        ),
+        // It has no transitions: only its ways in and out tell the correction of 4B.
+        (
+            Shape::Polyline(vec![
+                [-7.8, -5.800751, 0.0],
+                [7.8, -5.800751, 0.41421356],
+                [8.0, -5.600751, 0.0],
+                [8.0, 5.600751, 0.41421356],
+                [7.8, 5.800751, 0.0],
+                [-7.8, 5.800751, 0.41421356],
+                [-8.0, 5.600751, 0.0],
+                [-8.0, -5.600751, 0.41421356],
+            ]),
+            Role::Opening,
+            Format::FourB,
+            "correction = 0.125\n",
+            true,
+        ),
+        // One of so few blocks is a fourth of them.
+        (
+            Shape::Circle([0.0, 0.0], 20.0),
+            Role::Opening,
+            Format::Iso,
+            "correction = 0.125\n[program]\nstart-hole = 2\n",
+            true,
+        ),
     ]
 }
 
