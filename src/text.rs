@@ -276,7 +276,7 @@ impl SourceText {
         edits
     }
 
-    /// The edit that removes a word, with the space behind it in its line.
+    /// The edit that removes a word, with the space after it in its line.
     pub(crate) fn without_word(&self, word: &Range<usize>) -> TextEdit {
         let behind = self.bytes().get(word.end..).unwrap_or_default();
         let is_space = |byte: &&u8| matches!(byte, b' ' | b'\t');
@@ -285,7 +285,7 @@ impl SourceText {
     }
 
     /// Replaces a range of bytes, which is clamped to the text. Costs a move of the tail; where the number of lines
-    /// changes, also a step for each line behind it.
+    /// changes, also a step for each line after it.
     pub(crate) fn replace(&mut self, range: Range<usize>, replacement: &str) {
         self.replaced(range, replacement, |bytes, range, _| {
             bytes.replace(range, replacement.as_bytes());
@@ -300,7 +300,7 @@ impl SourceText {
         });
     }
 
-    /// `make` is given the clamped range, and where the first line behind it begins.
+    /// `make` is given the clamped range, and where the first line after it begins.
     fn replaced(
         &mut self,
         range: Range<usize>,

@@ -70,7 +70,7 @@ fn push_bytes(text: &mut Vec<u8>, _: anstyle::Style, line: &[u8]) {
     }
 }
 
-/// A line in a style; its line end stands behind the colours, which would reach into the next line's margin.
+/// A line in a style; its line end stands after the colours, which would reach into the next line's margin.
 fn push_readable_line(text: &mut Vec<u8>, style: anstyle::Style, line: &[u8]) {
     let end = line
         .iter()

@@ -81,7 +81,7 @@ fn draw_program(arguments: &Arguments, document: &Document) -> Result<Verdict, F
     Ok(Verdict::Clean)
 }
 
-/// Layer of the wire's path in a new drawing; the passes after the first have their number behind it.
+/// Layer of the wire's path in a new drawing; the passes after the first have their number after it.
 const WIRE: &str = "WIRE";
 
 /// A new drawing of the contours as they are, with the wire's path as LINE, ARC and CIRCLE on layers of its own.

@@ -125,7 +125,7 @@ impl Failure {
     }
 }
 
-/// The words of the command line. A leading `--lang` is moved behind the command, where it is declared.
+/// The words of the command line. A leading `--lang` is moved after the command, where it is declared.
 fn words() -> Vec<OsString> {
     let mut words: Vec<OsString> = std::env::args_os().collect();
     let leading = match words.get(1).map(|word| word.to_string_lossy()) {

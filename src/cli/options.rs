@@ -166,7 +166,7 @@ pub(crate) fn row(key: &str) -> &'static Row {
     row.expect("options are keys of the settings")
 }
 
-/// The default of a key, behind its meaning.
+/// The default of a key, after its meaning.
 pub(super) fn shown_default(row: &Row) -> String {
     let default = row
         .default

@@ -84,7 +84,7 @@ pub(crate) const MOST: usize = 100_000;
 /// At least this many findings are worth another thread.
 pub(crate) const SHARE: usize = 256;
 
-/// The findings of a document, errors first; behind [`MOST`] of them one that says how many more there are.
+/// The findings of a document, errors first; after [`MOST`] of them one that says how many more there are.
 pub(crate) fn rows(path: &Path, document: &mut Document) -> Vec<Row> {
     let (findings, _) = job::check(document, MOST);
     rows_of(path, document, &findings)

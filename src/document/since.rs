@@ -21,7 +21,7 @@ pub(crate) struct Since {
     edits: Vec<EditedLines>,
 }
 
-/// The lines that an edit touched, by their numbers before it, and by how much it moved those behind.
+/// The lines that an edit touched, by their numbers before it, and by how much it moved those after.
 #[derive(Clone, Debug)]
 pub(crate) struct EditedLines {
     touched: Range<usize>,
@@ -41,7 +41,7 @@ impl Default for Since {
 }
 
 impl EditedLines {
-    /// Those of an edit that is about to be made; how far the lines behind move is not known yet.
+    /// Those of an edit that is about to be made; how far the lines after move is not known yet.
     pub(super) fn before(text: &SourceText, range: &Range<usize>) -> EditedLines {
         // The end of the line before may become another.
         let first = text.line_of(range.start).saturating_sub(1);

@@ -134,7 +134,7 @@ faults! {
     NumberOutOfOrder { expected: u32, number: u32 } [Rule::BlockNumber]
         => say!(block_number_n_is_out_of_turn_expected_n, number, expected);
     Unnumbered { expected: u32 } [Rule::BlockNumber] => say!(the_block_has_no_number_expected_n, expected);
-    /// The coordinates behind the block differ from its end.
+    /// The coordinates after the block differ from its end.
     PositionMismatch { x: f64, y: f64 } [Rule::PositionMismatch] => {
         let off = mm(x.hypot(*y) / 1000.0);
         say!(the_coordinates_are_not_where_the_block_ends, off, x / 1000.0, y / 1000.0)
@@ -191,7 +191,7 @@ faults! {
     SideChange { side: Side } [Rule::SideChange]
         => say!(the_side_changes_within_the_cut, runs_on(*side));
     StillOn [Rule::MissingCancel] => say!(the_program_ends_with_the_correction_on);
-    /// Subprogram `number` runs on into the blocks behind it.
+    /// Subprogram `number` runs on into the blocks after it.
     NoReturn { number: u32 } [Rule::MissingReturn] => say!(subprogram_has_no_m99, number);
     /// `word` stands for the first of `count`.
     Bare { word: String, count: usize } [Rule::MixedNumbers] => match count {

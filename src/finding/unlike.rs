@@ -22,7 +22,7 @@ told! {
     /// A way in or out, or between contours, does not lead where the drawing and its settings want it; `off` is in mm.
     Lead { other: Arc<str>, off: f64 }
         => say!(the_way_does_not_lead_where_its_drawing_has_it, other, mm(*off));
-    /// The coordinates behind a block differ from the end in the drawing; `off` is in mm.
+    /// The coordinates after a block differ from the end in the drawing; `off` is in mm.
     Stated { other: Arc<str>, off: f64 }
         => say!(the_coordinates_are_not_where_its_drawing_has_the_end, other, mm(*off));
     /// A block of the program, on a line from 1, does not follow this segment of the drawing; `off` is in the drawing's
@@ -32,7 +32,7 @@ told! {
     /// The program, on a line from 1, begins this contour elsewhere, this far off in the drawing's unit.
     Begin { other: Arc<str>, line: usize, off: f64 }
         => say!(the_program_begins_this_contour_elsewhere, other, line, mm(off * unit_mm));
-    /// The program leaves this contour behind a line, from 1, before it has cut this segment.
+    /// The program leaves this contour after a line, from 1, before it has cut this segment.
     Left { other: Arc<str>, line: usize }
         => say!(the_program_leaves_this_contour_before_this_segment, other, line);
     /// The two have nothing in common.

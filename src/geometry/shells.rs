@@ -113,7 +113,7 @@ pub(crate) struct Shells<K> {
     nodes: Vec<Node>,
 }
 
-/// What holds of the shells of a range, and the node behind all that are of parts of it.
+/// What holds of the shells of a range, and the node after all that are of parts of it.
 #[derive(Debug)]
 struct Node {
     first: u32,

@@ -9,7 +9,7 @@
 //! a room     say!(no_drawing)                                      a `&'static str`
 //! ```
 //!
-//! - What a sentence takes is shown as `format!` shows it, `{layer:?}` and `{length:.3}` included, but that nothing is −0.000. Where the wording hangs on a number or
+//! - What a sentence takes is shown as `format!` shows it, `{layer:?}` and `{length:.3}` included, but that nothing is −0.000. Where the wording depends on a number or
 //!   on a choice (a plural, a case), the row is a function: `errors(count: usize) => { … }`. Words that are no text of ours (keys, names
 //!   of rules, file endings, letters of a program) are handed in and never translated.
 //! - `en/` says which sentences there are (`declare!`), a file for each room. Another language is a folder with the same rows under

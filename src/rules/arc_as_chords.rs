@@ -238,7 +238,7 @@ fn fixes(outlook: &Outlook, observation: Observation) -> Vec<Fix> {
         add(chords / 2..chords, &fit, &points);
     } else {
         add(0..chords, &fit, &points);
-        // Chords beyond the limit go on behind the new arc: they would be the next finding.
+        // Chords beyond the limit go on after the new arc: they would be the next finding.
         let (mut last, limit) = (
             chords,
             if outlook.contour.closed {
@@ -331,7 +331,7 @@ fn in_polyline(
     Some(changes)
 }
 
-/// An ARC is added behind the first LINE, and the LINEs go.
+/// An ARC is added after the first LINE, and the LINEs go.
 fn in_chain(
     outlook: &Outlook,
     places: &[ContourSegment],

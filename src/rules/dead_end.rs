@@ -412,7 +412,7 @@ impl DeadEnd {
         corners
     }
 
-    /// The corner between the segment before the first of some joints and the segment behind the last, if it turns
+    /// The corner between the segment before the first of some joints and the segment after the last, if it turns
     /// towards the wire.
     fn corner_at(
         &self,

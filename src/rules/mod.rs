@@ -209,7 +209,7 @@ pub(crate) struct LocalRule {
     /// Checks the segments `range` of a contour and adds its observations. An observation at a segment may depend only
     /// on that segment and those within `reach` of it.
     pub(crate) check: fn(&Outlook, Range<usize>, &mut Vec<Observation>),
-    /// How many segments before and behind a changed one must be checked again.
+    /// How many segments before and after a changed one must be checked again.
     pub(crate) reach: fn(&Outlook, Range<usize>) -> (usize, usize),
     /// Whether the observation at the first segment of a closed contour stands, where that depends on the whole
     /// contour.
@@ -333,7 +333,7 @@ impl PairRule {
     };
 }
 
-/// How many segments before and behind a segment a pair rule may look at.
+/// How many segments before and after a segment a pair rule may look at.
 pub(crate) const NEIGHBOURS: usize = 4;
 
 /// Every rule on pairs of segments. `duplicate-entity` comes first, since others are silent for its pairs.

@@ -141,7 +141,7 @@ fn corner_depth(outlook: &Outlook, index: usize, radius: f64) -> Option<f64> {
     {
         return Some(depth);
     }
-    // A wall holds the disc, or the tip at its start does: behind the corner a tip may end the last wall.
+    // A wall holds the disc, or the tip at its start does: after the corner a tip may end the last wall.
     let early: Vec<Wall> = (1..=reach)
         .filter_map(|steps| wall(index - steps))
         .collect();

@@ -1,4 +1,4 @@
-//! One segment of a contour as the rules on pairs see it, with what lies before and behind it.
+//! One segment of a contour as the rules on pairs see it, with what lies before and after it.
 
 use super::{NEIGHBOURS, Outlook};
 use crate::drawing::ContourSegment;
@@ -38,7 +38,7 @@ impl<'a> Wall<'a> {
         Some(Wall::behind(before, outlook, index, segment))
     }
 
-    /// The segment at an index behind the one before it, both of which are known.
+    /// The segment at an index after the one before it, both of which are known.
     pub(crate) fn behind(
         before: Option<Segment>,
         outlook: &Outlook<'a>,

@@ -39,7 +39,7 @@ pub(super) struct Shown {
     under: Option<(Arc<Effective>, f64)>,
     /// The mark of each kept finding, by which it is searched for.
     marks: Vec<u64>,
-    /// Behind those of the last publish the most recently removed ones: often a key removes a finding and the next
+    /// After those of the last publish the most recently removed ones: often a key removes a finding and the next
     /// brings it back.
     kept: Vec<Option<Box<Kept>>>,
     /// The number of findings of the last publish, and of their bytes.

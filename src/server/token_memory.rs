@@ -83,7 +83,7 @@ impl Packed {
     }
 }
 
-/// The numbers of some tokens, with a comma behind each; `wide` are those of the tokens that are wide.
+/// The numbers of some tokens, with a comma after each; `wide` are those of the tokens that are wide.
 fn push_tokens(words: &[u64], wide: &[Fields], json: &mut Vec<u8>) {
     json.reserve(words.len() * 10 + 1);
     let mut wide = wide.iter();

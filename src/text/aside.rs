@@ -10,7 +10,7 @@ pub(crate) type Again = Arc<dyn Fn(Range<usize>) -> Option<Vec<u8>> + Send + Syn
 
 /// Bytes of a part.
 const PART: usize = 1024;
-/// Bytes behind a part that are read with it: lines are short, and none that begins in it is cut.
+/// Bytes after a part that are read with it: lines are short, and none that begins in it is cut.
 const BEHIND: usize = 128;
 
 pub(super) struct Aside {

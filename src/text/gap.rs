@@ -53,7 +53,7 @@ impl Bytes {
         self.aside.is_some()
     }
 
-    /// The bytes before the gap, and those behind it.
+    /// The bytes before the gap, and those after it.
     pub(crate) fn pieces(&self) -> (&[u8], &[u8]) {
         if let Some(aside) = &self.aside {
             return (aside.whole(), &[]);

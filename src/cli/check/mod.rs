@@ -250,7 +250,7 @@ fn largest_first<T: Send>(files: &[PathBuf], of: impl Fn(&PathBuf) -> T + Sync) 
     made.into_iter().map(|(_, made)| made).collect()
 }
 
-/// The findings of a file; behind the last file the process ends.
+/// The findings of a file; after the last file the process ends.
 fn check(
     path: &Path,
     arguments: &Arguments,

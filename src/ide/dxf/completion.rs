@@ -20,7 +20,7 @@ type Offer = (String, Cow<'static, str>, CompletionKind);
 /// What can stand at a byte, the most likely first.
 pub(crate) fn completions(document: &Document, offset: usize) -> Vec<Completion> {
     let line = document.text().line_of(offset);
-    // Behind the last line end an editor has a line and the reader has none.
+    // After the last line end an editor has a line and the reader has none.
     let spot = spot(document, line).or_else(|| spot(document, line.checked_sub(1)?));
     let Some(spot) = spot else { return Vec::new() };
     let is_own = spot.line == line;

@@ -1,4 +1,4 @@
-//! Behind each block, its end and its radius.
+//! After each block, its end and its radius.
 
 use super::words::{WordKind, words_of};
 use crate::geometry::Segment;

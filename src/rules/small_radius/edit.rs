@@ -61,7 +61,7 @@ pub(crate) fn drawing_edit(
     Some(DrawingEdit { changes })
 }
 
-/// The edit that rounds the corner between the segments at `before` and behind it, which turns to the left, with the
+/// The edit that rounds the corner between the segments at `before` and after it, which turns to the left, with the
 /// fix radius. `None` where no such arc fits, or where an entity cannot take it.
 pub(crate) fn fillet(travel: &Travel, before: isize, limits: &Limits) -> Option<DrawingEdit> {
     let arc = corner_arc(travel, before, limits)?;

@@ -93,7 +93,7 @@ pub(crate) fn made_tangent(
     found
 }
 
-/// The arc of radius `limits.fix_radius` that rounds the corner between the segments at `before` and behind it, which
+/// The arc of radius `limits.fix_radius` that rounds the corner between the segments at `before` and after it, which
 /// turns to the left. `None` where it does not fit: its feet must lie on the two and its disc keep clear of the
 /// contour.
 pub(crate) fn corner_arc(travel: &Travel, before: isize, limits: &Limits) -> Option<Arc> {

@@ -61,7 +61,7 @@ fn member(travel: &Travel, position: isize, limits: &Limits) -> Option<Arc> {
     }
 }
 
-/// True when the segments at `position` and behind it are in one run.
+/// True when the segments at `position` and after it are in one run.
 fn joins(travel: &Travel, position: isize, limits: &Limits, is_rounded: bool) -> bool {
     let (Some(one), Some(other)) = (
         member(travel, position, limits),

@@ -53,7 +53,7 @@ const PHRASES: [&str; 30] = [
     "(",
 ];
 
-/// Noise between messages; a whole message behind it is read all the same.
+/// Noise between messages; a whole message after it is read all the same.
 const BROKEN: [&str; 16] = [
     "Content-Length: 5\r\nx\r\n",
     "Content-Length: 2\r\n{}",

@@ -125,7 +125,7 @@ impl<R: Read> Frames<R> {
 
     /// The length in the next header block; `None` at the end of the stream.
     ///
-    /// A faulty block is used up to behind the first byte of the faulty line: the rest of that line may hold the next
+    /// A faulty block is used up to after the first byte of the faulty line: the rest of that line may hold the next
     /// header.
     fn header(&mut self) -> Result<Option<u64>, String> {
         let mut length = None;

@@ -15,7 +15,7 @@ const REST: usize = 64 * 1024;
 /// Bytes that are read in one piece.
 const PIECE: usize = if cfg!(test) { 8 } else { 1024 * 1024 };
 
-/// Stands in the place of the long string while the rest is read.
+/// Stands in place of the long string while the rest is read.
 const IN_ITS_PLACE: &str = "the-long-string";
 
 /// Reads a body with a long string; `None` where the parser had better read all of it.

@@ -165,7 +165,7 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
             }
         };
         drop(guard);
-        // `initialize` ends before the next message: a client that sends `didOpen` right behind it loses nothing.
+        // `initialize` ends before the next message: a client that sends `didOpen` right after it loses nothing.
         if inline {
             let outcome = self.runtime.block_on(answer);
             return self.finish(&reply, id, outcome);

@@ -44,7 +44,7 @@ fn weighing(json: &[u8]) -> u64 {
         .sum()
 }
 
-/// The text behind the end of a string; empty where it does not end.
+/// The text after the end of a string; empty where it does not end.
 fn behind_string(mut rest: &[u8]) -> &[u8] {
     while let Some(at) = memchr::memchr2(b'"', b'\\', rest) {
         let behind = rest.get(at..).unwrap_or_default();

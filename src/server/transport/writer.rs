@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 /// While more bytes than this wait, no more messages are taken from the client.
 const BACKLOG: usize = 32 * 1024 * 1024;
 
-/// Bodies up to this length, and diagnostics, are copied behind their header; longer ones are not held twice.
+/// Bodies up to this length, and diagnostics, are copied after their header; longer ones are not held twice.
 const ONE_WRITE: usize = 1024 * 1024;
 
 /// Params of `textDocument/publishDiagnostics`. The URI is the client's own spelling.
@@ -255,7 +255,7 @@ fn header(length: usize) -> String {
     format!("Content-Length: {length}\r\n\r\n")
 }
 
-/// The parts of a body behind their header.
+/// The parts of a body after their header.
 fn framed(parts: &[&[u8]]) -> Vec<u8> {
     let length = parts.iter().map(|part| part.len()).sum();
     let header = header(length);

@@ -303,7 +303,7 @@ impl Offer<'_> {
         }
     }
 
-    /// The straight ways back to the start of the cut and to the end of its way in, behind the word that cuts where it
+    /// The straight ways back to the start of the cut and to the end of its way in, after the word that cuts where it
     /// is missing.
     fn ways_back(&mut self, motion: &str) {
         let Some(BegunCut { from, to, .. }) = self.document.begun_cut(self.line) else {

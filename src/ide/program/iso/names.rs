@@ -129,7 +129,7 @@ fn each_in(line: &[u8], offset: usize, mut each: impl FnMut(Name, Range<usize>, 
             let Some((row, of_row)) = whole(index).zip(of_row) else {
                 return;
             };
-            // The word before the sign is the name; places behind it are used.
+            // The word before the sign is the name; places after it are used.
             let sign = of_row.iter().position(|byte| *byte == b'=').unwrap_or(0);
             let name = of_row[..sign].trim_ascii_end().len();
             let place = range.start..range.start + name;
