@@ -14,7 +14,7 @@ const ROUNDED_KINK: f64 = 0.1;
 const ROUNDED_CENTER: f64 = 0.1;
 
 /// The run that holds the arc at `position`: the longest chain of arcs concave to the wire with r ≤ R, split at every
-/// vertex convex to the wire. `None` when that segment is no such arc.
+/// vertex convex to the wire. `None` when that segment is not such an arc.
 pub(crate) fn run_of(
     travel: &Travel,
     position: isize,

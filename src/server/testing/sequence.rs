@@ -180,7 +180,7 @@ impl<'a> Script<'a> {
     }
 }
 
-/// The session for `script`. It begins with the handshake, and has no end of its own.
+/// The session for `script`. It begins with the handshake, and does not end with `exit`.
 pub fn sequence(script: &[u8]) -> Sequence {
     let mut script = Script(script);
     let mut sequence = Sequence {
@@ -361,7 +361,8 @@ impl Sequence {
 /// Checks the server's output against the requests.
 ///
 /// # Panics
-/// Where a request is not answered just once, or with an internal error, or a message is not JSON-RPC.
+/// Where a request is not answered exactly once, or with an internal error, or a message is not
+/// JSON-RPC.
 pub fn check_answers(sequence: &Sequence, written: &[Vec<u8>]) {
     let mut answers = vec![0_usize; sequence.requests];
     for body in written {

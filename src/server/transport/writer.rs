@@ -24,7 +24,7 @@ pub(crate) struct Publish {
     pub(crate) version: Option<i64>,
     /// An array.
     pub(crate) diagnostics: Written,
-    /// Not superseded: the one publish that must follow an opening or a closing.
+    /// Must not be superseded: the one publish that has to follow an opening or a closing.
     pub(crate) owed: bool,
 }
 
@@ -161,7 +161,7 @@ impl Writer {
         self.shared.queue().bytes > BACKLOG
     }
 
-    /// Waits until little enough waits, at most `limit`; true if so.
+    /// Waits at most `limit` until little enough is queued; true if so.
     pub(crate) fn wait_for_room(&self, limit: Duration) -> bool {
         self.wait(limit, |queue| queue.bytes <= BACKLOG)
     }
@@ -214,7 +214,7 @@ fn write_all(shared: &Shared, mut output: impl Write) -> std::io::Result<()> {
                     queue.bytes -= publish.size();
                     break Next::Publish(publish);
                 }
-                // A place in line whose diagnostics were superseded by owed ones is empty.
+                // A place in the queue whose diagnostics were superseded by owed ones is empty.
                 Some(Waiting::Slot(uri, ticket)) => {
                     if queue.slots.get(&uri).is_some_and(|(own, _)| *own == ticket)
                         && let Some((_, publish)) = queue.slots.remove(&uri)
