@@ -77,8 +77,8 @@ fn rule_name<S: serde::Serializer>(rule: &Rule, serializer: S) -> Result<S::Ok, 
     serializer.serialize_str(rule.name())
 }
 
-/// Further findings of one file are counted: those of a drawing with millions of faults would take gigabytes, and
-/// nobody reads them.
+/// Further findings of one file are counted: those of a drawing with millions of faults would take
+/// gigabytes, and nobody would read them.
 pub(crate) const MOST: usize = 100_000;
 
 /// At least this many findings are worth another thread.
@@ -299,7 +299,7 @@ impl Row {
         }
     }
 
-    /// The other places, the first few in the words of `told`, and how many more there are.
+    /// The other places, the first few as `told` words them, and how many more there are.
     pub(crate) fn others(
         &self,
         told: impl Fn(&RelatedRow) -> String,

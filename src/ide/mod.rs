@@ -30,14 +30,14 @@ pub(crate) struct Hover {
     pub(crate) text: String,
 }
 
-/// Words after a place.
+/// Words shown after a place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Hint {
     pub(crate) offset: usize,
     pub(crate) text: String,
 }
 
-/// Lines that fold after their first, both ends included.
+/// Lines that fold into the first of them, both ends included.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fold {
     pub first: usize,

@@ -111,7 +111,7 @@ fn layers(document: &Document) -> BTreeSet<String> {
     let mut found: BTreeSet<String> = of_table.map(|entry| entry.name.to_string()).collect();
     let mut last: Option<&str> = None;
     for (_, entity) in document.drawing().entities() {
-        // Entities of one layer mostly stand together.
+        // Entities of one layer mostly come together.
         if last != Some(&*entity.layer) && found.len() < NAMES {
             found.insert(entity.layer.to_string());
             last = Some(&*entity.layer);
