@@ -64,7 +64,7 @@ pub(crate) fn read_path_at_most(path: &Path, cap: u64) -> Result<Vec<u8>, String
     read_at_most(&File::open(path).map_err(|error| plain(&error))?, cap)
 }
 
-/// A file of which parts are read again, as long as nobody has written to it.
+/// A file of which parts are read again, as long as it has not been written to.
 pub(crate) struct Unchanged {
     file: Mutex<File>,
     stamp: (u64, SystemTime),
@@ -79,7 +79,7 @@ impl Unchanged {
         })
     }
 
-    /// A range of its bytes; `None` where they cannot be read, or somebody has written to the file.
+    /// A range of its bytes; `None` where they cannot be read, or the file has been written to.
     pub(crate) fn read(&self, range: Range<usize>) -> Option<Vec<u8>> {
         let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
         file.seek(SeekFrom::Start(range.start as u64)).ok()?;
@@ -121,8 +121,8 @@ fn identity(_: &Metadata) -> Option<[u64; 2]> {
     None
 }
 
-/// Writes to `path`: a regular file is [replaced](replace), a device or a pipe written to. Returns the other names of
-/// an old file.
+/// Writes to `path`: a regular file is [replaced](replace), a device or a pipe is written to.
+/// Returns the number of other names of an old file.
 pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<u64, String> {
     match std::fs::metadata(path) {
         Ok(metadata) if !metadata.is_file() && !metadata.is_dir() => std::fs::write(path, bytes)
@@ -135,8 +135,9 @@ pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<u64, String> {
 /// Puts a new file in place of the one at `path`, or where there is none.
 ///
 /// The bytes are first written beside it, to a file that nobody else may read. That file then gets the owner, the
-/// permissions and the name of the old one, so nobody ever sees half of it. A link stays a link to a new file. Returns
-/// the other names (hard links) of the old file, which keep the old content.
+/// permissions and the name of the old one, so nobody ever sees half of it. A link stays a link to
+/// a new file. Returns the number of other names (hard links) of the old file, which keep the old
+/// content.
 ///
 /// # Errors
 /// A sentence, with nothing changed: the path is not a regular file or is read-only, the file is not the one that was
@@ -201,8 +202,8 @@ fn is_still(path: &Path, read: &Seen) -> io::Result<bool> {
     Ok(Seen::of(&file, &bytes).map_err(io::Error::other)? == *read)
 }
 
-/// A temporary file. Nobody else may read the replacement of an old file until it has the old permissions; a new file
-/// gets the usual ones.
+/// A temporary file. The replacement of an old file is private until it has the old permissions; a
+/// new file gets the usual ones.
 fn beside(folder: &Path, stands_for_old: bool) -> io::Result<tempfile::NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".wedm-");
@@ -255,7 +256,8 @@ fn other_names(_: &Metadata) -> u64 {
     0
 }
 
-/// Makes the new name durable. The file is in place by now, so a system that cannot do this is no error.
+/// Makes the new name durable. The file is in place by now, so it is not an error where a system
+/// cannot do this.
 fn sync(folder: &Path) {
     if cfg!(unix) {
         let _ = File::open(folder).and_then(|folder| folder.sync_all());

@@ -1,6 +1,7 @@
-//! A document as both faces hold it: its source, its drawing, its findings.
+//! A document as the server and the command line hold it: its source, its drawing, its findings.
 //!
-//! DXF text, drawings sent by a CAD program and programs differ here and nowhere above.
+//! The differences between DXF text, drawings sent by a CAD program and programs end here: nothing
+//! above knows them.
 
 mod changes;
 mod compared;
@@ -141,13 +142,14 @@ impl Document {
         }
     }
 
-    /// mm of the unit of the findings' lengths: the drawing's; a program's findings are in mm.
+    /// The unit of the findings' lengths in mm: the drawing's unit, or 1 for a program, whose
+    /// findings are in mm.
     pub(crate) fn unit_mm(&self) -> f64 {
         self.drawing()
             .map_or(1.0, |drawing| self.settings().unit_of(drawing).mm)
     }
 
-    /// The subject of its findings.
+    /// How its findings are worded: the unit, and whether an electrode cuts.
     pub(crate) fn telling(&self) -> Telling {
         Telling {
             unit_mm: self.unit_mm(),
@@ -269,7 +271,7 @@ impl Document {
         }
     }
 
-    /// The repairs of a finding in a drawing that the settings can hold.
+    /// The repairs of a finding in a drawing that consist of settings.
     pub(crate) fn keeps(&self, finding: &Finding) -> impl Iterator<Item = Fix<Vec<Keep>>> {
         let role = self.settings().side.role().unwrap_or(Role::Both);
         let keeps = match &finding.detail {
@@ -301,7 +303,7 @@ impl Document {
         ))
     }
 
-    /// The layer of a finding's contour, unless a closed contour lies on it.
+    /// The layer of a finding's contour, unless it also holds a closed contour.
     fn spare_layer(&self, finding: &Finding) -> Option<Arc<str>> {
         let drawing = self.drawing()?;
         let Place::Segment { entity, .. } = finding.place else {

@@ -67,8 +67,8 @@ impl Place {
 }
 
 impl Finding {
-    /// True if it concerns one of the `entities`, or any where they are `None`; always if it concerns the document as a
-    /// whole or its text.
+    /// True if it concerns one of the `entities`, or any entity where that is `None`; always true
+    /// if it concerns the document as a whole or its text.
     pub(crate) fn concerns(&self, entities: Option<&FxHashSet<EntityId>>) -> bool {
         let of_entities = |entities| {
             self.place.is_of(entities) || self.related.iter().any(|place| place.is_of(entities))

@@ -1,7 +1,8 @@
-//! The products of a document: the repaired document, the program of a drawing, a program in another language.
+//! What is made of a document: the repaired document, the program of a drawing, a program in another language.
 //!
-//! One pipeline for both faces. The faces supply a document with its settings and present the result; refusals are
-//! decided and worded here. Nothing here reads or writes a file, or knows who asked.
+//! One pipeline for the server and the command line. These supply a document with its settings and
+//! present the result; refusals are decided and worded here. Nothing here reads or writes a file,
+//! or knows who asked.
 
 mod convert;
 pub(crate) mod drill;
@@ -47,7 +48,8 @@ pub enum Refusal {
     Errors(Vec<Finding>),
     /// The refusals of the geometry, at their places.
     Findings(Vec<Finding>),
-    /// The program did not pass its proof, perhaps because of the errors that were passed over.
+    /// The program did not pass its proof, perhaps because of errors that were overridden by
+    /// `force`.
     Unproved(String, Vec<Finding>),
     /// Nothing could be proved although there are no errors: a fault of wedm.
     Fault(String),
@@ -96,7 +98,7 @@ impl Refusal {
         }
     }
 
-    /// Of a program that was not proved. Where errors were passed over, those are the reason for a failed proof.
+    /// The refusal of a program that was not proved. Where errors were overridden, they are the reason.
     fn of_proof(
         error: ProofError,
         errors: Option<Vec<Finding>>,
@@ -144,10 +146,10 @@ pub(crate) fn check(document: &mut Document, limit: usize) -> (Vec<Finding>, usi
     (findings, count)
 }
 
-/// Repairs in several rounds, since one makes room for another.
+/// Repairs in several rounds, since one may make room for another.
 #[derive(Debug)]
 pub(crate) enum Repairs {
-    /// For a text, as one edit of its present state; and the document after them.
+    /// For a text, as one edit of its present state; and the document after the repairs.
     OfText {
         edits: Vec<TextEdit>,
         rounds: usize,
@@ -157,7 +159,7 @@ pub(crate) enum Repairs {
     OfDrawing(Vec<(Arc<Drawing>, DrawingEdit)>),
 }
 
-/// More rounds than this change nothing.
+/// At most this many rounds: more change nothing.
 pub const ROUNDS: usize = 12;
 
 /// Every safe fix, repeated until none is left.
@@ -259,7 +261,7 @@ pub fn planned(
     Ok(planned)
 }
 
-/// The options for a program.
+/// What is asked for in a program.
 #[derive(Clone, Copy)]
 pub struct Wanted<'a> {
     pub format: Format,
@@ -267,7 +269,7 @@ pub struct Wanted<'a> {
     pub handles: Option<&'a [String]>,
     /// Only the contours that have an entity on one of these layers; together with `handles` the contours of both.
     pub layers: Option<&'a [String]>,
-    /// Even if there are errors in the drawing.
+    /// Make the program even if there are errors in the drawing.
     pub force: bool,
 }
 
@@ -316,7 +318,7 @@ pub struct Generated {
     pub finished: Option<Finished>,
     /// The thread holes, in the order of the cuts.
     pub holes: Vec<StartHole>,
-    /// The totals of the program at the machine.
+    /// Lengths, times and costs of the program on the machine.
     pub work: Work,
     /// Additional findings.
     pub warnings: Vec<Finding>,
@@ -352,7 +354,8 @@ fn written(
 ) -> Result<Generated, Refusal> {
     let settings = &snapshot.settings;
     let is_error = |finding: &Finding| finding.severity == Severity::Error;
-    // An existing program is no fault of the drawing, and the path itself refuses leads and steps.
+    // Differences from an existing program do not count against the drawing, and the path itself
+    // refuses leads and steps.
     findings.retain(|found| match found.rule {
         Rule::NotTheDrawing | Rule::LeadIn => false,
         Rule::Settings => !is_error(found),
@@ -406,7 +409,7 @@ fn written(
     warnings.extend(no_tab_kept(snapshot, &paths));
     let mut work = toolpath::work(&snapshot.drawing, &snapshot.outlines, settings, &paths);
     if let Some(milled) = &program.milled {
-        // With the simulation's finding about the floor instead of the earlier one.
+        // The finding of the simulation about the floor replaces the earlier one.
         let uneven = milling::uneven(snapshot, milled);
         let is_said = |one: &Finding| uneven.iter().any(|own| own.place == one.place);
         warnings.retain(|one| one.rule != Rule::Settings || !is_said(one));

@@ -5,8 +5,8 @@
 //! [`dxf`], [`settings`]; [`finding`]; [`drawing`]; [`rule`]; [`geometry`], [`text`], [`message`], `disk`.
 //! `docs/architecture.md` is the map and describes each.
 //!
-//! Nothing here may panic. Rooms that read foreign input do not index; elsewhere an index was counted from the same
-//! list a few lines before, and properties and fuzz targets run it.
+//! Nothing here may panic. Rooms that read foreign input do not index; elsewhere an index comes
+//! from the same list a few lines before, and property tests and fuzz targets exercise it.
 
 #![warn(
     unreachable_pub,

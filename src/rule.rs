@@ -40,7 +40,8 @@ pub enum Subject {
     Settings,
 }
 
-/// Makes the rules of rows: variant, name, severity, summary (a row of `message/en/`), kinds of documents.
+/// Makes the rules from rows: variant, name, severity, summary (a row of `message/en/`), kinds of
+/// documents.
 macro_rules! rules {
     ($($rule:ident $name:literal $severity:ident $summary:ident $($subject:ident)+;)+) => {
         /// The rules under the names that users see, in the order of the documentation.

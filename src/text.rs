@@ -118,12 +118,13 @@ impl SourceText {
         bytes
     }
 
-    /// Keeps the lines and not the bytes: whoever asks for some has them read `again`.
+    /// Keeps the lines and not the bytes: bytes that are asked for are read `again`.
     pub(crate) fn set_aside(&mut self, again: Again) {
         self.bytes = Arc::new(Bytes::aside(self.len(), again));
     }
 
-    /// True where something that was set aside could not be read again: what was told of the text does not hold.
+    /// True where something that was set aside could not be read again: what was found in the text
+    /// does not hold.
     pub(crate) fn is_lost(&self) -> bool {
         self.bytes.is_lost()
     }
@@ -164,7 +165,7 @@ impl SourceText {
         }
     }
 
-    /// Makes the text contiguous again, for whoever reads all of it.
+    /// Makes the text contiguous again, for those who read all of it.
     pub(crate) fn join(&mut self) {
         if !self.bytes.pieces().1.is_empty() && !self.bytes.pieces().0.is_empty() {
             Arc::make_mut(&mut self.bytes).join();
@@ -269,14 +270,14 @@ impl SourceText {
         own.unwrap_or("\n")
     }
 
-    /// Those of some edits that change anything, in the order of the text.
+    /// Of some edits those that change anything, in the order of the text.
     pub(crate) fn changing(&self, mut edits: Vec<TextEdit>) -> Vec<TextEdit> {
         edits.sort_by_key(|edit| edit.range.start);
         edits.retain(|edit| self.slice(edit.range.clone()) != Some(edit.text.as_bytes()));
         edits
     }
 
-    /// The edit that removes a word, with the space behind it in its line.
+    /// The edit that removes a word, with the space after it in its line.
     pub(crate) fn without_word(&self, word: &Range<usize>) -> TextEdit {
         let behind = self.bytes().get(word.end..).unwrap_or_default();
         let is_space = |byte: &&u8| matches!(byte, b' ' | b'\t');
@@ -285,22 +286,22 @@ impl SourceText {
     }
 
     /// Replaces a range of bytes, which is clamped to the text. Costs a move of the tail; where the number of lines
-    /// changes, also a step for each line behind it.
+    /// changes, also a step for each line after it.
     pub(crate) fn replace(&mut self, range: Range<usize>, replacement: &str) {
         self.replaced(range, replacement, |bytes, range, _| {
             bytes.replace(range, replacement.as_bytes());
         });
     }
 
-    /// As [`SourceText::replace`]; costs a move of the bytes between this edit and the one before. The text then has a
-    /// gap, and [`SourceText::bytes`] a price.
+    /// As [`SourceText::replace`]; costs a move of the bytes between this edit and the one before.
+    /// The text then has a gap, and [`SourceText::bytes`] has to copy it.
     pub(crate) fn replace_here(&mut self, range: Range<usize>, replacement: &str) {
         self.replaced(range, replacement, |bytes, range, next| {
             bytes.replace_beside_gap(range, replacement.as_bytes(), next);
         });
     }
 
-    /// `make` is given the clamped range, and where the first line behind it begins.
+    /// `make` is given the clamped range, and where the first line after it begins.
     fn replaced(
         &mut self,
         range: Range<usize>,

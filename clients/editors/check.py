@@ -23,7 +23,7 @@ WEDM = os.environ.get("WEDM", str(ROOT / "target/release/wedm"))
 DRAWING = ROOT / "tests/data/tight_fillet.dxf"
 ARTIFACTS = ROOT / "target/artifacts/editors"
 TOOLS = HERE / ".tools"
-#: Folder in which what editor and server say to each other is written down, or nothing.
+#: Folder in which the messages between editor and server are recorded; empty for none.
 RECORD = os.environ.get("WEDM_RECORD_SESSIONS")
 
 FAULT = "arc R 0.050 mm is below the correction 0.100 mm"
@@ -44,7 +44,7 @@ def expect(holds: bool, what: str) -> None:
 class Place:
     """A folder with a drawing, a home, and a PATH on which `wedm` stands."""
 
-    #: Those of the session that runs: gone with it, kept where it fails.
+    #: The places of the current session: removed after it, kept where it fails.
     made: list[Place] = []
 
     def __init__(self, editor: str) -> None:
@@ -131,7 +131,7 @@ def neovim(program: str, native: bool, editor: str) -> None:
 
 
 def neovim_by_path(program: str) -> None:
-    """The command of the options is taken, where no `wedm` is on the PATH."""
+    """The command in the options is used where no `wedm` is on the PATH."""
     place = Place("neovim-by-path")
     server = place.folder / "programs/wedm"
     server.rename(place.folder / "my-wedm")
@@ -162,7 +162,7 @@ def neovim_installed(program: str, native: bool, editor: str) -> None:
 
 
 def neovim_that_dies(program: str, native: bool, editor: str) -> None:
-    """A server that dies at every start is given up, and that is said; opening the drawing again begins anew."""
+    """A server that dies at every start is given up, with a message; opening the drawing again starts it again."""
     place = Place(editor + "-dies")
     server = place.folder / "programs/wedm"
     server.unlink()
@@ -207,7 +207,7 @@ def neovim_pauses(program: str) -> None:
 
 
 def neovim_package(program: str, native: bool, editor: str) -> None:
-    """The folder as a plugin manager puts it on the runtime path, with a user's init.lua, and no word more."""
+    """The folder as a plugin manager puts it on the runtime path, with a user's init.lua, and nothing else."""
     place = Place(editor + "-package")
     package = place.folder / "home/.local/share/nvim/site/pack/manager/start/wedm"
     package.parent.mkdir(parents=True)
@@ -360,7 +360,7 @@ def helix(program: str, editor: str) -> None:
 
 
 def helix_without_server(program: str) -> None:
-    """What the README names says that it is missing."""
+    """What the README names reports that the server is missing."""
     place = Place("helix-without")
     (place.folder / "programs/wedm").unlink()
     configuration = place.folder / "home/.config/helix"
@@ -416,13 +416,13 @@ def kate(program: str, editor: str) -> None:
     (configuration / "kate/lspclient").mkdir(parents=True)
     shutil.copy(HERE / "kate/settings.json", configuration / "kate/lspclient")
     shutil.copytree(HERE / "kate/syntax", data)
-    # As one who has said that this server may be started, and who wants nothing changed that he did not change.
+    # As a user who has allowed this server to be started, and who wants no automatic changes.
     allowed = place.folder / "programs/wedm"
     (configuration / "katerc").write_text(
         "[General]\nShow welcome view for new window=false\n[Kate Plugins]\nlspclientplugin=true\n"
         f"[lspclient]\nAllowedServerCommandLines={allowed}\n[KTextEditor Document]\nRemove Spaces=0\nNewline at End of File=false\n"
     )
-    # What is said is the only thing of it that a program can read: the rest is in the pictures.
+    # The messages are the only part of it that a program can read: the rest is in the pictures.
     said = Path(RECORD).resolve() / "kate.jsonl" if RECORD else place.folder / "kate.jsonl"
     allowed.unlink()
     allowed.write_text(f'#!/bin/sh\nWEDM_RECORD="{said}" WEDM="{WEDM}" exec python3 "{ROOT}/tests/protocol/record.py" "$@"\n')

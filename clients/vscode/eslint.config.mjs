@@ -12,7 +12,7 @@ export default defineConfig(
     rules: {
       eqeqeq: "error",
       "@typescript-eslint/no-floating-promises": ["error", { allowForKnownSafeCalls: [{ from: "package", name: "test", package: "node:test" }] }],
-      // VS Code's Disposable is a shape; what it hands out is none of its class.
+      // VS Code's Disposable is a shape; what it returns is not of that class.
       "@typescript-eslint/no-unsafe-class-instance-assignment": "off",
       "@typescript-eslint/restrict-template-expressions": ["error", { allowNumber: true }],
       "@typescript-eslint/switch-exhaustiveness-check": "error",

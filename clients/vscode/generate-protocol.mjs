@@ -8,8 +8,8 @@ const TARGET = new URL("src/protocol.ts", import.meta.url);
 const schema = JSON.parse(await readFile(new URL("../../docs/protocol.schema.json", import.meta.url), "utf8"));
 
 /**
- * A schema as the compiler reads it. It knows tuples by the name that they had before 2020-12. And a key that need not be there is taken as
- * null too, but neither the server nor this extension ever sends that. What stands beside a reference would become a second type.
+ * A schema as the compiler reads it. It knows tuples by the name that they had before 2020-12. And it takes an optional key to be
+ * null as well, which neither the server nor this extension ever sends. Keys beside a reference would become a second type.
  */
 function readable(node) {
   if (Array.isArray(node)) {

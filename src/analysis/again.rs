@@ -1,17 +1,18 @@
-//! Runs that are looked at again while enough has been seen: whether a look at everything would still end where it did.
+//! Runs that are looked at again after the limit was reached: whether a look at everything would
+//! still end where it did.
 
 use super::compare::RunId;
 use rustc_hash::FxHashSet;
 
-/// Forgotten runs that had been compared with all their neighbours, until they have been again. A look at everything
-/// ends at the same pair where all of them lie before the end, with all that comes near them, and as much is seen of
-/// them as before.
+/// Forgotten runs that had been compared with all their neighbours, until they have been compared
+/// again. A look at everything ends at the same pair if all of them, and everything near them, lie
+/// before the end, and as much is seen of them as before.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Again {
     runs: FxHashSet<RunId>,
-    /// All that had been seen before the first of them was forgotten.
+    /// How much had been seen before the first of them was forgotten.
     seen: usize,
-    /// One of them comes, or came, near a run behind the end.
+    /// One of them comes, or came, near a run after the end.
     is_near_the_end: bool,
 }
 
@@ -24,7 +25,7 @@ impl Again {
         self.runs.contains(run)
     }
 
-    /// Forgets a run, where this much had been seen with it.
+    /// Forgets a run; `seen` is how much had been seen with it.
     pub(super) fn forget(&mut self, run: RunId, seen: usize) {
         if self.runs.is_empty() {
             (self.seen, self.is_near_the_end) = (seen, false);
@@ -36,8 +37,8 @@ impl Again {
         self.is_near_the_end = true;
     }
 
-    /// Some of them have been compared again, and this much is seen in all. False where that shows that a look at
-    /// everything would end elsewhere.
+    /// To be called when some of them have been compared again; `seen` is how much is seen in all.
+    /// False where that shows that a look at everything would end elsewhere.
     pub(super) fn compared(&mut self, runs: &[RunId], seen: usize) -> bool {
         for run in runs {
             self.runs.remove(run);

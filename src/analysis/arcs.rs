@@ -154,7 +154,7 @@ impl Analysis {
             side: small_radius::center_side(arc.sweep),
         };
         if !drawing.is_editable(segment.entity) {
-            // The result of a search could not be applied; and a fitted curve may have a million tight arcs.
+            // No search: its result could not be applied, and a fitted curve may have a million tight arcs.
             return Some((
                 travel,
                 Attempt {
@@ -166,7 +166,7 @@ impl Analysis {
         let position = travel.position_of(index);
         let run = small_radius::run_of(&travel, position, &self.limits)?;
         let mut attempt = small_radius::refillet(&travel, &run, &self.limits);
-        // An arc that was drawn in two and rounded is one run all the same.
+        // An arc that was drawn in two pieces and rounded is one run all the same.
         if attempt.outcome.is_err()
             && let Some(longer) = small_radius::rounded_run_of(&travel, position, &self.limits)
                 .filter(|longer| *longer != run)
@@ -207,7 +207,7 @@ impl Analysis {
             let segment = travel.contour.segment_id(drawing, index);
             segment.is_some_and(|(entity, _)| drawing.is_editable(entity))
         };
-        // What replaces one arc of a run replaces them all.
+        // The replacement of one arc of a run replaces them all.
         let run = small_radius::run_of(&travel, travel.position_of(index), &self.limits)
             .filter(|_| is_editable(index));
         let alike: Vec<usize> = run

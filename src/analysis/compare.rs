@@ -36,8 +36,8 @@ pub(crate) struct Observed {
     pub(crate) disc: Option<(Point, f64)>,
     pub(crate) own_disc: bool,
     pub(crate) blocked: bool,
-    /// For a dead end, its first and last wall and what is left beyond it, or that there is none: set once it is known
-    /// and depends only on the two runs.
+    /// For a dead end, its first and last wall and what is left beyond it, or `None` if nothing is.
+    /// Set once that is known, if it depends only on the two runs.
     pub(crate) ended: Option<Option<([usize; 2], Left)>>,
 }
 
@@ -57,7 +57,7 @@ const GROUP: usize = 8;
 /// The number of segments at hand while runs are compared.
 const KEPT: usize = 1 << 14;
 
-/// False when the line or circle of a segment passes a box at more than `reach`.
+/// False when the line or circle of a segment stays farther than `reach` from a box.
 pub(crate) fn passes(segment: &Segment, bounds: &Bounds, reach: f64) -> bool {
     let center = bounds.min + (bounds.max - bounds.min) * 0.5;
     match segment {
@@ -73,7 +73,7 @@ pub(crate) fn passes(segment: &Segment, bounds: &Bounds, reach: f64) -> bool {
     }
 }
 
-/// False for two segments of which one passes the other, or its box, at more than `reach`.
+/// False for two segments of which one stays farther than `reach` from the other, or its box.
 fn may_meet(
     (one, own): (&Segment, &Bounds),
     (other, theirs): (&Segment, &Bounds),
@@ -96,7 +96,7 @@ fn lies_beside(line: &Line, other: &Line, reach: f64) -> bool {
     from.min(to) > reach * 2.0 || from.max(to) < reach * -2.0
 }
 
-/// The walls of some runs, which their neighbours need again and again.
+/// A cache of the walls of some runs, which their neighbours need repeatedly.
 pub(crate) struct Kept<'a, 'b> {
     pub(crate) outlook: Outlooks<'a, 'b>,
     walls: FxHashMap<RunId, Rc<Walls<'b>>>,
@@ -286,8 +286,9 @@ impl Comparison<'_> {
         )
     }
 
-    /// Runs the rules on two segments whose boxes come near each other. The one of the entity that is machined earlier
-    /// comes first, so that the answer depends neither on the keys of contours nor on when an entity was drawn.
+    /// Applies the rules to two segments whose boxes come near each other. The one of the entity
+    /// that is machined earlier comes first, so that the answer depends neither on the keys of
+    /// contours nor on when an entity was drawn.
     fn at(&self, one: &Walled, other: &Walled, found: &mut Vec<Observed>) {
         let place = |wall: &Wall| {
             (

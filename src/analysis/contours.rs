@@ -93,8 +93,8 @@ impl Analysis {
         depths
     }
 
-    /// The role of each contour: stated by an entity, by its layer, by the `side` setting, or by nesting. A side of a
-    /// direction does not apply to a closed one.
+    /// The role of each contour: stated by an entity, by its layer, by the `side` setting, or by
+    /// nesting. A side of the direction (left, right) does not apply to a closed one.
     pub(super) fn roles(&self, drawing: &Drawing, keys: &[ContourKey]) -> Vec<Role> {
         let everywhere = self.settings.side.role();
         let depths = match everywhere {
@@ -147,7 +147,8 @@ pub(super) fn role_of(drawing: &Drawing, settings: &Effective, id: EntityId) -> 
         .or_else(by_color)
 }
 
-/// Whether an entity is set aside by its linetype or its layer: nobody has given it, its linetype or its layer a role.
+/// Whether an entity is set aside by its linetype or its layer: neither it nor its linetype or
+/// layer has been given a role.
 ///
 /// A role of the layer does not bring back an entity with such a linetype of its own.
 pub(crate) fn set_aside(drawing: &Drawing, settings: &Effective, id: EntityId) -> Option<Aside> {
@@ -185,8 +186,8 @@ pub(super) fn part_of(drawing: &Drawing, settings: &Effective, id: EntityId) -> 
 }
 
 /// True when an entity is part of a contour, which may be a lone line: it has segments, its role is not `ignore`, it is
-/// visible, or somebody has given it or its layer a role, and it is not set aside by its linetype or its layer. A
-/// colour or a handle alone does not bring back a frozen entity.
+/// visible, or it or its layer has been given a role, and it is not set aside by its linetype or
+/// its layer. A colour or a handle alone does not bring back a frozen entity.
 pub(crate) fn is_cut(drawing: &Drawing, settings: &Effective, id: EntityId) -> bool {
     let Some(entity) = drawing
         .get(id)

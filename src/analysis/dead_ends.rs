@@ -30,7 +30,7 @@ impl Analysis {
         if self.settings.severity(Rule::LostPocket).is_none() || !pairs.seen.has(Rule::LostPocket) {
             return;
         }
-        // A tangle may have as many dead ends as pairs of segments, of which none is told.
+        // A tangle may have as many dead ends as pairs of segments, none of which is reported.
         let crossings = &pairs.seen.crossings;
         let has_sides = |key: ContourKey| !crossings.contains_key(&key);
         let mut asked: FxHashMap<ContourKey, Asked> = FxHashMap::default();
@@ -94,7 +94,7 @@ impl Analysis {
             };
             (of.side, of.waits) = (side_of(key), Asked::NOTHING);
             let has_any = enter(pairs, (key, &outlook), (&mut of, slots.get(&key)), &runs);
-            // Where none counts on this side of the wire it may on the other.
+            // One that does not count on this side of the wire may count on the other.
             if is_known || has_any {
                 ends.of.insert(key, Arc::new(of));
             }
@@ -108,10 +108,10 @@ impl Analysis {
             return;
         };
         let has_sides = |key: ContourKey| !self.pairs.seen.crossings.contains_key(&key);
-        // Where the contour is the wire's own path, it is followed.
+        // The wire follows a contour that is its own path.
         let mildest = report.is_for_a_path().then_some(Severity::Warning);
         report.count(Rule::LostPocket, mildest, ends.count(has_sides));
-        // Only the first are told, of however many.
+        // Only the first ones are reported.
         let most = report.room(Rule::LostPocket, mildest);
         for (key, walls, left) in ends.first(most, has_sides) {
             if let Some(outlook) = self.outlook(drawing, key)
@@ -137,8 +137,9 @@ impl Analysis {
     }
 }
 
-/// Removes results that depend on the changed runs; returns the pairs of runs to check again. Results far from any run
-/// are removed, too, and those across the end of a contour count as far.
+/// Removes results that depend on the changed runs; returns the pairs of runs to check again.
+/// Results that depend on more than the runs about their walls are removed, too; those across the
+/// end of a contour count as such.
 fn leave(
     pairs: &Pairs,
     key: ContourKey,
@@ -160,7 +161,7 @@ fn leave(
     runs
 }
 
-/// Adds the observations between these pairs of runs of a contour, except where its slots report them. False where
+/// Adds the observations between these pairs of runs of a contour, except those that its slots report. False where
 /// there are none.
 fn enter(
     pairs: &mut Pairs,
@@ -268,7 +269,8 @@ mod tests {
     use crate::drawing::{Entity, Geometry, Kind, Vertex};
     use crate::settings::Effective;
 
-    /// The teeth of a comb leave dead ends; while one long line crosses them all, none is worked out.
+    /// The teeth of a comb leave dead ends; while one long line crosses them all, none of them is
+    /// worked out.
     #[test]
     fn dead_ends_of_a_contour_that_crosses_itself_wait_until_it_does_not() {
         let comb = |last: (f64, f64)| {

@@ -1,10 +1,11 @@
-//! Entities drawn to be read and not to be cut: centre lines, hidden edges, hatches, dimensions, construction.
+//! Entities drawn only to be read, not to be cut: centre lines, hidden edges, hatches, dimensions,
+//! construction.
 //!
 //! An entity is set aside by its linetype or its layer, whatever lies about it. A line is set aside as a contour of its
-//! own if it is alone, with a stretch of it within a closed contour and no end near that of another contour: a chain,
-//! or an end that faces another one, is an outline that has lost something. A closed contour with a lone line in it is
-//! still sound, so rules do not see lines that are set aside; the decision is made again where something near has
-//! changed.
+//! own if it is alone, with a stretch of it within a closed contour and no end near that of another
+//! contour: a chain, or an end that faces another one, belongs to an outline with something
+//! missing. A closed contour with a lone line in it is still sound, so rules do not see lines that
+//! are set aside; the decision is made again where something near has changed.
 
 use super::Analysis;
 use super::contours::{role_of, role_of_linetype, set_aside};
@@ -53,7 +54,8 @@ impl Analysis {
             return None;
         };
         let entity = drawing.get(piece.entity)?;
-        // Of the drawing, not of the piece, which may not know yet what became of its polyline.
+        // Asked of the drawing, not of the piece, which may not know yet what became of its
+        // polyline.
         let (1, false) = (entity.geometry.segment_count(), contour.closed) else {
             return None;
         };
@@ -174,7 +176,7 @@ impl Analysis {
         let holds = |lone: &Lone, other: ContourKey| {
             is_closed(&other) && self.holds_some_of(drawing, &lone.line, other)
         };
-        // Thousands of lines may be near each other: those in no closed contour are not asked about them.
+        // Thousands of lines may be near each other: those in no closed contour are not examined.
         let closed = (keys.len() > MANY).then(|| {
             let mut closed = Grid::default();
             for (&key, known) in self.known.iter().filter(|(key, _)| is_closed(key)) {
@@ -271,7 +273,7 @@ impl Analysis {
         }
     }
 
-    /// Records that it is known no longer.
+    /// Records that it is no longer known.
     pub(super) fn leave_vicinity(&mut self, key: ContourKey, index: &ContourIndex) {
         if let Some(vicinity) = &mut self.vicinity
             && index.run_count() > 1
@@ -423,8 +425,9 @@ impl Analysis {
     }
 }
 
-/// True where the ends of two lines face each other like the sides of a corner that has lost its tip, or lie within
-/// `least`: not where the lines cross, as in a centre mark, or run beside or behind each other, as in a hatch.
+/// True where the ends of two lines face each other like the sides of a corner that has lost its
+/// tip, or lie within `least` of each other; not where the lines cross, as in a centre mark, or run
+/// beside each other or in line, as in a hatch.
 fn are_a_corner(one: &Line, other: &Line, least: f64) -> bool {
     let (u, v) = (one.end - one.start, other.end - other.start);
     let lengths = [u.norm(), v.norm()];

@@ -1,8 +1,8 @@
-//! Where a contour has been edited since something was made of it.
+//! Where a contour has been edited since something was derived from it.
 
 use std::ops::Range;
 
-/// Of more stretches it is not known any more which they were.
+/// More stretches than these are not recorded one by one.
 const MOST: usize = 16;
 
 /// More segments are not looked at one by one.
@@ -33,7 +33,7 @@ impl Edited {
         }
     }
 
-    /// There, too; `None` stands for anywhere.
+    /// Adds that it has been edited there, too; `None` stands for anywhere.
     pub(super) fn merge(&mut self, there: Option<&[Range<usize>]>) {
         if let (Edited::Within(within), Some(there)) = (&mut *self, there) {
             let new: Vec<_> = there.iter().filter(|it| !within.contains(it)).collect();

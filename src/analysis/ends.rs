@@ -62,7 +62,7 @@ pub(super) struct EndsOf {
     /// The number of places among them: each is reported once.
     places: usize,
     of_runs: BTreeMap<Runs, Vec<Order>>,
-    /// Those that depend on more of the contour than the runs about the two.
+    /// Those that depend on more of the contour than the runs around their own two.
     pub(super) far: BTreeSet<Runs>,
 }
 
@@ -70,8 +70,8 @@ pub(super) struct EndsOf {
 pub(super) type Told = (ContourKey, [usize; 2], Left);
 
 impl EndsOf {
-    /// Adds what is left between two walls, found between two runs. Of ends at one place that are reported alike the
-    /// first stays.
+    /// Adds what is left between two walls, found between two runs. Of ends that would be reported
+    /// alike at one place the first stays.
     pub(super) fn insert(&mut self, runs: Runs, place: Farthest, walls: [usize; 2], left: Left) {
         self.places += usize::from(!self.has(place));
         // Depths are not negative: their bits are in their order.
@@ -103,7 +103,7 @@ impl EndsOf {
 }
 
 impl DeadEnds {
-    /// The number of places of the contours that count.
+    /// The number of places in the contours for which `counts` holds.
     pub(super) fn count(&self, counts: impl Fn(ContourKey) -> bool) -> usize {
         let of = self.of.iter().filter(|(key, _)| counts(**key));
         of.map(|(_, of)| of.places).sum()

@@ -12,8 +12,8 @@ use crate::settings::Partners;
 use std::sync::Arc;
 
 impl Analysis {
-    /// The repair of a corner in which two parts bind: the least radius with which they do not, enlarged by the
-    /// clearance where the other part is drawn, too.
+    /// The repair of a corner in which two parts bind: the least radius with which they no longer
+    /// do, enlarged by the clearance where the other part is drawn, too.
     pub(super) fn fit_fix(&self, drawing: &Drawing, finding: &Finding) -> Option<Fix> {
         let Place::Segment { entity, segment } = finding.place else {
             return None;
@@ -38,7 +38,7 @@ impl Analysis {
         let rounding = self.limits.tolerances.report;
         let mut radius = most;
         let steep = 1.0 / (spot.turn / 2.0).cos() - 1.0;
-        // What is left grows evenly with the radius between straight walls.
+        // Between straight walls the remaining clearance grows linearly with the radius.
         let mut found = None;
         for _ in 0..6 {
             let found_left = left(radius);
@@ -75,7 +75,7 @@ impl Analysis {
         (left >= -rounding).then_some(Fix {
             kind,
             preferred: true,
-            // As far as it moves a corner between straight walls.
+            // How far the fix moves a corner between straight walls.
             in_fix_all: steep * radius <= self.limits.correction,
             edit,
         })

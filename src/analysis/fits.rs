@@ -12,7 +12,7 @@ use crate::toolpath::Part;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// A contour of more segments is not compared with its partner at every edit.
+/// A contour with more segments is not compared with its partner at every edit.
 const MOST_SEGMENTS: usize = 100_000;
 
 /// The knowledge of two contours, or of one that is cut twice.
@@ -38,11 +38,12 @@ impl Fitted {
     }
 }
 
-/// What is left of a contour.
+/// What the wire leaves of a contour.
 #[derive(Clone, Debug)]
 pub(crate) struct Left {
     part: Arc<Part>,
-    /// Where the contour has been edited since: what of it still holds need not be worked out again.
+    /// Where the contour has been edited since: the parts that still hold need not be worked out
+    /// again.
     edited: Edited,
 }
 
@@ -57,12 +58,12 @@ pub(super) struct Paired {
     pub(super) outlines: Arc<Vec<Outline>>,
 }
 
-/// What a punch is, and its plate.
+/// The roles of a punch and of its plate.
 const ROLES: [Role; 2] = [Role::Punch, Role::Opening];
 
 impl Analysis {
-    /// The results between a contour that has been edited, there or anywhere, and its partner hold no longer, except where the edit has not
-    /// touched them.
+    /// Marks as old the results between a contour that has been edited, there or anywhere, and its
+    /// partner; parts that the edit has not touched still hold.
     pub(super) fn outdate_fits(&mut self, key: ContourKey, there: Option<&[Range<usize>]>) {
         if let Some(own) = self.walls.get_mut(&key) {
             own.edited.merge(there);
@@ -84,9 +85,10 @@ impl Analysis {
             .retain(|(one, other), _| *one != key && *other != key);
     }
 
-    /// Where parts of pairs bind.
+    /// Reports where the parts of pairs bind.
     pub(super) fn report_fits(&mut self, drawing: &Drawing, report: &mut Report) {
-        // Fixes are held against each other by what is cheap to know.
+        // Where findings are only counted, to judge a fix, these are left out: they take too long
+        // to find.
         if !report.shows_findings() {
             return;
         }
@@ -100,18 +102,18 @@ impl Analysis {
         for &index in &paired.alone {
             self.report_alone(drawing, &paired.outlines[index], &paired.missing, report);
         }
-        // No partners any more.
+        // They are no longer partners.
         self.fits.retain(|_, answer| !answer.is_old);
     }
 
-    /// What are partners; `None` where nobody asks whether they fit.
+    /// How partners are determined; `None` where fits are not to be checked.
     pub(super) fn asked_partners(&self) -> Option<Partners> {
         self.settings.severity(Rule::DoesNotFit)?;
         let (partners, _) = self.settings.fit().ok()?;
         Some(partners)
     }
 
-    /// Which contours are pairs; `None` where nobody asks whether parts fit.
+    /// Which contours are pairs; `None` where fits are not to be checked.
     pub(super) fn paired(&mut self, drawing: &Drawing) -> Option<Paired> {
         let partners = self.asked_partners()?;
         let outlines = self.outlines(drawing).clone();
@@ -177,7 +179,7 @@ impl Analysis {
         }
     }
 
-    /// The knowledge of two partners, neither of which is crossed; worked out if necessary.
+    /// What is known of two partners, neither of which crosses itself; worked out if necessary.
     pub(super) fn fit_of(
         &mut self,
         drawing: &Drawing,
@@ -225,7 +227,7 @@ impl Analysis {
         }
     }
 
-    /// The knowledge of two partners that were held against each other before an edit, where both parts follow that.
+    /// What is known of two partners after an edit, if both parts could follow it from what was known before.
     fn followed(
         &mut self,
         drawing: &Drawing,
@@ -243,7 +245,7 @@ impl Analysis {
         if !is_sound(&of_punch, punch) || !is_sound(&of_plate, plate) {
             return None;
         }
-        // They are changed where they are, if nobody else looks at them.
+        // They are changed in place, if nothing else shares them.
         let known = self.fits.remove(&(one, other))?.known?;
         let edited = [of_punch, of_plate].map(|of| self.parts.remove(&of).map(|left| left.edited));
         let mut fitted = Arc::unwrap_or_clone(known);
@@ -267,7 +269,7 @@ impl Analysis {
             }
         }
         if have_any && !have_all {
-            // What was held is of no parts that are there.
+            // What was known belongs to parts that no longer exist.
             return None;
         }
         let known = Some(Arc::new(fitted));

@@ -1,27 +1,27 @@
-//! How all parts of pairs lie in each other: no repair may make that worse.
+//! How well all pairs fit: no repair may make that worse.
 
 use super::Analysis;
 use super::fits::Paired;
 use crate::drawing::Drawing;
 
-/// Looks at pairs of segments that take as long as to lay one segment of a part in the other.
+/// Laying one segment of a part in the other takes as long as this many looks at pairs of segments.
 const LOOKS_A_SEGMENT: u64 = 50;
 
-/// How the parts of all pairs lie in each other.
+/// How well the parts of all pairs fit.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Fitting {
     /// Pairs that could be laid in each other.
     pairs: usize,
     /// Places that bind.
     binding: usize,
-    /// The least clearance of all, or that which there should be.
+    /// The least clearance of all, at most the one that is set.
     least: f64,
     rounding: f64,
 }
 
 impl Fitting {
-    /// True where no pair is lost, no more places bind, and nowhere is less left than before. Where a pair has come to light, what it has to say
-    /// was there before.
+    /// True where no pair is lost, no more places bind, and nowhere is less left than before. The
+    /// faults of a pair that was not recognised before were there all the same.
     pub(super) fn is_no_worse_than(&self, before: &Fitting) -> bool {
         self.pairs > before.pairs
             || self.pairs == before.pairs
@@ -36,7 +36,7 @@ impl Fitting {
 }
 
 impl Analysis {
-    /// How the parts of all pairs lie in each other; `None` where there is no pair. The looks that it takes are added to `looks`.
+    /// How well the parts of all pairs fit; `None` where there is no pair. The looks that it takes are added to `looks`.
     pub(super) fn fitting(&mut self, drawing: &Drawing, looks: &mut u64) -> Option<Fitting> {
         let Paired {
             pairs, outlines, ..
@@ -66,7 +66,7 @@ impl Analysis {
         fitting
     }
 
-    /// True where an edit leaves all pairs lying in each other no worse than they do; `tried` is what holds behind it.
+    /// True where an edit makes no pair fit worse; `tried` is the state after it.
     pub(super) fn keeps_fits(
         &self,
         drawing: &Drawing,
@@ -80,9 +80,9 @@ impl Analysis {
         after.is_some_and(|after| after.is_no_worse_than(before))
     }
 
-    /// How the parts of all pairs of the present drawing lie in each other.
+    /// How well the pairs of the present drawing fit.
     pub(super) fn fitting_of(&self, drawing: &Drawing) -> Option<&Fitting> {
-        // Most drawings have no pairs, and a copy is dear.
+        // Most drawings have no pairs, and a copy is expensive.
         self.asked_partners()?;
         let fitting = || self.clone().fitting(drawing, &mut 0);
         self.fitting.get_or_init(fitting).as_ref()

@@ -12,7 +12,8 @@ use rustc_hash::FxHashMap;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Segments that are looked at to find which repairs of arcs below the correction would cause another fault.
+/// The most segments that are looked at to find which repairs of arcs below the correction would
+/// cause another fault.
 const MOST_TRIED: usize = 40_000;
 
 /// The same for looks at pairs of them: where many arcs crowd, each attempt compares all with each other.
@@ -22,9 +23,9 @@ const MOST_LOOKS: u64 = 5_000_000;
 const MOST_KEPT: usize = 16;
 
 impl Analysis {
-    /// Marks arcs whose repair would cause another fault as having none. Each takes a look at the drawing: where that
-    /// is more than [`MOST_TRIED`] segments in all, and beyond [`MOST_LOOKS`], it is found when the repair is asked
-    /// for.
+    /// Marks arcs whose repair would cause another fault as having no fix. Each takes a look at the
+    /// drawing: where that comes to more than [`MOST_TRIED`] segments in all, and beyond
+    /// [`MOST_LOOKS`], it is left until the repair is asked for.
     pub(super) fn give_reasons(&self, drawing: &Drawing, findings: &mut [Finding]) {
         let mut hopeful: Vec<(&mut SmallRadius, EntityId, usize)> = findings
             .iter_mut()
@@ -68,7 +69,7 @@ impl Analysis {
         if self.is_vast(drawing) {
             report.doubt_unit();
         }
-        // By nesting, the role of each depends on all.
+        // With nesting, the role of each depends on all.
         let nested: Option<FxHashMap<ContourKey, Role>> = (self.settings.side == SideSetting::Auto)
             .then(|| {
                 let ordered = self.in_machining_order(drawing);
@@ -208,7 +209,7 @@ impl Analysis {
         {
             counted.counts.local = known.counts(&outlook, side, open_is_an_error);
         }
-        // An open contour with a side is meant so.
+        // An open contour with a side is meant to be open.
         if what.as_a_whole && side.is_none() {
             counted.counts.whole = CONTOUR_RULES
                 .iter()
@@ -219,7 +220,8 @@ impl Analysis {
         counted
     }
 
-    /// The findings of the rules on whole contours in some, which have this many in all.
+    /// Adds the findings of the rules on whole contours for some contours, which have this many in
+    /// all.
     fn report_contours(
         &self,
         drawing: &Drawing,
@@ -234,7 +236,7 @@ impl Analysis {
         let doubled = self.pairs.doubled(&outlook);
         for rule in CONTOUR_RULES {
             let mildest = (rule.mildest)(&self.settings);
-            // What lies there twice is reported as that.
+            // A contour that is drawn twice is reported as a duplicate.
             let is_doubled = |outlook: &Outlook| {
                 let mut pieces = outlook.contour.pieces.iter();
                 pieces.all(|piece| doubled.contains(&piece.entity))
@@ -263,7 +265,7 @@ impl Analysis {
         }
     }
 
-    /// A suspended entity is not in the drawing.
+    /// True unless the contour is that of a suspended entity, which is not in the drawing.
     pub(super) fn is_there(&self, drawing: &Drawing, key: ContourKey) -> bool {
         let first = self.chains.first_of(key);
         first.is_some_and(|first| drawing.get(first).is_some())

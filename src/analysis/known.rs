@@ -14,7 +14,7 @@ use std::ops::Range;
 const AT_ONCE: usize = 256;
 /// Between runs farther apart than this, as the first and the last of a contour, segments are not at hand.
 const NEAR: usize = 4;
-/// Segments at hand before and behind them; others are worked out when a rule asks for them.
+/// Segments at hand before and after them; others are worked out when a rule asks for them.
 const ABOUT: usize = 32;
 
 #[derive(Clone, Debug)]
@@ -50,8 +50,9 @@ impl Known {
         }
     }
 
-    /// Runs every local rule on the segments of `changed` and those within its reach; on all behind when the number of
-    /// segments has changed. `all` is the whole contour, where that is at hand.
+    /// Runs every local rule on the segments of `changed` and those within its reach; on all later
+    /// ones when the number of segments has changed. `all` is the whole contour, where that is at
+    /// hand.
     pub(crate) fn check(
         &mut self,
         drawing: &Drawing,
@@ -208,7 +209,8 @@ impl Known {
         wire_side: Option<Side>,
         open_is_an_error: bool,
     ) -> impl Iterator<Item = OfRule<'a>> {
-        // An open contour is not cut: a finding that only spoils a cut is a hint until it is closed.
+        // An open contour is not cut: a finding that would only spoil the cut is a hint until it is
+        // closed.
         let waits = !outlook.contour.closed && wire_side.is_none() && open_is_an_error;
         let of_rules = LOCAL_RULES.iter().zip(&self.by_rule);
         of_rules.map(
@@ -252,7 +254,7 @@ struct OfRule<'a> {
     observations: &'a [Vec<Observation>],
 }
 
-/// An observation at the start of a closed contour is checked again.
+/// Whether an observation still holds; one at the start of a closed contour is checked again.
 fn holds(rule: &LocalRule, outlook: &Outlook, observation: &Observation) -> bool {
     observation.index > 0 || !outlook.contour.closed || (rule.holds)(outlook, *observation)
 }

@@ -37,7 +37,7 @@ impl Analysis {
         self.take_down(key, told);
     }
 
-    /// What findings of its own a contour may have, and whether it is larger than any machine.
+    /// Which findings of its own a contour may have, and whether it is larger than any machine.
     fn told_by(&self, drawing: &Drawing, key: ContourKey) -> (Option<Notability>, bool) {
         let of_contour = |outlook: Outlook| CONTOUR_RULES.iter().any(|rule| (rule.holds)(&outlook));
         let known = self.known.get(&key);
@@ -177,16 +177,17 @@ impl Analysis {
         let is_all = contour.pieces.len() == 1;
         let ranges = own.into_iter().map(|range| {
             let Range { start, end } = within(&piece, range);
-            // What lies behind has other indices now; in a piece travelled against its own direction, and in the pieces
-            // behind this one, that reaches past the splice.
+            // Later segments have other indices now; in a piece travelled against its own
+            // direction, and in the pieces after it, that reaches past the splice.
             start..if recounted { contour.len() } else { end }
         });
         let ranges: Vec<Range<usize>> = ranges.collect();
-        // What a pair rule sees at a segment depends on its neighbours, too. Runs behind a segment that came or went
+        // What a pair rule sees at a segment depends on its neighbours, too. Runs after a segment that came or went
         // have other segments.
         let mut runs = BTreeSet::new();
         for (nth, range) in ranges.iter().enumerate() {
-            // Of an entity that is a contour by itself nothing holds as a whole where no other comes near its ends.
+            // For an entity that is a contour by itself there is nothing to check as a whole where
+            // no other comes near its ends.
             let is_end = nth >= changed && is_all && !recounted;
             let bounds_of = |index: usize| known.index.bounds_of_run(index / RUN);
             if is_end && !self.pairs.comes_near_others(key, &bounds_of(range.start)) {
@@ -210,7 +211,7 @@ impl Analysis {
                 runs.extend(0..NEIGHBOURS.min(count).div_ceil(RUN));
             }
         }
-        // Two closed outlines that lie on each other begin where they like: what holds of both is kept where one of them begins.
+        // Two closed outlines that lie on each other may begin anywhere: what is known of both is kept where one of them begins.
         let is_ring = geometry.is_closed() && known.index.run_count() > 1;
         let beside = if is_ring {
             self.pairs.beside(key, known.index.run_count())
@@ -295,7 +296,7 @@ fn segments_of(
         return once(0..count).collect();
     };
     if removed != inserted {
-        // What lies behind the splice has other indices now; the segment before it has another end.
+        // Segments after the splice have other indices now; the segment before it has another end.
         let first = if closed && start == 0 {
             0
         } else {

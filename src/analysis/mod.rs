@@ -65,7 +65,7 @@ pub struct Analysis {
     chains: Chains,
     /// Shared with copies, which are made for tentative repairs.
     known: FxHashMap<ContourKey, Arc<Known>>,
-    /// Contours with findings that need no look at others: most have none.
+    /// Contours with findings that do not depend on others: most have none.
     notable: Notables,
     /// Contours larger than any machine.
     vast: FxHashSet<ContourKey>,
@@ -73,7 +73,7 @@ pub struct Analysis {
     segments: usize,
     /// The number of contours with a stated role.
     stated: usize,
-    /// Lines that stand alone, and which of them are not cut: nothing else is known of those.
+    /// Lines that stand alone, and which of them are not cut: nothing else is kept of those.
     lone: LoneLines,
     /// Once the neighbours of a single line have been asked for: the reaches of such lines, and the boxes of known
     /// contours of several runs.
@@ -84,13 +84,13 @@ pub struct Analysis {
     /// of it is kept until the next change. Nothing of it shows, since it is not in the drawing.
     suspended: Option<Suspended>,
     pairs: Pairs,
-    /// Whether a fix was found for a fault, and the region on which the answer depends.
+    /// Whether a fix was found for a fault, and the region on which that depends.
     answers: FxHashMap<(ContourKey, usize), (Option<NoFix>, Bounds)>,
     /// What the offset of a contour loses, for a side and with or without a neck.
     lost: FxHashMap<ContourKey, Answer>,
     /// What was found between partners, or for a contour that is cut twice.
     fits: FxHashMap<(ContourKey, ContourKey), fits::Answer>,
-    /// What the wire leaves of contours of a pair.
+    /// What the wire leaves of the contours of pairs.
     parts: FxHashMap<(ContourKey, Role), fits::Left>,
     /// The segments of contours that may belong to a pair, for questions about what is near.
     walls: FxHashMap<ContourKey, own_walls::Own>,
@@ -100,11 +100,12 @@ pub struct Analysis {
     outlines: OnceLock<Arc<Vec<Outline>>>,
     /// All findings, once they have been asked for.
     tally: OnceLock<Tally>,
-    /// How parts of pairs lie in each other, once that has been asked for.
+    /// How well pairs fit, once that has been asked for.
     fitting: OnceLock<Option<Fitting>>,
 }
 
-/// A removed entity of which everything is still known, and what was told of pairs while it was there.
+/// A removed entity of which everything is still known, and the findings about pairs while it was
+/// there.
 #[derive(Clone, Debug)]
 struct Suspended {
     entity: EntityId,
@@ -150,7 +151,7 @@ impl Analysis {
                 analysis.note_aside(drawing, id);
             }
         }
-        // In machining order: where not all is compared, it is the same that is left out, however the drawing came about.
+        // In machining order: where not all can be compared, the same is left out however the drawing came about.
         let keys = analysis.in_machining_order(drawing).to_vec();
         analysis.order = OnceLock::new();
         let segments = keys
@@ -221,7 +222,7 @@ impl Analysis {
             }
             (None, _) => {}
         }
-        // What lone lines are asked about again.
+        // The places about which lone lines are judged again.
         let mut changed = Vec::new();
         for touched in &delta.touched {
             let (entity, vertices) = match *touched {
@@ -260,7 +261,8 @@ impl Analysis {
         let rechained = self.chains.update_parts(drawing, &moved, &|id| {
             contours::part_of(drawing, &settings, id)
         });
-        // Thousands of contours with ends in one place are one group, and lie on each other: to forget each of them costs a look at all.
+        // Thousands of contours with ends in one place are one group, and lie on each other:
+        // forgetting each of them costs a look at all.
         let gone = rechained.gone.len();
         if gone > MANY && gone * 4 > self.known.len() {
             *self = Analysis::new(drawing, settings);
@@ -341,7 +343,7 @@ impl Analysis {
         if self.is_most(delta) || !self.settings.points.is_empty() {
             return Analysis::new(drawing, self.settings.clone());
         }
-        // What is only tried does not ask for a look at everything.
+        // A tentative edit is not worth a look at everything.
         let mut analysis = self.clone();
         analysis.pairs.refill();
         analysis.look_at_touched(drawing, delta);

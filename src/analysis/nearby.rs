@@ -1,5 +1,5 @@
-//! A part of the drawing about an edit, in which what the edit does is the same as in the whole: to know whether a repair helps, only what is
-//! near it is looked at.
+//! A part of the drawing about an edit, in which the edit has the same effect as in the whole: to
+//! know whether a repair helps, only what is near it is looked at.
 
 use super::Analysis;
 use super::known::Known;
@@ -15,7 +15,8 @@ use std::sync::Arc;
 /// In a smaller drawing, in segments, a look at all of it costs no more. Tests go this way with small ones.
 const SMALL: usize = if cfg!(test) { 16 } else { 4096 };
 
-/// What may matter to an observation lies within so many reaches of the rules: the other segment, and what lies in the disc between two.
+/// What may matter to an observation lies within this many reaches of the rules: the other segment,
+/// and what lies in the disc between two.
 const REACHES: f64 = 3.0;
 
 /// The contours that an edit touches and all that come near them, as a drawing of its own.
@@ -27,7 +28,8 @@ struct Nearby {
 }
 
 impl Analysis {
-    /// What an edit makes of the drawing; where it is only asked whether there is a repair, of what is near it, if that tells the same.
+    /// What an edit makes of the drawing; if only the existence of a repair is asked for, of the
+    /// part near it, where that gives the same answer.
     pub(super) fn made_of<M>(
         &self,
         drawing: &Drawing,
@@ -47,8 +49,9 @@ impl Analysis {
         tried
     }
 
-    /// What is near an edit, where it is only asked whether there is a repair. What the edit adds to the findings of that part and takes
-    /// from them, it adds to those of the whole and takes from them. `None` where only the whole can tell.
+    /// The part near an edit, if only the existence of a repair is asked for. The edit adds and
+    /// removes the same findings in that part as in the whole. `None` where only the whole can
+    /// tell.
     fn nearby(&self, drawing: &Drawing, edit: &DrawingEdit, wanted: Wanted) -> Option<Nearby> {
         if !wanted.first_will_do || self.segments < SMALL || self.hangs_on_all() {
             return None;
@@ -73,7 +76,7 @@ impl Analysis {
                 near.extend(self.chains.grouped_with(key));
             }
         });
-        // Where no contour is large enough to be cut, the unit is in doubt: one that stays tells that it is not.
+        // Where no contour is large enough to be cut, the unit is in doubt: one that stays shows that it is not.
         let stays = self.sizable_beside(drawing, &near)?;
         near.extend(self.chains.grouped_with(stays).iter().chain([&stays]));
         let mut of = FxHashSet::default();
@@ -112,7 +115,7 @@ impl Analysis {
         })
     }
 
-    /// A contour of few segments that is large enough to be cut, and none of these.
+    /// A contour of few segments that is large enough to be cut and is none of these.
     fn sizable_beside(
         &self,
         drawing: &Drawing,
@@ -128,7 +131,7 @@ impl Analysis {
         found.map(|(&key, _)| key)
     }
 
-    /// True where a finding may depend on what is far off.
+    /// True where a finding may depend on something far off.
     fn hangs_on_all(&self) -> bool {
         let settings = &self.settings;
         settings.side != SideSetting::Both
@@ -261,7 +264,7 @@ mod tests {
         }
     }
 
-    /// A kind of figure, its size, its column and row, and how far it is beside that place.
+    /// A kind of figure, its size, its column and row, and its offset from that place.
     type Figure = (usize, f64, (i32, i32), (f64, f64));
 
     fn drawn(figures: &[Figure], pitch: f64) -> Drawing {
@@ -275,7 +278,8 @@ mod tests {
         drawing
     }
 
-    /// How many tries were made in a part, and whether each way to ask tells the same as all repairs.
+    /// How many tries were made in a part, and whether each way to ask gives the same answer as
+    /// making all repairs.
     fn asked(drawing: &Drawing) -> (usize, [bool; 3]) {
         let mut analysis = Analysis::new(drawing, Arc::new(Effective::default()));
         let (found, _) = analysis.findings(drawing, usize::MAX);
@@ -291,7 +295,8 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
 
-        /// The figures of a small pitch lie in each other's reach, and what decides may lie at the border of the part.
+        /// At a small pitch the figures lie within each other's reach, and what decides may lie at
+        /// the border of the part.
         #[test]
         fn a_part_tells_of_a_repair_where_the_whole_does(
             figures in prop::collection::vec(

@@ -23,7 +23,7 @@ pub(super) struct Notable {
     pub(super) counted: Option<Counted>,
 }
 
-/// The question about such a contour.
+/// What is to be asked about such a contour.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Notability {
     pub(super) has_tight_arcs: bool,

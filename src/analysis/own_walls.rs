@@ -25,14 +25,14 @@ impl Own {
         }
     }
 
-    /// What is known of it holds.
+    /// True where what is known of it still holds.
     pub(super) fn is_new(&self) -> bool {
         !self.edited.is_any()
     }
 }
 
 impl Analysis {
-    /// The segments of contours that have been edited as they are now, and which of these still run beside each other.
+    /// Updates the segments of edited contours, and which of them still run beside each other.
     pub(super) fn walls_again(
         &mut self,
         drawing: &Drawing,
@@ -64,7 +64,7 @@ impl Analysis {
     }
 }
 
-/// The segments of a contour that has been edited as they are now, and those that are gone and new.
+/// The present segments of an edited contour, and those that are gone or new.
 fn walls_since(
     own: Own,
     drawing: &Drawing,
@@ -82,7 +82,7 @@ fn walls_since(
         let now = outline.contour.segment(drawing, index)?.geometry;
         (now != *walls.segment(index)).then_some((index, now))
     };
-    // One may be in several of the stretches.
+    // A segment may be in several of the stretches.
     let new = within.iter().cloned().flatten().filter_map(segment);
     let new: BTreeMap<usize, Segment> = new.collect();
     let new: Vec<(usize, Segment)> = new.into_iter().collect();

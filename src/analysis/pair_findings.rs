@@ -1,4 +1,4 @@
-//! The observations between segments as findings, and for rules that make findings of them.
+//! The observations between segments, as findings and for rules that derive findings from them.
 
 use super::compare::{Observed, Outlooks, SegmentId};
 use super::pairs::Pairs;
@@ -14,7 +14,8 @@ use std::sync::Arc;
 /// Two segments of a contour that form a slot, and the disc between them.
 pub(crate) type Slot = ([usize; 2], Option<(Point, f64)>);
 
-/// Two segments of a contour that form a slot, and the side of travel that it lies on, `None` where any.
+/// Two segments of a contour that form a slot, and the side of travel that it lies on, `None` for
+/// either side.
 pub(crate) type FacingWalls = ([usize; 2], Option<Side>);
 
 impl Pairs {
@@ -172,7 +173,7 @@ impl Pairs {
         let concerned = |key: ContourKey, side: Option<Side>| {
             side.is_none() || side_of(key).is_none() || side == side_of(key)
         };
-        // Slots that are milled along their middle have no walls to be near to each other.
+        // Slots that are milled along their middle have no walls that could be too near each other.
         let is_middle = |key: ContourKey| {
             outlook(key).is_some_and(|it| report.settings.goes_along_middle(it.contour.closed))
         };
@@ -198,8 +199,9 @@ impl Pairs {
             .filter(is_double)
             .map(|(_, ends, _)| (ends.0.0, ends.1.0))
             .collect();
-        // What lies in one place several times, and all that a contour has of it, is one finding, at the first; what can be deleted apart
-        // from what cannot.
+        // All entities that lie in one place, and all such duplicates of a contour, are one
+        // finding, at the first of them; those that can be deleted are separate from those that
+        // cannot.
         let later: FxHashSet<EntityId> = doubles.iter().map(|(_, other)| *other).collect();
         let outline = |ends: &Ends, each: &Observed| (each.one.0, drawing.is_editable(ends.1.0));
         let mut others: FxHashMap<(ContourKey, bool), Doubles> = FxHashMap::default();
@@ -215,8 +217,9 @@ impl Pairs {
             &seen.iter().map(|(_, _, each)| *each).collect::<Vec<_>>(),
             &|key| outlook(key).map(|it| it.contour.len()),
         );
-        // What is open is not cut, and an error of its own: how near it comes to others, and what it touches or crosses is asked again
-        // when it is closed; what open ones run on among themselves is a hint until then, since that has a fix.
+        // An open contour is not cut, and is an error of its own: how near it comes to others, and
+        // what it touches or crosses, is checked once it is closed; overlaps among open contours
+        // are hints until then, since they have a fix.
         let doubled: FxHashSet<EntityId> = doubles
             .iter()
             .flat_map(|(one, other)| [*one, *other])

@@ -18,9 +18,9 @@ use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering::Relaxed};
 
 /// Runs that are compared in parallel: results beyond the bounds are dropped.
 const BATCH: usize = 8192;
-/// From this many runs on all that has been seen is asked about them, not each of them about it, and the walls of each are kept.
+/// From this many runs on, what has been seen is checked in one pass, and the walls are kept.
 const MANY_RUNS: usize = 512;
-/// From this many runs on several threads are worth while.
+/// From this many runs on, several threads are worth while.
 const SEVERAL_RUNS: usize = if cfg!(test) { 2 } else { 64 };
 /// Runs per task, of many and of fewer.
 const SHARE: usize = 64;
@@ -57,11 +57,11 @@ pub(crate) struct Pairs {
     /// The dead ends, and the runs about which something has come or gone since these were found.
     pub(super) ends: Option<DeadEnds>,
     pub(super) changed: FxHashSet<RunId>,
-    /// There are workpieces: those do not meet.
+    /// There are workpieces, which are not compared with each other.
     are_parts: bool,
 }
 
-/// What is told of pairs, set aside.
+/// The findings about pairs, set aside.
 #[derive(Clone, Debug)]
 pub(super) struct ToldAside {
     told: Option<Arc<Told>>,
@@ -99,12 +99,12 @@ impl Pairs {
         self.is_within_budget() || self.is_settled()
     }
 
-    /// Segments have other numbers, or entities another order.
+    /// To be called when segments have other indices, or entities another order.
     pub(crate) fn renumber(&mut self) {
         (self.told, self.ends) = (None, None);
     }
 
-    /// Takes away what is told, which holds again once the contour that goes now is back.
+    /// Takes away the findings, which hold again once the contour that is now removed is back.
     pub(super) fn set_told_aside(&mut self) -> ToldAside {
         ToldAside {
             told: self.told.take(),
@@ -117,12 +117,12 @@ impl Pairs {
         (self.told, self.ends, self.changed) = (aside.told, aside.ends, aside.changed);
     }
 
-    /// Everything has been compared, in the order of the drawing.
+    /// To be called when everything has been compared, in the order of the drawing.
     pub(crate) fn settle(&mut self) {
         self.is_disturbed = false;
     }
 
-    /// True where a full comparison ends at the limit, and changes since are only behind that end: another full
+    /// True where a full comparison ends at the limit, and changes since are only after that end: another full
     /// comparison would end there again.
     fn is_settled(&self) -> bool {
         let half = self.granted / 2;
@@ -139,8 +139,8 @@ impl Pairs {
         self.uncompared.contains(run) && !self.partners.contains_key(run)
     }
 
-    /// Each present pair has been compared at least once: where that took no more than half of the looks, a full
-    /// comparison would finish, too. Otherwise the order decides what is left out, so everything must be compared.
+    /// True where a full comparison would finish: comparing each present pair at least once took at
+    /// most half of the looks. Otherwise the order decides what is left out: compare everything.
     fn is_within_budget(&self) -> bool {
         let half = self.granted / 2;
         self.uncompared.is_empty()
@@ -157,7 +157,7 @@ impl Pairs {
         let is_complete = if self.seen_count < self.most_seen {
             self.uncompared.is_empty()
         } else {
-            // Of this contour more is seen than is looked for; without it the limit is not reached.
+            // More is seen of this contour than is looked for; without it the limit is not reached.
             let among_others = |each: &&Observed| each.one.0 != key && each.other.0 != key;
             self.uncompared.iter().all(|run| run.0 == key)
                 && self.seen.all().filter(among_others).count() < self.most_seen
@@ -219,7 +219,7 @@ impl Pairs {
         self.grid.any_near(&area, |(other, _)| other != key)
     }
 
-    /// A run has come or gone within these bounds.
+    /// To be called when a run has come or gone within these bounds.
     fn disturb(&mut self, of: RunId, bounds: &Bounds) {
         if self.partners.is_empty() {
             return;
@@ -243,7 +243,7 @@ impl Pairs {
         }
     }
 
-    /// The same for many new runs: each of the others is asked whether one of these has come near.
+    /// The same for many new runs: each of the others is checked for one of these near it.
     fn disturb_about(&mut self, outlook: Outlooks, new: &FxHashMap<RunId, u32>) {
         let is_disturbed = |run: &&RunId| {
             let bounds = outlook(run.0).map(|it| it.index.bounds_of_run(run.1 as usize));
@@ -300,11 +300,11 @@ impl Pairs {
                 }
             }
         }
-        // A new run may or may not be behind the end of the comparison.
+        // A new run may or may not be after the end of the comparison.
         let is_again = runs.iter().all(|run| self.again.holds(run));
         let is_known = |run| self.untold.contains(run) || self.again.holds(run);
         self.is_disturbed |= !runs.iter().all(is_known);
-        // What has been compared is compared again to its end.
+        // Runs that had been compared are compared again completely.
         let most_seen = self.most_seen.saturating_mul(1 + usize::from(is_again));
         for run in runs {
             self.disturb_ends(*run);
@@ -398,15 +398,15 @@ impl Pairs {
         if self.is_disturbed && !self.uncompared.is_empty() {
             self.told = None;
         }
-        // A long line that comes or goes may make many stale that it comes nowhere near.
+        // A long line that comes or goes may mark many runs as stale that it comes nowhere near.
         let stale: Vec<RunId> = self.stale.iter().copied().collect();
         let shells =
             shells.or_else(|| shells_where_crowded(&self.grid, self.reach, outlook, &stale));
         self.ask_again(&mut kept, limits, shells.as_ref());
     }
 
-    /// Checks whether the discs of the stale runs' observations are empty, while looks are left. The others make no
-    /// findings.
+    /// Checks whether the discs of the stale runs' observations are empty, while looks are left.
+    /// Those whose discs remain unchecked give no findings.
     fn ask_again(&mut self, kept: &mut Kept, limits: &Limits, shells: Option<&Shells<RunId>>) {
         let mut left = self.left_to_ask;
         let stale = std::mem::take(&mut self.stale);

@@ -26,7 +26,7 @@ impl Analysis {
         if !of_rules || sides.iter().all(Option::is_none) {
             return;
         }
-        // Without the rules that find them, a neck is assumed, and a crossing is not.
+        // Where the rules that find them are off, a neck is assumed, and a crossing is not.
         let necks_are_told = is_on(Rule::NarrowSlot);
         for (&key, &side) in ordered.iter().zip(sides) {
             let Some(side) = side.filter(|_| !self.pairs.seen.crossings.contains_key(&key)) else {
@@ -54,7 +54,8 @@ impl Analysis {
                     },
                 );
             }
-            // Fixes are compared by what is cheap to know.
+            // Where findings are only counted, to judge a fix, these are left out: they take too
+            // long to find.
             if report.shows_findings()
                 && self
                     .lost

@@ -1,5 +1,5 @@
-//! A cheap first test of a tentative edit: rejects repairs that open a contour before anything is compared. Looking at
-//! the contours costs a small part of looking at the drawing.
+//! A cheap first test of a tentative edit: rejects repairs that open a contour before anything is
+//! compared. That costs a small fraction of looking at the whole drawing.
 
 use super::Analysis;
 use super::contours::{part_of, role_of};
@@ -61,7 +61,7 @@ impl Analysis {
                 && !touched.contains(&piece.entity)
                 && box_of(piece.entity).is_some_and(is_apart)
         };
-        // One piece that is no double is enough.
+        // One piece that is not a double is enough.
         let mut plainly = open.filter(|contour| contour.pieces.iter().any(lies_alone));
         plainly.nth(told_before).is_some()
     }

@@ -11,16 +11,17 @@ use std::borrow::Cow;
 /// would be moved.
 pub(super) const FIRST: [Rule; 2] = [Rule::DuplicateEntity, Rule::Overlap];
 
-/// The rules whose safe repairs it makes after that: those of the first rule that has any.
+/// The rules whose safe repairs it makes after that: only those of the first rule that has any.
 pub(super) const THEN: [Rule; 3] = [Rule::ShortSegment, Rule::Gap, Rule::ArcAsChords];
 
-/// Edits that are tried before a rule is given up: each costs a look at the drawing. In a large one, enough to read
-/// about this many segments, and at least two; few where not even the present drawing has been compared completely.
+/// Edits that are tried before a rule is given up: each costs a look at the drawing. In a large
+/// drawing, as many as read about this many segments, but at least two; few where not even the
+/// present drawing has been compared completely.
 const TRIES: usize = 24;
 const FEW_TRIES: usize = 6;
 const SEGMENTS: usize = 4_000_000;
 
-/// Edits that the contours alone refuse, which together cost as much as one look.
+/// The number of edits rejected by the contours alone that together cost as much as one look.
 const ON_SIGHT: usize = 16;
 
 /// Parts that are tried one by one where only one is wanted, or all together do nothing.
@@ -60,7 +61,7 @@ impl<M> Tried<M> {
     }
 }
 
-/// Whether the edit of one fix can be made in the source of the drawing; of all fixes where there is none to ask.
+/// Whether the edit of one fix can be made in the source of the drawing; `None` where every edit can.
 pub(super) type Can<'a> = Option<&'a dyn Fn(&DrawingEdit) -> bool>;
 
 /// Which of the safe repairs are wanted.
@@ -143,7 +144,8 @@ impl Analysis {
     }
 
     /// True when an edit that makes an arc larger leaves fewer tight arcs, no more errors, and no new open end,
-    /// overlap, crossing or crumb. Of two identical lines only one is moved: then the contour falls apart.
+    /// overlap, crossing or crumb. If only one of two identical lines is moved, the contour falls
+    /// apart.
     ///
     /// An arc that keeps its ends leaves the same material even if another rule, `spared`, then reports it. The looks
     /// that this takes are added to `looks`.
@@ -170,7 +172,7 @@ impl Analysis {
             && self.keeps_fits(drawing, (&mut tried, &edited), looks)
     }
 
-    /// One edit that makes the safe repairs of one of the rules, all that do not collide.
+    /// One edit that makes all safe repairs of one of the rules that do not collide.
     pub(super) fn fix_all_else(
         &self,
         drawing: &Drawing,
@@ -200,7 +202,7 @@ impl Analysis {
                 let fix = fixes
                     .into_iter()
                     .find(|fix| fix.preferred && fix.in_fix_all)?;
-                // An impossible one must not block the others.
+                // An impossible repair must not block the others.
                 let accepted = fix
                     .edit
                     .changes
@@ -292,8 +294,9 @@ impl Analysis {
     }
 }
 
-/// The result of as many parts as go together: where all of them do not, each half is tried beside those taken so far,
-/// then the halves of that half. `made` is given the parts and the result of those taken so far.
+/// The result of as many parts as go together: if not all of them do, each half is tried together
+/// with those taken so far, then the halves of that half. `made` is given the parts and the result
+/// of those taken so far.
 ///
 /// Where no try succeeds, the first [`ALONE`] are tried each by itself; if one is enough, they are tried before all others.
 pub(super) fn most_together<T: Clone, M>(

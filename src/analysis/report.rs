@@ -26,7 +26,7 @@ pub(crate) struct Tally {
     pub(crate) unseen: usize,
 }
 
-/// Rules that have more to say where a contour becomes plainer: corners that were hidden in a short segment or beside a gap.
+/// Rules that may find more when a contour becomes cleaner: corners that were hidden by a short segment or a gap.
 const CORNERS: [Rule; 3] = [Rule::SharpCorner, Rule::NearTangent, Rule::ArcAsChords];
 
 /// Rules that say nothing beside a tight arc.
@@ -64,7 +64,7 @@ impl Tally {
 
     /// Where new pairs have been compared, more findings do not mean more faults.
     fn brings_nothing_new(&self, before: &Tally, is_spared: impl Fn(Rule) -> bool) -> bool {
-        // Where a contour comes to be closed, an end that does not quite meet is what is left of the opening.
+        // Where a contour has become closed, ends that do not quite meet are what is left of the opening.
         let is_closed = self.of(Rule::OpenContour) < before.of(Rule::OpenContour);
         let is_spared = |rule| is_spared(rule) || (rule == Rule::Gap && is_closed);
         self.unseen < before.unseen
@@ -103,7 +103,7 @@ impl Report {
         self.limit > 0
     }
 
-    /// True where the settings take a contour as the path of the wire.
+    /// True where the settings say that contours are the path of the wire itself.
     pub(crate) fn is_for_a_path(&self) -> bool {
         self.settings.compensation == Compensation::None
     }
@@ -128,7 +128,7 @@ impl Report {
             .severity_over(rule, if doubtful { Severity::Hint } else { own })
     }
 
-    /// Counts a finding. True when it should be worked out and added.
+    /// Counts a finding. True when the finding should be worked out and added.
     pub(crate) fn counts(&mut self, rule: Rule, mildest: Option<Severity>) -> bool {
         self.count(rule, mildest, 1);
         !self.is_full(rule, mildest)
@@ -143,7 +143,7 @@ impl Report {
         self.enter(rule, severity, count);
     }
 
-    /// Counts a finding for which another one stands: it weighs where drawings are compared, and is not reported.
+    /// Counts findings that another one stands for: they count when drawings are compared, and are not reported.
     pub(crate) fn weigh(&mut self, rule: Rule, mildest: Option<Severity>, count: usize) {
         if let Some(severity) = self.severity(rule, mildest) {
             self.enter(rule, severity, count);

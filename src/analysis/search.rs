@@ -71,7 +71,7 @@ impl Search<'_> {
         let area = own.index.bounds_of_run(run.1 as usize).grown(self.reach);
         let mut near = Vec::new();
         let found = |other, bounds: &Bounds| {
-            // Two new runs are compared once.
+            // Two new runs are compared only once.
             if self.new.get(&other).is_none_or(|&its| at <= its as usize) {
                 near.push((other, *bounds));
             }
@@ -86,7 +86,7 @@ impl Search<'_> {
         }
         let walls = match near.as_slice() {
             [] => return looked,
-            // What nothing else comes near is not needed again.
+            // The walls of a run that nothing else comes near are not needed again.
             [(alone, _)] if *alone == run => Rc::new(Walls::of(&own, run.1)),
             _ => match kept.walls_of(run) {
                 Some(walls) => walls,
@@ -114,7 +114,7 @@ impl Search<'_> {
                 break;
             }
             let mut found = Vec::new();
-            // Of what is not needed again only those that come near.
+            // Of walls that are not needed again, only those that come near.
             let theirs = match self.keeps {
                 _ if other == run => None,
                 true => kept.walls_of(other),
@@ -136,7 +136,8 @@ impl Search<'_> {
     }
 }
 
-/// All runs by how they lie within each other, where the boxes near most new runs are too many to tell much.
+/// An index of all runs by how they lie within each other, where most new runs have too many boxes
+/// near them for the grid to help.
 pub(super) fn shells_where_crowded(
     grid: &Grid<RunId>,
     reach: f64,

@@ -1,5 +1,5 @@
-//! What settings and drawing say of single entities: findings that somebody has suppressed, listed apart with the
-//! reason; and settings for contours that do not exist.
+//! What the settings and the drawing say about single entities: findings that somebody has
+//! suppressed, listed apart with the reason; and settings for contours that do not exist.
 
 use super::Analysis;
 use crate::drawing::{Drawing, EntityId, Role, SUPPRESS, mark_of_layer};

@@ -36,7 +36,8 @@ pub(super) struct ToldPair {
     pub(super) crossings: Option<Crossings>,
 }
 
-/// The others that a segment crosses or touches, if they are many: reported once, at that segment.
+/// The other segments that a segment crosses or touches, if they are many: reported once, at that
+/// segment.
 #[derive(Debug)]
 pub(super) struct Crossings {
     pub(super) of: SegmentId,
@@ -51,8 +52,8 @@ const MANY: usize = 16;
 /// The number of others that are named.
 const NAMED: usize = 8;
 
-/// Reports the crossings of each segment that has many as one: the first stays. Returns the rule and severity of those
-/// for which it stands.
+/// Reports the crossings of each segment with many of them as one: the first stays. Returns the
+/// rule and severity of those for which it stands.
 pub(super) fn gather_crossings(pairs: &mut Vec<ToldPair>) -> Vec<(usize, Option<Severity>)> {
     let is_crossing = |pair: &&ToldPair| PAIR_RULES[pair.rule].rule == Rule::SelfIntersection;
     let mut counts: FxHashMap<(SegmentId, Option<Severity>), usize> = FxHashMap::default();
@@ -65,7 +66,7 @@ pub(super) fn gather_crossings(pairs: &mut Vec<ToldPair>) -> Vec<(usize, Option<
     if counts.is_empty() {
         return Vec::new();
     }
-    // Where two such segments meet, the one with more stands for it.
+    // Where two such segments meet, the one with more crossings stands for the pair.
     let of = |pair: &ToldPair| {
         let count = |of: SegmentId| counts.get(&(of, pair.mildest)).copied();
         let (one, other) = (count(pair.one), count(pair.other));
@@ -139,7 +140,7 @@ impl Told {
     }
 }
 
-/// Those of `seen` for which another one stands: of neighbouring pairs with one observation, all except the one with
+/// Those of `seen` that another one stands for: of neighbouring pairs with one observation, all except the one with
 /// the smallest disc.
 pub(super) fn merged(
     seen: &[&Observed],

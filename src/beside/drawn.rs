@@ -63,7 +63,7 @@ impl Drawn {
         }
     }
 
-    /// The contours that are cut; what lies twice is taken once.
+    /// The contours that are cut; what is drawn twice is taken once.
     pub(super) fn contours(&self) -> &[Contour] {
         let cut = self.cut().map(|outline| Contour {
             segments: outline.contour.segments(&self.drawing).collect(),
@@ -127,7 +127,7 @@ impl Drawn {
         }
     }
 
-    /// What has been guessed of a program of it.
+    /// What has been inferred about programs written for it.
     pub(super) fn cache(&self) -> &Cache {
         &self.cache
     }

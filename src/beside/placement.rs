@@ -248,7 +248,7 @@ impl Placement {
             let merged = share > 0.0;
             if off.norm() <= ROUNDED + unsure && is_last.abs() <= 4.0 * ROUNDED + 1e-3 * length {
                 let fits = alike(&way, &rest)
-                    // One piece is held against its middle below.
+                    // A single piece is compared at its middle below.
                     && (self.exact && !merged || goes_along(1.0))
                     && self.coming_back(rounds, next == Some(*entry), entry).fits(
                         &way,

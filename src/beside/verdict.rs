@@ -70,9 +70,10 @@ pub(super) fn rank(traced: &Traced, told: &Told) -> ((bool, usize, bool), usize,
 /// the last block, or has one change that is too large for a correction.
 pub(super) fn is_told(traced: &Traced, told: &Told) -> bool {
     let all = &told.comparison.differences;
-    // Several that are far off are so because the guess goes another way.
+    // Several large differences come from a guess that goes another way.
     let is_little = |one: &Difference| one.off <= FAR || one.kind == Kind::Stated;
-    // Of so few that are alike none speaks for the guess; and what is off by little is so by a tenth of a micrometre of a correction.
+    // Where so few blocks agree, none supports the guess; and a slight difference may come from a tenth of a micrometre
+    // of a correction.
     let is_slight = |one: &Difference| one.kind == Kind::Block && one.off < SLIGHTLY;
     // Coordinates that stand behind a block are others where the wire comes from elsewhere.
     let is_of_ways = |one: &Difference| one.kind == Kind::Stated && told.ways > 0;

@@ -7,7 +7,8 @@ use similar::udiff::UnifiedHunkHeader;
 use similar::{Algorithm, ChangeTag, capture_diff_slices, group_diff_ops};
 use std::path::Path;
 
-/// A unified diff with three lines of context: for people with colours and readable, else in the file's own bytes.
+/// A unified diff with three lines of context: for people with colours and made readable, else in
+/// the file's own bytes.
 pub(crate) fn print_diff(
     path: &Path,
     before: &[u8],
@@ -70,7 +71,8 @@ fn push_bytes(text: &mut Vec<u8>, _: anstyle::Style, line: &[u8]) {
     }
 }
 
-/// A line in a style; its line end stands behind the colours, which would reach into the next line's margin.
+/// A line in a style; its line end comes after the end of the colours, which would otherwise reach
+/// into the next line's margin.
 fn push_readable_line(text: &mut Vec<u8>, style: anstyle::Style, line: &[u8]) {
     let end = line
         .iter()

@@ -63,7 +63,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     Ok(Verdict::Clean)
 }
 
-/// The way of the wire of a program.
+/// The path of the wire in a program.
 fn draw_program(arguments: &Arguments, document: &Document) -> Result<Verdict, Failure> {
     let Some(form) = form_of(arguments.output.as_deref()) else {
         let path = arguments.path.display();
@@ -81,7 +81,7 @@ fn draw_program(arguments: &Arguments, document: &Document) -> Result<Verdict, F
     Ok(Verdict::Clean)
 }
 
-/// Layer of the wire's path in a new drawing; the passes after the first have their number behind it.
+/// Layer of the wire's path in a new drawing; for the passes after the first their number follows.
 const WIRE: &str = "WIRE";
 
 /// A new drawing of the contours as they are, with the wire's path as LINE, ARC and CIRCLE on layers of its own.

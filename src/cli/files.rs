@@ -26,7 +26,7 @@ pub(crate) struct Opened {
     pub(crate) seen: Seen,
     /// The encoding of a program, which is kept.
     pub(crate) writing: Writing,
-    /// Misfits in settings files; the other settings apply.
+    /// Faults in settings files; the other settings apply.
     pub(crate) settings_rows: Vec<Row>,
 }
 
@@ -60,7 +60,7 @@ pub(crate) fn open(path: &Path, common: &Common, last: &Settings) -> Result<Open
     })
 }
 
-/// The same for a file that is only checked. The text of a large drawing is not kept, but read again where somebody asks for it: it may be lost.
+/// The same for a file that is only checked. The text of a large drawing is not kept but read again where it is needed; by then it may be gone.
 pub(crate) fn open_to_check(
     path: &Path,
     common: &Common,
@@ -78,7 +78,7 @@ pub(crate) fn open_to_check(
     Ok((document(kind, bytes, settings, again).0, rows))
 }
 
-/// What decides how a file is read: its kind, the settings, and the misfits in these.
+/// What decides how a file is read: its kind, the settings, and the faults in these.
 fn kind_and_settings(
     path: &Path,
     common: &Common,
@@ -94,7 +94,7 @@ fn kind_and_settings(
     Ok((kind, Arc::new(settings), rows))
 }
 
-/// The text from stdin, read as a file of the given name, and the misfits in its settings. Without a name it is a
+/// The text from stdin, read as a file of the given name, and the faults in its settings. Without a name it is a
 /// drawing unless it reads as a program.
 pub(crate) fn open_stdin(
     given: Option<&Path>,
@@ -124,7 +124,7 @@ const LARGE: usize = if cfg!(debug_assertions) {
     16 * 1024 * 1024
 };
 
-/// A file, and whether it is none but a file.
+/// A file, and whether it is a regular one.
 fn regular(path: &Path) -> Result<(File, bool), String> {
     let file = File::open(path).map_err(|error| plain(&error))?;
     let is_regular = file.metadata().map_err(|error| plain(&error))?.is_file();
@@ -135,7 +135,7 @@ fn read(file: &File, is_regular: bool) -> Result<Vec<u8>, String> {
     disk::read_at_most(file, if is_regular { LARGEST } else { LARGEST_STREAM })
 }
 
-/// The same for a command that makes something of the file, not in its place. It refuses doubtful settings.
+/// The same for a command that makes something else from the file. It refuses faulty settings.
 pub(crate) fn open_to_use(
     path: &Path,
     target: Option<&Path>,
@@ -183,7 +183,7 @@ impl Opened {
 /// How much of a file is read to find its kind.
 const HEAD: u64 = 64 * 1024;
 
-/// The beginning of a regular file; nothing is taken from others, such as a pipe.
+/// The beginning of a regular file; nothing is read from others, such as a pipe.
 fn head(path: &Path) -> Option<Vec<u8>> {
     let file = File::open(path).ok()?;
     let mut head = Vec::new();
@@ -315,7 +315,7 @@ fn project_file(path: &Path) -> Option<PathBuf> {
         .ancestors()
         .map(|folder| folder.join(settings::FILE_NAME))
         .find(|file| file.is_file())?;
-    // A file that lies beside the input is named as the input is.
+    // A file beside the input is named with the input's own path.
     match path.parent() {
         Some(parent) if file.parent() == Some(&folder) => Some(parent.join(settings::FILE_NAME)),
         _ => Some(file),

@@ -43,7 +43,7 @@ struct Target {
 /// The words for a number of repaired findings.
 type Counted = fn(&usize) -> String;
 
-/// The rules whose findings are repaired unasked, with the words for their number.
+/// The rules whose findings are repaired without being asked for, with the words for their number.
 fn repaired_rules() -> [(Rule, Counted); 6] {
     [
         (Rule::SmallRadius, said::arcs),
@@ -55,7 +55,8 @@ fn repaired_rules() -> [(Rule, Counted); 6] {
     ]
 }
 
-/// The most findings that are asked why they were not repaired: each answer costs a look at the drawing.
+/// The most findings for which it is worked out why they were not repaired: each costs a look at
+/// the drawing.
 const LISTED: usize = 100;
 
 /// If more findings than this are left, they are counted by rule.
@@ -227,7 +228,7 @@ fn summarise(path: &Path, repair: &Repair) {
                 .count()
         };
         let gone = count(&repair.before).saturating_sub(count(&repair.after));
-        // Where what is right now shows faults that were hidden, those are told below.
+        // Where a repair has brought hidden faults to light, those are reported below.
         let is_gone = |row: &&Row| {
             let same = |other: &Row| (other.rule, other.line) == (row.rule, row.line);
             row.severity <= Severity::Warning && !repair.after.iter().any(same)

@@ -45,7 +45,7 @@ struct Target {
 }
 
 impl Target {
-    /// A single program goes out as a whole.
+    /// True for a single program, which is written out as a whole.
     fn is_one(&self) -> bool {
         !(self.in_place || self.check || self.diff)
     }
@@ -130,7 +130,7 @@ fn format(arguments: &Arguments, path: &Path) -> Result<bool, Failure> {
         output::write_over(path, &opened.seen, &opened.writing.written(&after))?;
     }
     let findings = opened.document.all_findings();
-    // Its meaning may be plain and the block read: its text is damaged all the same.
+    // Even where the meaning is plain and the block was read, its text is damaged.
     let is_of_text =
         |rule: Rule| matches!(rule, Rule::Syntax | Rule::MissingB | Rule::BlockNumberAsB);
     let damaged = findings

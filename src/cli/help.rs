@@ -8,7 +8,7 @@ use std::error::Error as _;
 
 /// The command with its help in the language in force.
 pub(super) fn explained(mut command: Command) -> Command {
-    // `clap` has the rest in English: the options that it adds, headings, refusals.
+    // `clap` has only English for the rest: the options that it adds, headings, refusals.
     if help("help").is_some() {
         command.build();
     }
@@ -73,7 +73,7 @@ fn explain_argument(command: &str, mut argument: Arg) -> Arg {
     }
 }
 
-/// What is wrong with the words that the process was called with; `None` in the language that clap speaks by itself.
+/// What is wrong with the words that the process was called with; `None` in English, the language of `clap` itself.
 pub(super) fn refusal(error: &Error) -> Option<String> {
     let value = |kind| error.get(kind).map(ToString::to_string);
     let row = match value(ContextKind::InvalidValue) {
@@ -174,7 +174,7 @@ mod tests {
         assert_eq!(chinese, help_names(Language::English).collect());
     }
 
-    /// One process speaks one language: the test speaks it in a process of its own, `tests/cli` asks the binary.
+    /// A process speaks one language, so this test runs in a process of its own; `tests/cli` asks the binary.
     #[test]
     fn all_help_is_spoken_in_chinese() {
         if std::env::var_os("WEDM_TEST_OF_HELP").is_none() {

@@ -114,7 +114,7 @@ impl Verdict {
     }
 }
 
-/// Why a command failed: one sentence, lower-case, no final dot.
+/// Why a command failed: one sentence in lower case without a full stop.
 #[derive(Debug, PartialEq)]
 struct Failure(String);
 
@@ -125,7 +125,8 @@ impl Failure {
     }
 }
 
-/// The words of the command line. A leading `--lang` is moved behind the command, where it is declared.
+/// The arguments of the command line. A leading `--lang` is moved after the command, where it is
+/// declared.
 fn words() -> Vec<OsString> {
     let mut words: Vec<OsString> = std::env::args_os().collect();
     let leading = match words.get(1).map(|word| word.to_string_lossy()) {
@@ -140,8 +141,8 @@ fn words() -> Vec<OsString> {
     words
 }
 
-/// Chooses the language of `--lang`, else of the environment, before the options are read, since a refusal is worded in
-/// it.
+/// Chooses the language of `--lang`, else of the environment, before the options are read, since a
+/// refusal is worded in that language.
 fn choose_language(words: &[OsString]) {
     if let Some(language) = Language::of_environment(|name| std::env::var(name).ok()) {
         speak(language, Asker::Environment);

@@ -1,4 +1,5 @@
-//! Options that several commands share. Those for keys of the settings are declared there; here is only the list.
+//! Options that several commands share. Those for keys of the settings are declared in `settings`;
+//! here they are only listed.
 
 use crate::settings::{LARGEST, Row, Settings, rows};
 use clap::builder::{PossibleValuesParser, TypedValueParser, ValueParser};
@@ -85,7 +86,8 @@ pub(crate) struct Pairing {
 }
 
 impl Pairing {
-    /// The command line's settings, with those of the pair: a correction given beside the wire holds.
+    /// The command line's settings, with those of the pair: a correction that is given together
+    /// with the wire wins.
     pub(crate) fn beside(&self, settings: &Settings) -> Settings {
         self.wire.0.overlaid(&self.pair.0).overlaid(settings)
     }
@@ -166,7 +168,7 @@ pub(crate) fn row(key: &str) -> &'static Row {
     row.expect("options are keys of the settings")
 }
 
-/// The default of a key, behind its meaning.
+/// The default of a key, after its meaning.
 pub(super) fn shown_default(row: &Row) -> String {
     let default = row
         .default

@@ -44,7 +44,7 @@ pub(crate) fn print(text: impl AsRef<str>) -> Result<(), Failure> {
     if takes_colours(&io::stdout()) {
         return write_out(anstream::stdout().lock(), shown(text, true).as_bytes());
     }
-    // The stream that takes colours off hands on each piece between two of them.
+    // The stream that strips colours writes each piece between two of them separately.
     write_out(io::stdout().lock(), shown(text, false).as_bytes())
 }
 
@@ -87,7 +87,7 @@ pub(crate) fn is_for_people() -> bool {
     stdout.is_terminal() || takes_colours(&stdout)
 }
 
-/// A line to stderr. Nobody can be told when that fails.
+/// A line to stderr. A failure cannot be reported anywhere.
 pub(crate) fn say(text: &str) {
     let _ = writeln!(anstream::stderr().lock(), "{}", shown(text, true));
 }
@@ -196,7 +196,7 @@ pub(crate) fn write_over(path: &Path, read: &disk::Seen, bytes: &[u8]) -> Result
     said_of(path, disk::replace(path, Some(read), bytes))
 }
 
-/// Warns of the other names of an old file.
+/// Warns if the file that was replaced has other names (hard links).
 fn said_of(path: &Path, written: Result<u64, String>) -> Result<(), Failure> {
     match written {
         Ok(0) => {}

@@ -77,14 +77,14 @@ fn rule_name<S: serde::Serializer>(rule: &Rule, serializer: S) -> Result<S::Ok, 
     serializer.serialize_str(rule.name())
 }
 
-/// Further findings of one file are counted: those of a drawing with millions of faults would take gigabytes, and
-/// nobody reads them.
+/// Further findings of one file are counted: those of a drawing with millions of faults would take
+/// gigabytes, and nobody would read them.
 pub(crate) const MOST: usize = 100_000;
 
 /// At least this many findings are worth another thread.
 pub(crate) const SHARE: usize = 256;
 
-/// The findings of a document, errors first; behind [`MOST`] of them one that says how many more there are.
+/// The findings of a document, errors first; after [`MOST`] of them one that says how many more there are.
 pub(crate) fn rows(path: &Path, document: &mut Document) -> Vec<Row> {
     let (findings, _) = job::check(document, MOST);
     rows_of(path, document, &findings)
@@ -299,7 +299,7 @@ impl Row {
         }
     }
 
-    /// The other places, the first few in the words of `told`, and how many more there are.
+    /// The other places, the first few as `told` words them, and how many more there are.
     pub(crate) fn others(
         &self,
         told: impl Fn(&RelatedRow) -> String,

@@ -1,4 +1,4 @@
-//! `wedm simulate`: the machine's way, block by block.
+//! `wedm simulate`: the path of the machine, block by block.
 
 use super::options::{Common, Form};
 use super::output::{self, FAINT, WARNING, flush_left, flush_right, styled};

@@ -8,7 +8,7 @@ impl Document {
         self.analysis.make_ready();
     }
 
-    /// What has changed in a drawing since the last call; at the first everything.
+    /// What has changed in a drawing since the last call; at the first call everything.
     pub(crate) fn take_changes(&mut self) -> Since {
         self.since.take()
     }

@@ -10,7 +10,7 @@ impl Document {
         &self.beside
     }
 
-    /// Sets the document beside it for comparing; true where that is another one than before.
+    /// Sets the document beside it for comparing; true where that has changed.
     pub(crate) fn set_beside(&mut self, beside: Beside) -> bool {
         let is_new = self.beside != beside;
         if is_new {

@@ -1,4 +1,4 @@
-//! The kind of a file: by its name, else by what stands in it; and how its bytes become the source of a document.
+//! The kind of a file: by its name, else by its content; and how its bytes become the source of a document.
 
 use super::Source;
 use crate::dxf;
@@ -15,7 +15,7 @@ pub(crate) enum FileKind {
 }
 
 impl FileKind {
-    /// All endings of names, in lower case and without their dots.
+    /// All file extensions, in lower case and without their dots.
     pub(crate) fn endings() -> impl Iterator<Item = &'static str> {
         let programs = Language::ALL.into_iter().flat_map(Language::endings);
         dxf::ENDINGS.iter().chain(programs).copied()
@@ -29,7 +29,7 @@ impl FileKind {
         Language::of_ending(ending).map(FileKind::Program)
     }
 
-    /// By what stands in it; `None` where that is neither DXF text nor a program.
+    /// By its content; `None` where that is neither DXF text nor a program.
     pub(crate) fn of_content(bytes: &[u8]) -> Option<FileKind> {
         let mut words = bytes
             .split(u8::is_ascii_whitespace)

@@ -6,22 +6,23 @@ use crate::text::SourceText;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::ops::Range;
 
-/// More edits than this are not told apart.
+/// More edits than this are not followed one by one.
 const MOST_EDITS: usize = 64;
 
 /// The changes of a document since somebody last took them.
 #[derive(Clone, Debug)]
 pub(crate) struct Since {
     is_all: bool,
-    /// Entities that are another, or whose text has been read again.
+    /// Entities that have changed, or whose text has been read again.
     entities: FxHashSet<EntityId>,
-    /// Of a polyline that is the same but for some vertices, the segments from the first to the last that one of them bounds.
+    /// For a polyline in which only some vertices have changed, the segments from the first to the
+    /// last that touches one of these.
     segments: FxHashMap<EntityId, Range<usize>>,
     /// In their order.
     edits: Vec<EditedLines>,
 }
 
-/// The lines that an edit touched, by their numbers before it, and by how much it moved those behind.
+/// The lines that an edit touched, by their numbers before it, and by how much it moved those after.
 #[derive(Clone, Debug)]
 pub(crate) struct EditedLines {
     touched: Range<usize>,
@@ -41,9 +42,9 @@ impl Default for Since {
 }
 
 impl EditedLines {
-    /// Those of an edit that is about to be made; how far the lines behind move is not known yet.
+    /// The lines of an edit that is about to be made; how far later lines move is not known yet.
     pub(super) fn before(text: &SourceText, range: &Range<usize>) -> EditedLines {
-        // The end of the line before may become another.
+        // The end of the line before may change.
         let first = text.line_of(range.start).saturating_sub(1);
         EditedLines {
             touched: first..text.line_of(range.end) + 1,
@@ -82,7 +83,8 @@ impl Since {
     pub(super) fn add_touched(&mut self, touched: &[Touched]) {
         for touched in touched {
             match *touched {
-                // No segment has another number, and the last one does not end in the first vertex.
+                // No segment has got another index, and the last one does not end in the first
+                // vertex.
                 Touched::Vertices {
                     entity,
                     start: start @ 1..,
@@ -101,7 +103,7 @@ impl Since {
         }
     }
 
-    /// True where an entity, or the segment that is named of it, may be another, or may stand elsewhere in its text than its lines tell.
+    /// True where an entity, or the named segment of it, may have changed, or may stand elsewhere in the text than the moved lines tell.
     pub(crate) fn has_changed(&self, entity: EntityId, segment: Option<usize>) -> bool {
         let is_within =
             |segments: &Range<usize>| segment.is_some_and(|segment| segments.contains(&segment));

@@ -1,7 +1,7 @@
 use super::*;
 use crate::settings::{Settings, from_toml};
 
-/// Severities of what the reader finds in a sound drawing behind a byte-order mark.
+/// Severities of what the reader finds in a sound drawing with a byte-order mark.
 fn check(settings: &str, expected: &[Severity]) {
     let text = "\u{feff}0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n0\nEOF\n";
     let (settings, errors): (Settings, _) = from_toml(settings);

@@ -3,8 +3,8 @@
 use super::{Drawing, EntityId};
 use std::sync::Arc;
 
-/// Whether the CAD program shows an entity, and if not, why. A hidden entity is not cut, unless somebody gives it a
-/// role.
+/// Whether the CAD program shows an entity, and if not, why. A hidden entity is not cut, unless it
+/// is given a role.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Visibility {
     #[default]
@@ -29,7 +29,7 @@ impl Visibility {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Linetype {
     pub(crate) name: Arc<str>,
-    /// It is that of the entity's layer, not its own.
+    /// It is the linetype of the entity's layer, not the entity's own.
     pub(crate) of_layer: bool,
 }
 
@@ -50,7 +50,7 @@ pub(crate) fn mark_of_layer(layer: &str) -> Option<&str> {
 /// The word that begins a mark which suppresses a finding.
 pub(crate) const SUPPRESS: &str = "suppress";
 
-/// Everything that a drawing knows of the appearance of one entity, and the words it holds for that entity.
+/// Everything that a drawing knows of the appearance of one entity, and the words that it holds for it.
 #[derive(Clone, Debug)]
 pub(crate) struct Appearance {
     pub(super) unseen: Option<(Visibility, Arc<str>)>,
@@ -68,7 +68,7 @@ pub enum Color {
     True(u32),
 }
 
-/// The named colours, which are the first of the index, as red, green and blue.
+/// The named colours, which are the first of the index, as 24-bit RGB.
 const NAMED: [(&str, u32); 7] = [
     ("red", 0xFF_0000),
     ("yellow", 0xFF_FF00),

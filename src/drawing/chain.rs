@@ -21,7 +21,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Up to this many entities are sorted without a look at all others.
+/// Up to this many entities are sorted without looking at all others.
 const FEW: usize = 16;
 /// Up to one in this many entities have their ends moved one by one; beyond, all ends are sorted into cells again.
 const BULK: usize = 8;
@@ -61,7 +61,7 @@ struct Chain {
     contour: Contour,
     /// The first of its entities in machining order.
     first: EntityId,
-    /// It stands as long as the ends of its entities stay, whatever lies between them.
+    /// The contour holds as long as the ends of its entities stay, whatever lies between them.
     by_ends: bool,
 }
 
@@ -155,7 +155,7 @@ impl Chains {
         ))
     }
 
-    /// True when an entity's free ends have not moved, so that the contours stand. Never for an entity whose own ends
+    /// True when an entity's free ends have not moved, so that the contours hold. Never for an entity whose own ends
     /// touch, nor in a contour with a double, of two entities that close a loop, or joined where several ends meet:
     /// there the part between the ends counts.
     pub(crate) fn same_ends(&self, drawing: &Drawing, entity: EntityId, is_cut: bool) -> bool {
@@ -188,7 +188,8 @@ impl Chains {
         group.map_or(&[], Vec::as_slice)
     }
 
-    /// Tells that the number of segments of an entity has changed: its contour counts them again.
+    /// To be called when the number of segments of an entity has changed: its contour counts them
+    /// again.
     pub(crate) fn recount(&mut self, drawing: &Drawing, entity: EntityId) {
         let Some(chain) = self
             .contour_of(entity)
@@ -331,7 +332,7 @@ impl Chains {
         self.next_key
     }
 
-    /// One contour for each occupied cell about a point: the others there are of its group.
+    /// One contour for each occupied cell about a point: the others there belong to its group.
     fn contours_about<'a>(
         &'a self,
         ends: &'a Buckets,
@@ -385,7 +386,7 @@ impl Chains {
         let count = linked.iter().map(|(_, linked)| linked.ways.len());
         let mut new = Vec::with_capacity(count.sum());
         self.group(&entities, &ends_of, &joints);
-        // Before there are contours: they and the joints take as much memory as the ends.
+        // Freed before the contours are made: these take as much memory as the joints.
         drop(joints);
         self.ends_of = ends_of;
         for (entities, linked) in linked {
@@ -407,7 +408,7 @@ impl Chains {
 }
 
 impl Chain {
-    /// The way through some of these entities.
+    /// The chain along `way`, which leads through some of these entities.
     fn new(drawing: &Drawing, entities: &[EntityId], pieces: &[(u32, bool)], way: &Way) -> Chain {
         let pieces = pieces[way.range.clone()]
             .iter()

@@ -34,7 +34,7 @@ pub(crate) fn run_together(
     count == other.segment_count() && (0..count).all(same)
 }
 
-/// Two entities with their ends in one place, as doubles or not.
+/// True where two entities with their ends in the same places are doubles.
 pub(super) fn are_doubles(
     drawing: &Drawing,
     one: EntityId,
@@ -55,8 +55,8 @@ pub(super) fn are_doubles(
     })
 }
 
-/// Orders entities by their kind and place, not by when they were drawn: by their ends, by what lies between, at last
-/// by their handles.
+/// Orders entities by their kind and place, not by when they were drawn: by their ends, by what
+/// lies between, and finally by their handles.
 pub(super) fn by_place(drawing: &Drawing, one: EntityId, other: EntityId) -> Ordering {
     if one == other {
         return Ordering::Equal;

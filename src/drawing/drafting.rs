@@ -1,4 +1,4 @@
-//! Entities drawn to be read and not to be cut, recognised by the names of linetype and layer.
+//! Entities drawn only to be read, not to be cut, recognised by the names of linetype and layer.
 //!
 //! A name counts only where every word of it is listed here: CENTER_HOLES is a layer of holes. Case does not matter.
 

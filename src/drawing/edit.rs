@@ -28,7 +28,7 @@ pub enum Change {
     RemoveEntity {
         entity: EntityId,
     },
-    /// A new vertex before vertex `index` of a polyline (behind the last one where `index` is their number).
+    /// A new vertex before vertex `index` of a polyline (after the last one where `index` is their number).
     InsertVertex {
         entity: EntityId,
         index: usize,
@@ -46,7 +46,7 @@ pub enum Change {
 }
 
 impl Change {
-    /// The same change of another entity.
+    /// The same change for another entity.
     pub(crate) fn of(&self, other: EntityId) -> Change {
         let mut change = self.clone();
         match &mut change {
@@ -90,7 +90,7 @@ pub enum Touched {
         removed: usize,
         inserted: usize,
     },
-    /// The entity is new, or has another geometry.
+    /// The entity is new, or its geometry has changed.
     Entity {
         entity: EntityId,
     },
@@ -102,7 +102,7 @@ pub enum Touched {
 }
 
 impl Touched {
-    /// The entity that it is of; `None` where it may be any.
+    /// The entity that was touched; `None` where it may be any.
     pub(crate) fn entity(&self) -> Option<EntityId> {
         match *self {
             Touched::Vertices { entity, .. }
@@ -162,8 +162,8 @@ impl std::fmt::Display for ChangeError {
 }
 
 impl Drawing {
-    /// Replaces `delete_count` vertices of a polyline from `start` on by `insert`. Costs the edit when the count stays,
-    /// else the tail of the polyline.
+    /// Replaces `delete_count` vertices of a polyline from `start` on by `insert`. Costs the length
+    /// of the edit when the count stays, else that of the tail of the polyline.
     ///
     /// Errors: no such entity, not a polyline, a range past its end, a number that is not finite; nothing is changed
     /// then.
@@ -280,7 +280,7 @@ impl Drawing {
     }
 
     /// Inserts and removes vertices of one polyline in one pass over it. A vertex is inserted before the one at its
-    /// index; of several in one place the last stands first.
+    /// index; of several in one place the last comes first.
     fn move_vertices(
         &mut self,
         entity: EntityId,
@@ -319,7 +319,7 @@ impl Drawing {
             }
             fresh.extend(stays.then_some(old));
         }
-        // The vertices inserted behind the last removed one, or behind all.
+        // The vertices inserted after the last removed one, or after all.
         fresh.extend(moving.drain(at..).filter_map(|(_, vertex)| vertex));
         let inserted = fresh.len();
         vertices.splice(first..end, fresh);
@@ -331,8 +331,8 @@ impl Drawing {
         })
     }
 
-    /// Adds entities, each behind another in machining order (of several behind one the last comes first), on its layer
-    /// and with its role, under a handle made from its own.
+    /// Adds entities, each after a given one in machining order (of several after the same one the
+    /// last comes first), on its layer and with its role, under a handle made from its own.
     fn add_all_next_to(
         &mut self,
         added: Vec<(EntityId, &Geometry)>,

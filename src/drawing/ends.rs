@@ -2,9 +2,10 @@
 
 use crate::geometry::Point;
 
-/// Side of a cell in join tolerances: ends that meet lie in one cell, or in two to four across borders.
+/// Side of a cell in join tolerances: ends that meet lie in one cell, or across the borders of two
+/// to four.
 const CELL: f64 = 16.0;
-/// The same where there are too many ends to look at all of a cell.
+/// The same where there are too many ends to look at every one in a cell.
 const SMALL_CELL: f64 = 2.0;
 /// Ends nearer to each other than this share of the join tolerance lie in one point: the difference is rounding.
 pub(super) const ONE_POINT: f64 = 1e-6;

@@ -29,10 +29,11 @@ impl Vertex {
         }
     }
 
-    /// The largest bulge of an arc: what such an arc leaves of its circle no coordinate can tell.
+    /// The largest bulge of an arc: beyond it coordinates cannot tell the arc from its full circle.
     pub(crate) const MOST_BULGE: f64 = 1e12;
 
-    /// True where all numbers are finite, and the bulge is that of an arc whose radius can be told.
+    /// True where all numbers are finite, and the bulge is small enough for the radius of its arc
+    /// to be determined.
     pub(crate) fn is_finite(&self) -> bool {
         self.point.x.is_finite()
             && self.point.y.is_finite()
@@ -152,7 +153,7 @@ impl Geometry {
         }
     }
 
-    /// The kind of an entity that is nothing more than this.
+    /// The kind of an entity that consists of this geometry alone.
     pub(crate) fn kind(&self) -> Kind {
         match self {
             Geometry::Polyline { .. } => Kind::LightPolyline,
@@ -300,7 +301,7 @@ impl Geometry {
 pub struct Entity {
     pub handle: Handle,
     pub layer: Shared<str>,
-    /// The role that the entity itself states; layers and settings come after it.
+    /// The role that the entity itself states; it wins over layers and settings.
     pub role: Option<Role>,
     pub kind: Kind,
     pub geometry: Geometry,

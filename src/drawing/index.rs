@@ -29,9 +29,9 @@ impl Run {
 /// Boxes, area and tight arcs of one contour.
 #[derive(Clone, Debug)]
 pub(crate) struct ContourIndex {
-    /// Most contours have no more; without a segment it is empty.
+    /// Most contours have only this run; without a segment it is empty.
     first: Run,
-    /// The runs behind it.
+    /// The runs after it.
     others: Vec<Run>,
     /// Indices within the contour of arcs with a radius below a threshold, rising.
     tight: Vec<u32>,
@@ -58,7 +58,7 @@ impl ContourIndex {
         index
     }
 
-    /// The same of a contour of one run, whose segments are at hand.
+    /// The same for a contour of one run whose segments are at hand.
     pub(crate) fn of_one_run(segments: &[ContourSegment], threshold: f64) -> ContourIndex {
         let mut index = ContourIndex {
             first: Run::EMPTY,
@@ -75,7 +75,7 @@ impl ContourIndex {
         index
     }
 
-    /// Reads the segments of `changed` again; everything behind its start when the count has changed too.
+    /// Reads the segments of `changed` again; everything after its start when the count has changed too.
     pub(crate) fn update(
         &mut self,
         drawing: &Drawing,

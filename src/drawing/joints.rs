@@ -37,12 +37,12 @@ pub(super) struct Joints<'a> {
     pub(crate) doubles: Doubles,
 }
 
-/// The outcome for entities that lie on each other, by number.
+/// Which of the entities that lie on each other are chained, by number.
 #[derive(Debug, Default)]
 pub(super) struct Doubles {
-    /// Not chained, with the one in the same place that is.
+    /// Those that are not chained, each with the one in the same place that is.
     pub(crate) aside: FxHashMap<u32, u32>,
-    /// Chained, with a double that is not.
+    /// Those that are chained and have a double that is not.
     pub(crate) kept: Vec<u32>,
 }
 
@@ -134,7 +134,7 @@ impl<'a> Joints<'a> {
         self.met.get(end.index()).is_none_or(|&met| met == NOTHING)
     }
 
-    /// The ends of small cells with thousands of them, by cell.
+    /// The crowded small cells: the ends of each.
     pub(crate) fn crowds(&self) -> impl Iterator<Item = &Vec<End>> {
         self.dense.iter().flat_map(|dense| dense.crowded.values())
     }
@@ -181,8 +181,9 @@ impl<'a> Joints<'a> {
         End::both(entity).iter().filter(|end| meets(end)).count()
     }
 
-    /// Hands over every end within the join tolerance of one, with the distance, in no order. The other end of its own
-    /// entity counts where that leads round. In a crowd no end sees another, nor is it seen.
+    /// Hands over every end within the join tolerance of one, with the distance, in no order. The
+    /// other end of the same entity counts where that entity leads round. In a crowd no end sees
+    /// another, nor is it seen.
     pub(crate) fn each_near(&self, end: End, mut look: impl FnMut(End, f64)) {
         let place = self.place(end);
         if place.x.is_nan() || self.is_crowded(end) {

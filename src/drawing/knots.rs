@@ -1,6 +1,6 @@
 //! Places where several ends lie near each other: which of them are joined, whatever the order of the entities.
 //!
-//! A *strand* leads from one such place to another without a choice. Closing a loop takes precedence over going on:
+//! A *strand* leads from one such place to another without a branch. Closing a loop takes precedence over going on:
 //! first the strands that return to their start are closed, then those that lead nowhere are set aside, then the loops
 //! among the others are walked from the outside. The rest is joined to open contours, nearest ends and straightest ways
 //! first. Every choice depends on where the entities lie and what they are, never on when they were drawn.
@@ -15,7 +15,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 /// rounded.
 const ROUNDING: f64 = 0.1;
 
-/// Entities that follow each other without a choice.
+/// Entities that follow each other without a branch.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Strand {
     /// Where it begins and where it ends.
@@ -154,7 +154,7 @@ impl Knots<'_> {
         }
     }
 
-    /// Sets aside strands that lead nowhere, and those that only lead to such.
+    /// Sets aside strands that lead nowhere, and those that lead only to such strands.
     fn leave_dead_ends(&mut self) {
         let free_near = |knots: &Knots, tip: Tip| {
             knots
@@ -254,7 +254,7 @@ impl Knots<'_> {
                 .iter()
                 .map(|(_, distance)| *distance)
                 .fold(f64::INFINITY, f64::min);
-            // Of equally near ways to close, that of the smallest loop.
+            // Among equally near ways to close, the one with the smallest loop.
             let closing = closings
                 .iter()
                 .filter(|(_, distance)| *distance <= home + rounding)

@@ -1,4 +1,4 @@
-//! Joins entities to contours: the chains without a choice, and the rest as `knots` resolves it.
+//! Joins entities to contours: the chains without a branch, and the rest as `knots` resolves it.
 
 use super::ends::{End, Ends, has_ends};
 use super::joints::Joints;
@@ -6,7 +6,7 @@ use super::knots::{Strand, resolve};
 use super::{Drawing, EntityId};
 use std::ops::Range;
 
-/// A contour among the pieces of all.
+/// A contour as a range of the pieces of all.
 pub(super) struct Way {
     pub(crate) range: Range<usize>,
     pub(crate) closed: bool,
@@ -124,7 +124,7 @@ impl Linked {
         linked
     }
 
-    /// The entities through `first` that follow each other without a choice, in its direction. True where they lead
+    /// The entities through `first` that follow each other without a branch, in its direction. True where they lead
     /// round.
     fn run(&mut self, joints: &Joints, first: u32, is_taken: &mut [bool]) -> bool {
         let begin = self.pieces.len();

@@ -78,20 +78,20 @@ pub struct Drawing {
     by_handle: Names,
     /// The last number given to a taken handle, while none has become free.
     last_number: FxHashMap<Handle, u64>,
-    /// Entities that stand for something else in the source: parts of a block, arcs fitted to a curve.
+    /// Entities that represent something else in the source: parts of a block, arcs fitted to a curve.
     fixed: FxHashSet<EntityId>,
     /// Those of them that are a whole entity of the source: such an entity can be removed, or get a neighbour.
     whole: FxHashSet<EntityId>,
     /// Polylines whose vertices can have no bulge, as those of a 3D polyline.
     straight: FxHashSet<EntityId>,
-    /// Entities that are not simply shown, with the layer that decides it; with the entity's own layer where the entity
-    /// itself decides.
+    /// Entities that are not simply shown, each with the layer that decides it, or its own layer
+    /// where the entity itself decides.
     unseen: FxHashMap<EntityId, (Visibility, Arc<str>)>,
     /// Linetypes that are not continuous.
     linetypes: FxHashMap<EntityId, Linetype>,
     /// Words that the source holds for an entity, as extended data of DXF.
     marks: FxHashMap<EntityId, Marks>,
-    /// Entities on layers whose names are such words.
+    /// Entities on layers whose names hold such words.
     on_marked_layers: FxHashSet<EntityId>,
     /// By id: an entity's own colour. Shorter than the drawing where the last ones have none.
     colors: Vec<Option<Color>>,
@@ -107,7 +107,8 @@ impl Drawing {
         }
     }
 
-    /// Some of the entities in the order that they have here, and the id that each has there. By its handle none is found.
+    /// Some of the entities as a drawing, in the same order, and the id that each has there. They
+    /// cannot be found by handle.
     pub(crate) fn part(
         &self,
         of: &FxHashSet<EntityId>,
@@ -144,7 +145,7 @@ impl Drawing {
         self.assumed_unit = Some(unit);
     }
 
-    /// False where `Drawing::assume_unit` would change nothing.
+    /// True where `Drawing::assume_unit` would change the unit.
     pub(crate) fn assumes_another(&self, unit: Unit) -> bool {
         self.assumed_unit.unwrap_or(Unit::MILLIMETRE) != unit
     }
@@ -252,7 +253,7 @@ impl Drawing {
         let behind = rank_of(Some(position)).unwrap_or(before + 2 * RANK_STEP);
         self.ranks.push(before + (behind - before) / 2);
         if behind - before < 2 {
-            // No rank is left between the two: all entities are ranked again, with room for the new one.
+            // No rank is left between the two: all entities are ranked again.
             for (at, id) in self.order.iter().enumerate() {
                 let rank = (at as u64 + 1 + u64::from(at >= position)) * RANK_STEP;
                 self.ranks[id.0 as usize] = rank;
@@ -317,7 +318,8 @@ impl Drawing {
         }
     }
 
-    /// Whether an entity is one of the source, and not part of what a block reference draws.
+    /// Whether an entity stands in the source itself and is not part of what a block reference
+    /// draws.
     pub(crate) fn is_whole(&self, id: EntityId) -> bool {
         self.is_editable(id) || self.whole.contains(&id)
     }

@@ -5,8 +5,8 @@ use rustc_hash::{FxHashMap, FxHasher};
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hash, Hasher};
 
-/// Entities by handle. Keyed by a part of the handle's hash, which takes a third of the memory of the handles
-/// themselves; the caller holds the entities and gives their handles.
+/// Entities by handle. Keyed by a part of the handle's hash, which takes a third of the memory that
+/// the handles would; the caller holds the entities and supplies their handles.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Names {
     first: HashMap<u32, EntityId, BuildHasherDefault<Neighbours>>,
@@ -24,7 +24,8 @@ fn hash(handle: &str) -> u32 {
     })
 }
 
-/// Puts consecutive numbers side by side in memory, so that a file's handles are entered without jumps.
+/// Puts consecutive numbers side by side in memory, so that entering the handles of a file does not
+/// jump about in it.
 #[derive(Clone, Debug, Default)]
 struct Neighbours(u64);
 

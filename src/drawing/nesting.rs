@@ -8,7 +8,8 @@ use std::f64::consts::TAU;
 /// nothing.
 ///
 /// A contour lies within another when its first point does; where the two touch in just that point, either answer is
-/// possible. Costs the boxes about each first point, and the segments of those contours.
+/// possible. Costs the number of boxes about each first point, and of the segments of their
+/// contours.
 pub(crate) fn nesting_depths(
     drawing: &Drawing,
     contours: &[(&Contour, &ContourIndex)],

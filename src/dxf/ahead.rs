@@ -1,7 +1,8 @@
 //! Reads stretches of a long text ahead of their turn, on all cores, as if each began in the section ENTITIES at a record.
 //!
-//! The reading in order (`reading`) takes a stretch from where one of its records begins just where it has come to itself; before that, and
-//! where this never happens, it reads the text. So the result is that of the reading in order.
+//! The sequential reading (`reading`) takes over a stretch from the first of its records that
+//! begins exactly where the sequential reading stands; before that, and where there is none, it
+//! reads the text itself. So the result is that of a sequential reading.
 
 use super::entity::{Outcome, Stroke};
 use super::layers::Layers;
@@ -15,7 +16,7 @@ use std::ops::Range;
 /// Lines of one stretch: hundreds of entities, some hundred kilobytes with what is read of them.
 const STRETCH: usize = 1 << 13;
 
-/// A text with fewer lines than this is read in order.
+/// A text with fewer lines than this is read sequentially.
 const MANY: usize = 1 << 16;
 
 /// The lines of each stretch of a text that is worth reading ahead.
@@ -23,7 +24,7 @@ pub(super) fn stretch_of(lines: Lines) -> Option<usize> {
     (lines.count() >= MANY && rayon::current_num_threads() > 1).then_some(STRETCH)
 }
 
-/// What was read ahead: each item with its faults, and the line behind the last.
+/// What was read ahead: each item with its faults, and the line after the last.
 #[derive(Default)]
 pub(super) struct Stretch {
     pub(super) items: Vec<(ReadItem, Vec<Finding>)>,
@@ -38,7 +39,7 @@ impl Stretch {
         mut layers: Layers,
     ) -> Stretch {
         let mut stretch = Stretch::default();
-        // What follows a POLYLINE or an INSERT is a part of it.
+        // What follows a POLYLINE or an INSERT belongs to it.
         let is_whole = |lexer: &Lexer| {
             lexer.peek_record().is_some_and(|record| {
                 let name = lines.trimmed(record.value_line());
@@ -63,7 +64,7 @@ impl Stretch {
     }
 }
 
-/// Puts the one copy of each name in the place of those that were decoded ahead.
+/// Replaces the names that were decoded ahead by the shared copy of each.
 pub(super) fn share_names(item: &mut ReadItem, layers: &mut Layers) {
     let (layer, appearance) = match &mut item.said {
         Said::Entity(Outcome::Entity(read)) => (&mut read.layer, &mut read.appearance),

@@ -7,8 +7,8 @@ use super::value_type::ValueType;
 /// The first bytes of a binary file.
 const SENTINEL: &[u8] = b"AutoCAD Binary DXF\r\n\x1a\0";
 
-/// The same after a program has turned each CR LF into LF, as in a text file. A number that held these two bytes lost
-/// one, and the tags behind it are out of step.
+/// The same after a program has turned each CR LF into LF, as in a text file. A number that held CR
+/// LF by chance has lost a byte, and the tags after it are out of step.
 const AS_TEXT: &[u8] = b"AutoCAD Binary DXF\n\x1a\0";
 
 /// The first bytes of the file, where it is binary DXF.
@@ -18,7 +18,7 @@ pub(super) fn sentinel(bytes: &[u8]) -> Option<&'static [u8]> {
         .find(|sentinel| bytes.starts_with(sentinel))
 }
 
-/// True where the file has been treated as text on its way.
+/// True where the file was transferred as if it were text.
 pub(super) fn is_mangled(bytes: &[u8]) -> bool {
     bytes.starts_with(AS_TEXT)
 }
@@ -81,7 +81,7 @@ impl<'a> Tags<'a> {
         }
     }
 
-    /// Writes the value behind `code`; an error says why there is none.
+    /// Writes the value after `code`; an error says why there is none.
     fn value(&mut self, code: i16, text: &mut Vec<u8>) -> Result<(), String> {
         let cut = || say!(the_file_ends_inside_the_value_of_group_code, code);
         let value_type = ValueType::of(code).ok_or_else(|| say!(group_code_is_not_known, code))?;

@@ -113,8 +113,8 @@ pub(super) struct Blocks {
 }
 
 impl Blocks {
-    /// The same blocks, undrawn and with nothing known of them: results from before the blocks were complete may not
-    /// hold.
+    /// The same blocks, with no results kept: results from before the blocks were complete may be
+    /// wrong.
     pub(super) fn unasked(self) -> Blocks {
         let sizes = vec![None; self.blocks.len()];
         let used = self
@@ -231,7 +231,8 @@ impl Blocks {
         Ok(drawn)
     }
 
-    /// What a reference draws now that has been drawn with other numbers, its block and its copies the same.
+    /// What a reference draws now that was drawn before with other numbers, its block and its
+    /// copies the same.
     pub(super) fn redraw(
         &self,
         insert: &Insert,
@@ -304,7 +305,7 @@ impl Blocks {
             segments: 0,
             depth: 1,
         };
-        // The size of each block is asked for once, however often it is referred to.
+        // The size of each block is found once, however often it is referred to.
         let mut below: FxHashMap<usize, u64> = FxHashMap::default();
         for content in &block.contents {
             match content {

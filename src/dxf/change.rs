@@ -25,11 +25,11 @@ struct Wanted<'a> {
     vertices: BTreeMap<usize, Option<Vertex>>,
     shape: Option<&'a Geometry>,
     removed: bool,
-    /// The index before the edit and the new vertex. Of several at one index the last comes first: each goes in before
-    /// the vertex at that index.
+    /// The index before the edit, and the new vertex. Of several at one index the last is listed
+    /// first, since each goes in before the vertex at that index.
     inserted: Vec<(usize, Vertex)>,
     closed: Option<bool>,
-    /// New entities behind it, the last first.
+    /// New entities after it, the last first.
     added: Vec<&'a Geometry>,
 }
 
@@ -83,7 +83,7 @@ impl Document {
     }
 
     /// The line of a text fault before an edit that adds or removes lines. The reader resumed there by looking at the
-    /// lines behind, and might decide differently after the edit.
+    /// lines after, and might decide differently after the edit.
     fn fault_decided_by(&self, edit: &TextEdit) -> Option<usize> {
         let ends = |bytes: &[u8]| SourceText::new(bytes.to_vec()).line_count();
         if ends(self.text.slice(edit.range.clone())?) == ends(edit.text.as_bytes()) {
@@ -151,7 +151,7 @@ impl Document {
         Ok(())
     }
 
-    /// New records behind an entity. They get handles where that entity has one.
+    /// New records after an entity. They get handles where that entity has one.
     fn add_entities(
         &self,
         after: EntityId,
@@ -245,7 +245,7 @@ fn is_mirrored(lines: Lines, tags: &[Tag]) -> bool {
     matches!(z, Some(Number::Exact(z) | Number::Blemished(z, _)) if z < 0.0)
 }
 
-/// The line behind the last tag of a record. Empty lines at the end of the text belong to no tag, but one may be a
+/// The line after the last tag of a record. Empty lines at the end of the text belong to no tag, but one may be a
 /// value.
 fn end_of_tags(lines: Lines, record: &Range<usize>) -> usize {
     if record.end < lines.count() {

@@ -1,7 +1,8 @@
 //! An edit of the text: only what it touched is read again.
 //!
-//! An edit within the vertices of a polyline rereads a few of them; other edits reread the items around them. An edit
-//! that reaches further (sections, doubled handles, ordinals as names) rereads everything.
+//! An edit within the vertices of a polyline rereads a few of them; other edits reread the items
+//! around them. An edit with effects further away (sections, duplicate handles, ordinals as names)
+//! rereads everything.
 
 use super::Document;
 use super::entities::mirror;
@@ -90,7 +91,7 @@ impl Document {
         Delta::all()
     }
 
-    /// The beginning of the text, which tells other kinds of file.
+    /// The beginning of the text, by which other kinds of file are recognised.
     fn head(&self) -> &[u8] {
         self.text
             .slice(0..HEAD.min(self.text.len()))
@@ -130,7 +131,7 @@ impl Document {
         })
     }
 
-    /// True where a fault that begins before the line `end` may have been judged by the line `from`, or lies behind it.
+    /// True where a fault that begins before the line `end` may have been judged by the line `from`, or lies after it.
     pub(super) fn is_at_fault(&self, from: usize, end: usize) -> bool {
         let near = self.text.line_start(from.saturating_sub(LOOKBACK));
         let end = self.text.line_start(end);
@@ -138,7 +139,7 @@ impl Document {
             self.findings
                 .partition_point(|finding| range_key(finding).0 < at)
         };
-        // Some lines that are no tags, begun long before, may reach as far as here.
+        // Some lines that are no tags and begin long before may reach as far as here.
         let first = begun_before(near).saturating_sub(3);
         self.findings
             .iter()
@@ -208,7 +209,8 @@ impl Document {
         })
     }
 
-    /// True where a zone, or its end, holds a text with a frame: it decides about another entity.
+    /// True where a zone, or its end, holds a text with a frame, which decides about another
+    /// entity.
     fn holds_frame(&self, zone: &ItemZone) -> bool {
         let lines = Lines::new(&self.text);
         let last = || self.table.item_at(zone.end_line).map_or(0, |item| item + 1);
@@ -220,7 +222,7 @@ impl Document {
     }
 }
 
-/// A VERTEX record that holds only sound tags of a vertex: as it stands in the text, and what else is there.
+/// A VERTEX record that holds only sound tags of a vertex: as it stands in the text, and its other tags.
 fn plain_vertex(lines: Lines, range: Range<usize>) -> Option<(Vertex, Others)> {
     if !range.len().is_multiple_of(2) || range.end > lines.count() {
         return None;

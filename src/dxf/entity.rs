@@ -77,7 +77,7 @@ pub(crate) struct VertexLines {
     pub(super) mirrored: bool,
     /// True for a 3D polyline, whose bulges mean nothing.
     pub(super) in_space: bool,
-    /// Of a LWPOLYLINE, the number of vertices before the first one behind which a tag stands that belongs to the whole.
+    /// Of a LWPOLYLINE, the number of vertices before the first that is followed by a tag of the whole polyline.
     /// 0 for a POLYLINE.
     pub(super) own: u32,
     /// The line of the stated number of vertices, counted likewise; 0 where there is none.
@@ -102,7 +102,7 @@ pub(super) enum Outcome {
     Damaged,
 }
 
-/// Why a record is no entity that is cut.
+/// Why a record is not an entity that is cut.
 #[derive(Debug)]
 pub(super) enum Refused {
     /// The reason, beside its kind.
@@ -157,14 +157,14 @@ pub(super) struct Common {
     extrusion: [Option<f64>; 3],
     /// A value was not a number, a number was missing or the lines were out of step: there is a finding.
     pub(super) bad: bool,
-    /// Tags of other programs follow, up to the end of the record.
+    /// Only tags of other programs follow, up to the end of the record.
     pub(super) foreign: bool,
     /// Texts of the extended data of the application `WEDM`, and whether its data are being read.
     marks: Vec<Tag>,
     is_own: bool,
     /// Within a group `{` … `}` of another program.
     pub(super) group: bool,
-    /// A subclass marker names the class of the tags behind it.
+    /// A subclass marker names the class of the tags after it.
     pub(super) is_marked: bool,
 }
 
@@ -230,7 +230,7 @@ impl Common {
         }
     }
 
-    /// The number behind a tag; `None` with a finding where it is not a number.
+    /// The number after a tag; `None` with a finding where it is not a number.
     #[inline]
     pub(super) fn coordinate(&mut self, lexer: &mut Lexer, tag: Tag) -> Option<f64> {
         match number::number(lexer.lines.content(tag.value_line())) {

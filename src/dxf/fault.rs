@@ -14,7 +14,7 @@ pub(super) fn oddity(findings: &mut Vec<Finding>, range: Range<usize>, sentence:
     push(findings, range, Severity::Warning, sentence);
 }
 
-/// How something was read that is not a fault.
+/// A remark on how something was read that is not a fault.
 pub(super) fn remark(findings: &mut Vec<Finding>, range: Range<usize>, sentence: String) {
     push(findings, range, Severity::Information, sentence);
 }
@@ -55,7 +55,7 @@ pub(super) fn quoted(value: &[u8]) -> String {
     format!("\"{quoted}\"")
 }
 
-/// The meaning of a group code, for sentences: ` (bulge)`; empty where the number says enough.
+/// The meaning of a group code, for sentences: ` (bulge)`; empty where the code needs none.
 pub(super) fn meaning(code: i16) -> &'static str {
     match code {
         10 => " (x)",

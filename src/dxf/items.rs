@@ -89,7 +89,8 @@ impl Document {
         }
     }
 
-    /// The earlier entity of each entity read. `None` where the edit reaches beyond the zone.
+    /// Which earlier entity each entity that was read continues. `None` where the edit reaches
+    /// beyond the zone.
     fn plan(&self, first: usize, next: usize, read: &[ReadItem]) -> Option<Plan> {
         let old = self.table.items.get(first..next)?;
         let structure =
@@ -156,7 +157,7 @@ impl Document {
         {
             return None;
         }
-        // Where all curves are too many, all together decide which are drawn.
+        // Where there are too many curves, all of them together decide which are drawn.
         let arcs_before: u64 = old
             .iter()
             .filter_map(|item| self.drawing.get(item.entity()?))
@@ -242,7 +243,7 @@ impl Document {
     }
 
     /// Replaces the findings of some bytes, as they were before an edit, by those of the text as it is now, and moves
-    /// those behind.
+    /// those after.
     pub(super) fn splice_findings(
         &mut self,
         bytes: Range<usize>,

@@ -74,7 +74,7 @@ fn syllable(code: u32) -> Option<char> {
     }
 }
 
-/// A character of the row, or of the one behind it.
+/// A character of the row, or of the one after it.
 fn of_wansung(row: u8, second: u8) -> Option<char> {
     const IN_A_ROW: u8 = 94;
     let at = match second {

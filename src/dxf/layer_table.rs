@@ -14,7 +14,7 @@ pub(crate) struct LayerEntry {
     pub(crate) name: Arc<str>,
     pub(super) visibility: Visibility,
     pub(super) color: Option<Color>,
-    /// Set where it is not the continuous one.
+    /// Set where it is not continuous.
     pub(super) linetype: Option<Arc<str>>,
 }
 

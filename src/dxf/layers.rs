@@ -8,7 +8,7 @@ use std::sync::Arc;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Layers {
     by_bytes: FxHashMap<Box<[u8]>, Arc<str>>,
-    /// Each name once, and the last one that came from others.
+    /// Each name once, and the last one that was decoded elsewhere.
     by_text: FxHashSet<Arc<str>>,
     last_shared: Option<(Arc<str>, Arc<str>)>,
     last: Option<(Box<[u8]>, Arc<str>)>,
@@ -28,7 +28,7 @@ impl Layers {
         Layers::in_code_page(self.code_page)
     }
 
-    /// Puts the one copy of a name in the place of one that others have decoded.
+    /// Replaces a name that was decoded elsewhere by the shared copy.
     pub(super) fn share(&mut self, name: &mut Arc<str>) {
         if let Some((other, own)) = &self.last_shared
             && Arc::ptr_eq(other, name)

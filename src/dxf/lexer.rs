@@ -34,8 +34,8 @@ impl Tag {
 pub(crate) struct Lexer<'a> {
     pub(crate) lines: Lines<'a>,
     at: usize,
-    /// The last line that must not be taken for a code line any more: [`Lexer::recover`] goes back only to lines behind
-    /// it.
+    /// The last line that must no longer be taken for a code line: [`Lexer::recover`] goes back
+    /// only to lines after it.
     consumed: usize,
     /// The text was out of step since the last [`Lexer::begin_item`].
     pub(crate) out_of_step: bool,
@@ -83,7 +83,7 @@ impl<'a> Lexer<'a> {
         fault::oddity(&mut self.findings, range, sentence);
     }
 
-    /// How a line was read that is not a fault.
+    /// A remark on how a line was read that is not a fault.
     pub(super) fn remark(&mut self, line: usize, sentence: String) {
         let range = self.lines.trimmed_range(line);
         fault::remark(&mut self.findings, range, sentence);
@@ -159,7 +159,7 @@ impl<'a> Lexer<'a> {
         }
     }
 
-    /// The line of the record behind empty lines, of which `line` is the first.
+    /// The line of the record after empty lines, of which `line` is the first.
     fn behind_empty_lines(&self, line: usize) -> Option<usize> {
         let is_empty =
             |line: &usize| *line < self.lines.count() && self.lines.trimmed(*line).is_empty();
@@ -208,7 +208,7 @@ impl<'a> Lexer<'a> {
         self.out_of_step = true;
         let in_step = self.score(line + 2);
         let extra = self.score(line + 1);
-        // The value before may be the code that this line is the value of: `0` and then a name.
+        // The value before may be the code to which this line is the value: `0` and then a name.
         let back = line
             .checked_sub(1)
             .filter(|&before| before > self.consumed)
@@ -258,7 +258,7 @@ impl<'a> Lexer<'a> {
         self.damage_in(whole, sentence);
     }
 
-    /// The line behind the code line is not its value but the next code. The place is the code line: what follows may
+    /// The line after the code line is not its value but the next code. The place is the code line: what follows may
     /// be another record.
     fn lost_value(&mut self, code_line: usize) {
         let code = quoted(self.lines.trimmed(code_line));
@@ -290,7 +290,7 @@ impl<'a> Lexer<'a> {
             .unwrap_or(self.lines.count())
     }
 
-    /// How well the lines from `line` on pair to tags: 0 to [`FULL`].
+    /// How well the lines from `line` on pair up as tags: 0 to [`FULL`].
     fn score(&self, line: usize) -> usize {
         let (mut good, mut seen) = (0, 0);
         let mut at = line;

@@ -6,11 +6,11 @@ use std::ops::Range;
 
 pub(crate) const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
-/// Lines by number, without line ends, without a byte-order mark, without the empty line behind the last line end.
+/// Lines by number, without line ends, without a byte-order mark, without the empty line after the last line end.
 #[derive(Clone, Copy)]
 pub(crate) struct Lines<'a> {
     text: &'a SourceText,
-    /// The text before its gap, if it has one; nothing where the text is set aside.
+    /// The text before its gap, if it has one; empty where the text is set aside.
     head: &'a [u8],
     starts: &'a LineStarts,
     count: usize,

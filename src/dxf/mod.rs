@@ -1,7 +1,7 @@
 //! DXF text: read without loss, edited in place.
 //!
 //! The text is cut into items, one for each record (a POLYLINE with its vertices is one). Only the starts of the items
-//! and of the vertices are stored; tags are read again when somebody asks for their place.
+//! and of the vertices are stored; tags are read again when their place is asked for.
 //!
 //! Invariant: after any sequence of edits a document equals a fresh reading of its text, except for its entity ids.
 
@@ -66,7 +66,7 @@ use unit::{about_unit, fit_tolerance};
 /// Endings of the names of drawings, in lower case and without their dots; the bytes tell text from binary.
 pub(crate) const ENDINGS: [&str; 3] = ["dxf", "dxb", "dxfb"];
 
-/// DXF text, the drawing that it holds, and where each number of it stands.
+/// DXF text, the drawing that it holds, and where each of its numbers stands.
 #[derive(Clone, Debug, Default)]
 pub struct Document {
     text: SourceText,
@@ -75,7 +75,7 @@ pub struct Document {
     table: Box<Table>,
     layers: Box<Layers>,
     suspended: Option<Box<vertex_run::Suspended>>,
-    /// Records that the last edit has had read again, unless it was all or one vertex.
+    /// Records that were read again for the last edit, unless that was everything or one vertex.
     read_last: Range<usize>,
     is_binary: bool,
     /// The largest distance of arcs from the curves that they replace, in mm; the default where unset.
@@ -133,7 +133,7 @@ impl Document {
         document
     }
 
-    /// The same for a text that somebody holds on to: nothing of it is copied.
+    /// The same for a text that is held elsewhere as well: nothing of it is copied.
     pub(crate) fn of_text(text: SourceText) -> Document {
         let mut document = Document {
             text,
@@ -152,7 +152,7 @@ impl Document {
         }
     }
 
-    /// The fate of each record.
+    /// What each record became.
     pub(crate) fn table(&self) -> &Table {
         &self.table
     }
@@ -161,16 +161,17 @@ impl Document {
         &self.text
     }
 
-    /// Keeps no more of the text than its lines: what of it somebody asks for is read `again`. Not for a binary file, whose text is none of
-    /// the file's bytes.
+    /// Keeps only the lines of the text: a part that is asked for is read `again`. Not for a binary
+    /// file, whose text is not the bytes of the file.
     pub(crate) fn set_text_aside(&mut self, again: Again) {
         if !self.is_binary {
             self.text.set_aside(again);
         }
     }
 
-    /// Sets the largest distance, in mm, of arcs from the ellipses and splines that they replace. If the drawing has
-    /// some and the distance is another one, the text is read again and ids of entities may change.
+    /// Sets the largest distance, in mm, of arcs from the ellipses and splines that they replace.
+    /// If the drawing has any and the distance changes, the text is read again and ids of entities
+    /// may change.
     pub(crate) fn set_arc_fit(&mut self, mm: f64) {
         if self.arc_fit.unwrap_or(Tolerances::default().arc_fit) == mm {
             return;
@@ -203,13 +204,13 @@ impl Document {
         &self.drawing
     }
 
-    /// The entities in the records that the last edit has had read again, also where they are as before.
+    /// The entities in the records that were read again for the last edit, including unchanged ones.
     pub(crate) fn read_last(&self) -> impl Iterator<Item = EntityId> + '_ {
         let items = self.table.items.get(self.read_last.clone());
         items.into_iter().flatten().flat_map(|item| item.entities())
     }
 
-    /// Faults of the text and what of it is not cut, in the order of the text.
+    /// Faults of the text, and what in it is not cut, in the order of the text.
     pub fn findings(&self) -> &[Finding] {
         &self.findings
     }
@@ -238,7 +239,7 @@ impl Document {
             reading = self.read_again(None);
         }
         if reading.early {
-            // Blocks, or parts of them, may stand behind their references.
+            // Blocks, or parts of them, may stand after their references.
             reading = self.read_again(Some(reading.blocks.unasked()));
         }
         let Reading {
@@ -275,7 +276,7 @@ impl Document {
         self.name_unsupported();
     }
 
-    /// Reads all items once more with the known frames; where blocks are `known`, with these and the known layers, too.
+    /// Reads all items once more with the known frames; where blocks are `known`, also with these and the known layers.
     fn read_again(&mut self, known: Option<Blocks>) -> Reading {
         let frames = std::mem::take(&mut self.table.frames);
         let states = match known {

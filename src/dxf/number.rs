@@ -20,7 +20,7 @@ pub(super) fn trimmed(bytes: &[u8]) -> &[u8] {
     bytes.get(trimmed_range(bytes)).unwrap_or_default()
 }
 
-/// How a line was read that should be a group code.
+/// The result of reading a line that should be a group code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Code {
     Known(i16),
@@ -31,7 +31,7 @@ pub(crate) enum Code {
 
 /// Reads a group code; padding is allowed.
 pub(crate) fn code(line: &[u8]) -> Code {
-    // Nearly all code lines are one to four digits behind spaces.
+    // Nearly all code lines are one to four digits after spaces.
     let mut at = 0;
     while let Some(b' ' | b'\t') = line.get(at) {
         at += 1;
@@ -70,7 +70,7 @@ fn in_range(value: i32) -> Code {
     }
 }
 
-/// How a value was read that should be a number.
+/// The result of reading a value that should be a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Number {
     Exact(f64),
@@ -112,8 +112,8 @@ pub(crate) fn number(line: &[u8]) -> Number {
     Number::Bad
 }
 
-/// The number `[-] digits [. digits]` at the start of the bytes, and its length. `None` also where it is too long for a
-/// single step.
+/// The number `[-] digits [. digits]` at the start of the bytes, and its length. `None` also where
+/// it is too long to be read in one step.
 #[inline]
 pub(crate) fn leading(bytes: &[u8]) -> Option<(f64, usize)> {
     let digit = |at: usize| {

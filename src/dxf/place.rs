@@ -8,7 +8,7 @@ use crate::drawing::{EntityId, Geometry};
 use crate::finding::Place;
 use std::ops::Range;
 
-/// The tags between two lines that are in step, as in every entity with geometry.
+/// The tags between two lines of a stretch that is in step, as in every entity with geometry.
 pub(crate) fn tags<'a>(lines: Lines<'a>, range: Range<usize>) -> impl Iterator<Item = Tag> + 'a {
     let end = range.end.min(lines.count());
     (range.start..end.saturating_sub(1))
@@ -37,7 +37,8 @@ pub(crate) fn own_tags<'a>(
 }
 
 impl Document {
-    /// The bytes of a place: the number at fault (42 of the vertex, 40 of an ARC or CIRCLE), or the entity's name.
+    /// The bytes of a place: the number at fault (code 42 of the vertex, 40 of an ARC or CIRCLE),
+    /// or the entity's name.
     ///
     /// For a segment without a bulge its first x. For a place that is not (or no longer) in the text, the beginning of
     /// the text.

@@ -212,7 +212,7 @@ fn drawn(outcome: Outcome, start: Tag, lexer: &mut Lexer, tolerance: f64) -> Out
     }
 }
 
-/// Behind EOF nothing is read. Anything there has a finding, except the end mark of old systems (^Z).
+/// After EOF nothing is read. Anything there has a finding, except the end mark of old systems (^Z).
 fn pass_over_what_follows(lexer: &mut Lexer) {
     let blank = |line: &usize| {
         lexer

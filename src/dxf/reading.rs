@@ -38,13 +38,14 @@ pub(super) struct Reading {
 }
 
 impl Document {
-    /// Reads all items. Blocks are `known` from an earlier reading where their references stand before them.
+    /// Reads all items. Blocks are `known` from an earlier reading where references come before
+    /// their blocks.
     pub(super) fn read_items(&mut self, known: Option<Blocks>) -> Reading {
         let stretch = ahead::stretch_of(Lines::new(&self.text));
         self.read_items_ahead(known, stretch)
     }
 
-    /// The same, with so many lines of each stretch that is read ahead, if any.
+    /// The same, with this many lines in each stretch that is read ahead, if any.
     pub(super) fn read_items_ahead(
         &mut self,
         known: Option<Blocks>,
@@ -70,7 +71,7 @@ impl Document {
         ) {
             context = read.after;
             pass.take(read);
-            // Once: what lies in later sections of that name is read in order.
+            // Once: later sections of that name are read sequentially.
             if context == Context::Entities
                 && let Some(lines) = stretch.take()
             {
@@ -200,7 +201,7 @@ impl Pass<'_> {
     }
 
     fn layer(&mut self, entry: LayerEntry) -> Became {
-        // What stands before its layer is read again.
+        // An entity that comes before the entry of its layer is read again.
         self.reading.early |=
             self.reading.known.is_none() && !self.reading.drawing.is_empty() && !entry.is_plain();
         self.table.states.enter(&entry);

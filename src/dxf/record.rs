@@ -46,7 +46,7 @@ impl Style {
         self.tag(code, written(value, decimals).as_bytes(), into);
     }
 
-    /// `record` as it must be inserted at `at`: behind a last line without a line end, that end comes first.
+    /// `record` as it must be inserted at `at`: after a last line without a line end, that end comes first.
     pub(super) fn inserted(&self, text: &SourceText, at: usize, record: Vec<u8>) -> String {
         let is_cut = at >= text.len()
             && !matches!(text.byte(text.len().wrapping_sub(1)), Some(b'\n' | b'\r'));

@@ -59,7 +59,7 @@ impl Document {
         })
     }
 
-    /// True where a finding of the text stands in some lines.
+    /// True where the text has a finding in some lines.
     fn is_spoken_of(&self, lines: &Range<usize>) -> bool {
         let [start, end] = [lines.start, lines.end].map(|line| self.text.line_start(line));
         let first = self
@@ -69,7 +69,7 @@ impl Document {
         own.any(|finding| range_key(finding).0 < end)
     }
 
-    /// Draws it again. `None` where it does not draw the same parts.
+    /// Draws the reference again. `None` where it no longer draws the same parts.
     pub(super) fn reread_reference(
         &mut self,
         zone: &ReferenceZone,

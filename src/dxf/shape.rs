@@ -49,8 +49,8 @@ impl Affine {
     }
 }
 
-/// The arcs that each curve may take, and those that all curves of a drawing may take beyond that: a line of text can
-/// ask for hundreds.
+/// The arcs that each curve may take, and those that all curves of a drawing together may take
+/// beyond that: a line of text can ask for hundreds.
 const FREE_ARCS: usize = 50;
 pub(super) const MOST_CURVE_ARCS: u64 = if cfg!(test) { 8_000 } else { 400_000 };
 

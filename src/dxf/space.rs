@@ -48,7 +48,7 @@ impl Space {
         })
     }
 
-    /// The plane through points, with its origin in the first of them; `None` where they are not in one plane, measured
+    /// The plane through points, with its origin at the first of them; `None` where they are not in one plane, measured
     /// against their spread.
     pub(super) fn through(points: &[Vector3]) -> Option<Space> {
         let first = *points.first()?;

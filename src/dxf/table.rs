@@ -49,7 +49,7 @@ pub(crate) enum Became {
 pub(crate) enum Named {
     ByText,
     ByOrdinal,
-    /// The text's handle was taken.
+    /// The handle in the text was already taken.
     Anew,
 }
 
@@ -128,7 +128,7 @@ pub(crate) struct Table {
     pub(crate) item_of: Vec<u32>,
     pub(crate) vertices: FxHashMap<EntityId, Box<VertexLines>>,
     pub(crate) kinds: Kinds,
-    /// What of a block is not cut, and why, by the first entity that its reference became: kind and how many.
+    /// What in a block is not cut, and why, by the first entity that its reference became: kind and count.
     pub(crate) left_out: FxHashMap<EntityId, Vec<(u32, usize)>>,
     pub(crate) layers: Vec<LayerEntry>,
     pub(super) states: LayerStates,
@@ -139,8 +139,8 @@ pub(crate) struct Table {
     pub(crate) used: Vec<bool>,
     /// The blocks themselves, for references that are drawn again.
     pub(super) blocks: Arc<Blocks>,
-    /// Arcs that the curves take beyond their free allowance, and whether a curve was left out since all would take too
-    /// many.
+    /// Arcs that the curves take beyond their free allowance, and whether a curve was left out
+    /// because all together would take too many.
     pub(crate) curve_arcs: u64,
     pub(crate) lacks_curves: bool,
     /// The largest distance of a fitted arc from its curve, in drawing units.

@@ -20,7 +20,7 @@ impl Document {
         // The content of a block counts where the block is drawn.
         let mut used = self.table.used.iter();
         let mut is_drawn = false;
-        // In most drawings everything is cut: then no item is looked at, however many there are.
+        // In most drawings everything is cut; then no item is looked at.
         let items = if seen.is_empty() {
             &[][..]
         } else {

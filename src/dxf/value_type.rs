@@ -1,4 +1,4 @@
-//! The type of the value behind each group code, for readers of text and of binary files.
+//! The type of the value after each group code, for readers of text and of binary files.
 //!
 //! Source: DXF reference, "Group code value types".
 

@@ -1,8 +1,8 @@
 //! An edit within the vertices of a LWPOLYLINE: a run of them is read again, however many there are.
 //!
-//! Where they are damaged now, as while somebody types, the polyline is suspended: it will soon be whole again, so what
-//! was read of it is kept aside. This needs one without a fault elsewhere: the findings are then those of the run alone,
-//! as in a fresh reading.
+//! Where they are damaged now, as while somebody types, the polyline is suspended: it will soon be
+//! whole again, so what was read of it is kept aside. The polyline must have no fault elsewhere:
+//! the findings are then those of the run alone, as in a fresh reading.
 
 use super::Document;
 use super::edit::{LOOKBACK, shift};
@@ -16,19 +16,19 @@ use crate::finding::Finding;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// So many vertices behind those that an edit touches may have to be read until the lines are in step again.
+/// The most vertices after those that an edit touches that are read until the lines are in step again.
 const MOST_BEHIND: usize = 64;
 
 /// The vertices that an edit touches, before it is made.
 pub(super) struct VertexRun {
     item: usize,
     id: EntityId,
-    /// By their numbers as they are known.
+    /// By their indices before the edit.
     vertices: Range<usize>,
     suspended: Option<Box<Suspended>>,
 }
 
-/// A polyline that is damaged now, as it was.
+/// A polyline that is damaged now, as it was before.
 #[derive(Clone, Debug)]
 pub(super) struct Suspended {
     item: usize,
@@ -36,7 +36,7 @@ pub(super) struct Suspended {
     entity: Arc<Entity>,
     appearance: Appearance,
     vertices: Box<VertexLines>,
-    /// The vertices that are not as they were, and by how many lines those behind them have moved.
+    /// The vertices that have changed, and by how many lines those after them have moved.
     changed: Range<usize>,
     moved: i64,
 }
@@ -48,7 +48,7 @@ impl Document {
         let (line, last) = (self.text.line_of(range.start), self.text.line_of(range.end));
         let item = self.table.item_at(line)?;
         let of_item = self.table.lines_of(item, self.text.line_count());
-        // Behind the last record the text may end anywhere.
+        // After the last record the text may end anywhere.
         let is_last = item + 1 >= self.table.items.len();
         if is_last || last >= of_item.end {
             return None;
@@ -84,7 +84,7 @@ impl Document {
         })
     }
 
-    /// Reads again what an edit has touched, which has moved what is behind it by some lines and bytes. `None` where
+    /// Reads again what an edit has touched, which has moved what is after it by some lines and bytes. `None` where
     /// more has to be read.
     pub(super) fn reread_run(&mut self, run: VertexRun, lines: i64, bytes: i64) -> Option<Delta> {
         let VertexRun {
@@ -166,7 +166,8 @@ impl Document {
         Some(delta)
     }
 
-    /// Takes the polyline out of the drawing. `None` where others would have to be read again, too.
+    /// Takes the polyline out of the drawing. `None` where other entities would have to be read
+    /// again, too.
     fn suspend(&mut self, item: usize, id: EntityId) -> Option<Box<Suspended>> {
         let is_named = self.table.items.get(item)?.named == Named::ByText;
         if !is_named || self.table.named_anew > 0 || !self.drawing.is_editable(id) {
@@ -188,8 +189,8 @@ impl Document {
         }))
     }
 
-    /// Puts what was read of a run, and the lines of it, in the place of some vertices, after a suspended polyline has
-    /// come back.
+    /// Replaces some vertices by what was read of a run, with its lines, after a suspended polyline
+    /// has come back.
     fn replace_run(
         &mut self,
         (item, id): (usize, EntityId),
@@ -226,7 +227,7 @@ impl Document {
         let behind = old.iter().rev().zip(new.iter().rev());
         let behind = behind.take_while(equal).count();
         let (removed, inserted) = (old.len() - behind, new.len() - behind);
-        // Who has seen it go has to see it come.
+        // Those that were told of its removal have to be told of its return.
         let (start, removed, inserted) = match (removed, inserted) {
             (0, 0) if !comes_back => return Some(Delta::default()),
             (0, 0) => (0, 0, 0),
@@ -239,7 +240,7 @@ impl Document {
         })
     }
 
-    /// True where there is a finding in some bytes, except in some others.
+    /// True where there is a finding in `bytes` that does not lie in `but`.
     fn is_at_fault_in(&self, bytes: Range<usize>, but: &Range<usize>) -> bool {
         let key = |finding: &Finding| range_key(finding).0;
         let first = self.findings.partition_point(|it| key(it) < bytes.start);

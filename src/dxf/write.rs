@@ -1,4 +1,4 @@
-//! New drawings as DXF text, by the `dxf` crate: no places are needed in a text that nobody wrote by hand.
+//! New drawings as DXF text, by the `dxf` crate: a text that nobody wrote by hand needs no positions.
 
 use crate::drawing::{Drawing, Geometry, Unit};
 use crate::geometry::{Bounds, Point, positive_angle};
@@ -16,8 +16,8 @@ const SHEET_MM: [f64; 2] = [297.0, 210.0];
 /// The drawing as an ASCII DXF file of release 2000: LWPOLYLINE, LINE, ARC, CIRCLE and TEXT on their layers.
 ///
 /// Numbers have 12 decimals, bulges too; angles are degrees in [0°, 360°). Handles are new, entities keep their order.
-/// The unit is written where it is millimetre, inch, centimetre or metre, else the file has none. An error is the
-/// sentence of the crate that writes.
+/// The unit is written where it is millimetre, inch, centimetre or metre, else the file has none.
+/// The error is the message of the writing crate.
 pub fn write(drawing: &Drawing) -> Result<Vec<u8>, String> {
     let mut file = crate_dxf::Drawing::new();
     file.header.version = AcadVersion::R2000;

@@ -1,4 +1,4 @@
-//! Entities drawn to be read and not to be cut: their data and their sentence.
+//! Entities drawn only to be read, not to be cut: their data and their sentence.
 
 use std::sync::Arc;
 

@@ -42,7 +42,7 @@ told! {
     };
     /// The offset loses a part of the outline, near a point.
     LostPocket { near: Point } => say!(the_offset_loses_this_part_of_the_outline, telling.tool());
-    /// The wire comes no further between two walls: the rest stays uncut, and `near` is farthest from the wire, by this
+    /// The wire gets no further between two walls: the rest stays uncut, and `near` is farthest from the wire, by this
     /// much.
     DeadEnd { near: Point, uncut: f64 } => say!(
         the_wire_does_not_reach_this_part_of_the_outline,
@@ -82,7 +82,8 @@ told! {
     /// Two segments meet at `turn` radians: nearly tangent, but not quite.
     NearTangent { turn: f64 }
         => say!(contour_kinks_by_degrees, turn.abs().to_degrees(), telling.tool());
-    /// Segments cross, or only touch, at a point: the first of `count` along one of the two, where that meets many.
+    /// Segments cross, or only touch, at a point: the first of `count` along one of the two, where
+    /// that one meets many.
     SelfIntersection { at: Point, touches: bool, count: usize } => {
         let how = match touches {
             true => say!(touches_itself_or_another),
@@ -124,14 +125,14 @@ told! {
     /// `count` entities are drawn on a layer that is not simply shown, or are invisible themselves.
     Unseen { layer: Arc<str>, visibility: Visibility, count: usize }
         => unseen(layer, *visibility, *count);
-    /// Entities drawn to be read and not to be cut.
+    /// Entities drawn only to be read, not to be cut.
     SetAside(parts: Vec<SetAside>) => set_aside(parts);
     /// The larger side of the largest contour, which suggests another unit.
     Size { size: f64 } => {
         let what = absurd(size * telling.unit_mm);
         say!(the_size_of_the_part_is_absurd, telling.mm(*size), what)
     };
-    /// Only what the sentence says: what was found and what was expected, lower-case, no final dot.
+    /// Only a sentence: what was found and what was expected, in lower case without a full stop.
     Said(sentence: String) => sentence.as_str();
     More { count: usize } => say!(more_findings_are_not_shown, count);
 }

@@ -54,7 +54,7 @@ macro_rules! faults {
 }
 
 faults! {
-    /// A rule with a sentence of its own, where nobody else needs its numbers.
+    /// A rule with a finished sentence, where nothing else needs its numbers.
     Said { rule: Rule, sentence: String } [*rule] => sentence.as_str();
     /// One of a block's three `B` is missing.
     MissingB [Rule::MissingB] => say!(a_missing_b_shifts_the_numbers);
@@ -76,7 +76,7 @@ faults! {
     JKeepsOpen {
         j: i64,
         meant: i64,
-        /// Other evidence than the closing supports it.
+        /// Evidence other than the closing supports it.
         is_sure: bool
     } [Rule::WrongJ] => keeps_open(&format!("J {j}"), &format!("J {meant}"), *is_sure);
     /// J is more than one turn counts.
@@ -91,7 +91,7 @@ faults! {
     /// With the other axis the contour closes.
     AxisKeepsOpen {
         axis: Axis,
-        /// Other evidence than the closing supports it.
+        /// Evidence other than the closing supports it.
         is_sure: bool
     } [Rule::WrongCountingAxis] => {
         let [own, other] = [*axis, axis.other()].map(|axis| format!("G{}", axis.letter()));
@@ -107,7 +107,7 @@ faults! {
     QuadrantKeepsOpen {
         found: &'static str,
         meant: &'static str,
-        /// Other evidence than the closing supports it.
+        /// Evidence other than the closing supports it.
         is_sure: bool
     } [Rule::WrongQuadrant] => keeps_open(found, meant, *is_sure);
     /// With `meant` instead of `value` the contour closes.
@@ -117,14 +117,14 @@ faults! {
     };
     /// With X and Y exchanged the contour closes.
     ExchangedKeepsOpen [Rule::SuspectBlock] => say!(x_and_y_stand_for_each_other);
-    /// The block stands twice: without it the contour closes.
+    /// The block is repeated: without it the contour closes.
     TwinKeepsOpen [Rule::DoubledBlock] => say!(without_its_double_the_contour_closes);
     /// An arc whose centre is one of its ends, or is missing.
     ArcWithoutRadius [Rule::ArcWithoutRadius] => say!(the_arc_has_no_radius);
     /// `field` holds more than `digits` digits.
     TooManyDigits { field: &'static str, value: i64, digits: u32 } [Rule::TooManyDigits]
         => say!(a_number_has_more_digits_than_the_controller_takes, field, value, digits);
-    /// A cut ends this far beside its beginning.
+    /// A cut ends this far from its beginning.
     NotClosed { x: f64, y: f64 } [Rule::NotClosed]
         => say!(the_cut_does_not_close, mm(x.hypot(*y) / 1000.0), x / 1000.0, y / 1000.0);
     MissingEnd { word: String } [Rule::MissingEnd] => say!(the_program_lacks_its_end, word);
@@ -134,13 +134,13 @@ faults! {
     NumberOutOfOrder { expected: u32, number: u32 } [Rule::BlockNumber]
         => say!(block_number_n_is_out_of_turn_expected_n, number, expected);
     Unnumbered { expected: u32 } [Rule::BlockNumber] => say!(the_block_has_no_number_expected_n, expected);
-    /// The coordinates behind the block differ from its end.
+    /// The coordinates after the block differ from its end.
     PositionMismatch { x: f64, y: f64 } [Rule::PositionMismatch] => {
         let off = mm(x.hypot(*y) / 1000.0);
         say!(the_coordinates_are_not_where_the_block_ends, off, x / 1000.0, y / 1000.0)
     };
-    /// The path meets the block on line `other` (from 0) at a point, mm from the contour's start, and from that of its
-    /// own block.
+    /// The path meets the block on line `other` (from 0) at a point, in mm from the contour's
+    /// start, and from the start of its own block.
     PathCrossesItself { at: [f64; 2], from_block: Option<Vector>, other: usize } [Rule::PathCrossesItself]
         => say!(the_wire_crosses_its_own_path, other + 1, at[0], at[1]);
     /// The start of an arc is `start` from its centre, its end `end`.
@@ -154,7 +154,8 @@ faults! {
         (false, true) => say!(the_correction_is_switched_off_by_an_arc),
         (_, false) => say!(the_correction_is_switched_on_by_a_rapid),
     };
-    /// The wire runs on `side` of a contour, which makes it a punch (or an opening) against the settings.
+    /// The wire runs on `side` of a contour, which makes it a punch (or an opening), contrary to
+    /// the settings.
     RoleSide { side: Side, punch: bool } [Rule::WrongSide] => {
         let (is, wanted) = match punch {
             true => (say!(outside), say!(opening)),
@@ -164,7 +165,7 @@ faults! {
     };
     /// The wire runs on `side` of a contour but approaches it from the other side.
     EntrySide { side: Side } [Rule::WrongSide] => say!(it_comes_from_the_other_side, runs_on(*side));
-    /// `word` stands `count` times.
+    /// `word` occurs `count` times.
     Foreign { word: String, count: usize } [Rule::MachineDependent] => match count {
         1 => say!(is_a_matter_of_the_machine, word),
         count => say!(is_often_a_matter_of_the_machine, word, count),
@@ -173,12 +174,12 @@ faults! {
     NoSubprogram { number: u32 } [Rule::MachineDependent]
         => say!(subprogram_does_not_stand_in_this_text, number);
     EndlessCalls [Rule::MachineDependent] => say!(the_subprograms_call_each_other_without_end);
-    /// G02 for G03, or the other way round; `is_sure` where the way turns back on itself.
+    /// G02 for G03, or the other way round; `is_sure` where the path turns back on itself.
     ReversedArc { is_sure: bool } [Rule::ReversedArc] => match is_sure {
         true => say!(the_arc_runs_the_wrong_way_round),
         false => say!(the_arc_may_run_the_wrong_way_round),
     };
-    /// Out and back by this much.
+    /// The wire goes out and back by this much.
     Spur { length: f64 } [Rule::Spur]
         => say!(the_wire_goes_out_mm_and_back_on_the_same, mm(length / 1e3));
     /// An arc that goes round once more, or a line that leads nowhere.
@@ -191,7 +192,7 @@ faults! {
     SideChange { side: Side } [Rule::SideChange]
         => say!(the_side_changes_within_the_cut, runs_on(*side));
     StillOn [Rule::MissingCancel] => say!(the_program_ends_with_the_correction_on);
-    /// Subprogram `number` runs on into the blocks behind it.
+    /// Subprogram `number` runs on into the blocks after it.
     NoReturn { number: u32 } [Rule::MissingReturn] => say!(subprogram_has_no_m99, number);
     /// `word` stands for the first of `count`.
     Bare { word: String, count: usize } [Rule::MixedNumbers] => match count {
@@ -208,7 +209,7 @@ faults! {
     /// mm: no wire cuts a part of this size.
     AbsurdSize { size: f64 } [Rule::Units]
         => say!(the_program_is_meant_in_another_unit, mm(*size), absurd(*size));
-    /// A place of the table that depends on one which the program does not fill.
+    /// A place of the table that depends on one that the program does not fill.
     UnknownValue { word: String } [Rule::MachineDependent]
         => say!(hangs_on_an_empty_place_of_the_table, word);
     /// With `meant` instead of `found` the program is sound.
@@ -263,7 +264,7 @@ impl Fault {
         Fault::Said { rule, sentence }
     }
 
-    /// That of its rule, unless the case is more or less severe than usual.
+    /// The severity of its rule, unless the case is more or less severe than usual.
     pub(crate) fn severity(&self) -> Severity {
         match self {
             Fault::DoubledBlock { arc: true } => Severity::Error,

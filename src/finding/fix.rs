@@ -197,7 +197,7 @@ told! {
     PlainLetters => say!(write_plain_letters_and_digits);
     /// Decimal commas become points.
     DecimalPoints => say!(write_decimal_points);
-    /// Everything behind the end of a program goes.
+    /// Everything after the end of a program goes.
     DeleteBehindEnd => say!(delete_what_stands_behind_the_end);
     /// J of a block becomes `j`, µm.
     SetJ { j: i64 } => say!(set_j_to, j);
@@ -210,9 +210,9 @@ told! {
     };
     /// Z of a block becomes `name`.
     SetMotion { name: &'static str } => say!(set_z_to, name);
-    /// The coordinates behind a block become its end, mm.
+    /// The coordinates after a block become its end, mm.
     SetCoordinates { at: [f64; 2] } => say!(set_the_coordinates_to_where_the_block, at[0], at[1]);
-    /// A block becomes one that ends at the coordinates behind it.
+    /// A block becomes one that ends at the coordinates after it.
     FollowCoordinates => say!(change_the_block_to_end_at_its_coordinates);
     /// X and Y of a block change places.
     ExchangeXAndY => say!(exchange_x_and_y);

@@ -1,6 +1,7 @@
 //! Lengths as people read them.
 
-/// The subject of a finding: a plain number is the unit of a drawing for the wire.
+/// How a finding is worded: the unit of its lengths and the tool. A plain number is a unit, with a
+/// wire as the tool.
 #[derive(Clone, Copy, Debug)]
 pub struct Telling {
     /// mm of the drawing's unit.
@@ -24,7 +25,7 @@ impl Telling {
         mm(length * self.unit_mm)
     }
 
-    /// The cutting tool, within a sentence.
+    /// The name of the cutting tool, for use within a sentence.
     pub(super) fn tool(self) -> &'static str {
         match self.mills {
             true => say!(the_electrode_that_mills),

@@ -24,10 +24,10 @@ pub struct Misfit {
 pub(crate) enum Cause {
     /// The wire leaves too much in a corner of this part.
     Corner(Arc<str>),
-    /// Both are drawn as arcs there, of radii that do not differ by the clearance: that of the part at whose segment the finding stands first.
-    /// Drawing units.
+    /// Both are drawn as arcs there, whose radii do not differ by the clearance. First the radius
+    /// of the part at whose segment the finding stands. Drawing units.
     Radii([f64; 2]),
-    /// They lie too near to each other, which no corner radius mends.
+    /// They are drawn too near each other, which no corner radius mends.
     Wall,
 }
 

@@ -13,7 +13,8 @@ told! {
     /// file.
     Reference { copies: u64, segments: u64, most: u64 }
         => say!(this_insert_draws_too_much, copies, segments, most);
-    /// A curve takes this many arcs; all curves of a drawing together may take `most` beyond what each has free.
+    /// A curve takes this many arcs; all curves of a drawing together may take `most` beyond the
+    /// free allowance of each.
     Curve { arcs: usize, most: u64 } => say!(this_curve_would_take_too_many_arcs, arcs, most);
     /// The calls of subprograms come to more than `lines` lines, or more than `calls` calls.
     Calls { lines: usize, calls: usize }

@@ -3,7 +3,7 @@
 use super::{Detail, Finding, Rule, Telling};
 use crate::message::readable;
 
-/// The sentence of a finding, for a person: lower-case, no final dot.
+/// The sentence of a finding, for a person: in lower case without a full stop.
 ///
 /// Names from the drawing in it are made `readable`.
 pub fn sentence(finding: &Finding, telling: impl Into<Telling>) -> String {

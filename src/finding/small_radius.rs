@@ -21,7 +21,7 @@ pub enum NoFix {
     ShortSegment,
     /// The arc that fits would bring another fault: it crosses another outline, or puts another arc at fault.
     Spoils,
-    /// It stands in a program: its drawing has to change.
+    /// It is in a program: the drawing has to change.
     Program,
 }
 
@@ -51,7 +51,8 @@ pub struct SmallRadius {
 }
 
 impl SmallRadius {
-    /// The numbers of an arc whose radius counts as `radius`; all lengths are divided by `unit`.
+    /// The numbers of an arc that is taken to have the radius `radius`; all lengths are divided by
+    /// `unit`.
     pub(crate) fn of(arc: &Arc, radius: f64, required: f64, unit: f64) -> SmallRadius {
         let (short, turn) = ((required - radius).max(0.0) / unit, arc.sweep.abs().min(PI));
         let stock_left = if turn < PI {
@@ -78,7 +79,7 @@ impl SmallRadius {
             no_fix: None,
         }
     }
-    /// What is too small, what comes of it, and why there is no fix.
+    /// What is too small, what it does to the part, and why there is no fix.
     pub(super) fn sentence(&self, telling: Telling) -> String {
         let unit_mm = telling.unit_mm;
         let (radius, required) = told_apart(self.radius * unit_mm, self.required * unit_mm);

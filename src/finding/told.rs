@@ -1,7 +1,8 @@
-//! The form of what is told: rows of what is meant, its numbers, and the sentence that they make.
+//! The form of messages as data: rows of a variant, its numbers, and the sentence that they make.
 
-/// An enum with a function that tells each of its variants. In a row stand the variant, its fields (or the name of its
-/// one field in round brackets), and the sentence, in which they are references.
+/// An enum with a function that words each of its variants. A row has the variant, its fields (or
+/// the name of its one field in round brackets), and the sentence, in which the fields are
+/// references.
 macro_rules! told {
     (
         $(#[$about:meta])*

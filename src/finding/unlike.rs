@@ -11,7 +11,7 @@ told! {
     /// A block of the program does not lead to the end of a segment of the drawing; `off` is in mm.
     Block { other: Arc<str>, handle: String, segment: usize, off: f64 }
         => say!(the_block_does_not_follow_its_drawing, segment, handle, other, mm(*off));
-    /// A contour of the program begins `off` mm beside the drawing's.
+    /// A contour of the program begins `off` mm from where the drawing has it.
     Moved { other: Arc<str>, handle: String, off: f64 }
         => say!(the_contour_does_not_begin_where_its_drawing_has_it, handle, other, mm(*off));
     /// The program leaves a contour before it is complete, where this segment of the drawing would be next.
@@ -19,10 +19,10 @@ told! {
         => say!(the_contour_is_left_before_it_is_cut_all_round, segment, handle, other);
     /// A contour, or a pass, of the program matches nothing in the drawing.
     Foreign { other: Arc<str> } => say!(no_contour_of_the_drawing_is_like_this, other);
-    /// A way in or out, or between contours, does not lead where the drawing and its settings want it; `off` is in mm.
+    /// A way in or out, or between contours, does not lead where the drawing and its settings require; `off` is in mm.
     Lead { other: Arc<str>, off: f64 }
         => say!(the_way_does_not_lead_where_its_drawing_has_it, other, mm(*off));
-    /// The coordinates behind a block differ from the end in the drawing; `off` is in mm.
+    /// The coordinates after a block differ from the end in the drawing; `off` is in mm.
     Stated { other: Arc<str>, off: f64 }
         => say!(the_coordinates_are_not_where_its_drawing_has_the_end, other, mm(*off));
     /// A block of the program, on a line from 1, does not follow this segment of the drawing; `off` is in the drawing's
@@ -32,12 +32,12 @@ told! {
     /// The program, on a line from 1, begins this contour elsewhere, this far off in the drawing's unit.
     Begin { other: Arc<str>, line: usize, off: f64 }
         => say!(the_program_begins_this_contour_elsewhere, other, line, mm(off * unit_mm));
-    /// The program leaves this contour behind a line, from 1, before it has cut this segment.
+    /// The program leaves this contour after a line, from 1, before it has cut this segment.
     Left { other: Arc<str>, line: usize }
         => say!(the_program_leaves_this_contour_before_this_segment, other, line);
     /// The two have nothing in common.
     Nothing { other: Arc<str> } => say!(nothing_is_like_the_other, other);
-    /// An electrode mills it otherwise than the settings of the drawing say, so its blocks are not compared.
+    /// It is milled differently from what the drawing's settings say, so its blocks are not compared.
     Milled { other: Arc<str> } => say!(it_is_milled_otherwise, other);
     /// The other document cannot be read.
     Unreadable { other: Arc<str>, reason: String }

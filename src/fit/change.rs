@@ -1,8 +1,9 @@
-//! How a list went over into another by an edit.
+//! How an edit turned one list into another.
 
 use crate::toolpath::{NEW, which_it_is, which_it_was};
 
-/// Of each which one it was before, and of each that was there which one it is, in their order.
+/// For each item the index that it had before, and for each earlier item its index now, in their
+/// order.
 #[derive(Clone, Debug)]
 pub(super) struct Change {
     was: Vec<u32>,
@@ -21,7 +22,7 @@ impl Change {
         Some(Change { was, is })
     }
 
-    /// That of so many, none of which has changed.
+    /// The change of a list of `count` items, none of which has changed.
     pub(super) fn none(count: usize) -> Change {
         let all: Vec<u32> = (0..count as u32).collect();
         Change {

@@ -19,8 +19,9 @@ struct Look {
     nearest: usize,
 }
 
-/// The deepest place of a segment, beyond what the wire has cut half a kerf about its way; nothing where nothing of it is deeper than the rounding. `asked`
-/// takes in all that this hangs on.
+/// The deepest place of a segment, beyond what the wire has cut half a kerf about its way; nothing
+/// where nothing of it is deeper than the rounding. `asked` grows by everything on which this
+/// depends.
 ///
 /// The depth changes by no more than the way along the segment. And it is no more than how far one piece of the way of the wire is: from a
 /// straight one no place of a straight stretch is farther than one of its ends.

@@ -1,11 +1,11 @@
-//! Two parts laid in each other follow an edit: looked at again is what has changed, and what had asked about a place where something has.
+//! Two parts laid in each other follow an edit: only what has changed, and what depends on a changed place, is looked at again.
 
 use super::held::{About, Held, Limits, all_apart, look};
 use crate::geometry::Bounds;
 use crate::toolpath::{Moved, Part};
 
 impl Held {
-    /// What comes of two parts of which it is known what of them has moved, in their places, under the same limits.
+    /// Updates the result for two parts of which it is known what has moved, in place, under the same limits.
     pub(super) fn follow(&mut self, parts: [&Part; 2], moved: [&Moved; 2], limits: &Limits) {
         let boxes = || moved.iter().flat_map(|moved| &moved.boxes);
         let mut all = Bounds::EMPTY;

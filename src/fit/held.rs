@@ -17,17 +17,17 @@ use rayon::slice::ParallelSlice;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// What the clearance is held against. Drawing units.
+/// What the clearance is checked against. Drawing units.
 pub(super) struct Limits {
     pub clearance: f64,
     pub rounding: f64,
     /// What is left beside walls that are followed on both sides; `None` where both parts are drawn, and each place is looked at.
     pub(crate) along_walls: Option<f64>,
-    /// It is asked how much is left where nothing is missing, too.
+    /// The remaining clearance is wanted even where nothing is missing.
     pub(crate) asks_least: bool,
 }
 
-/// What comes of two parts, one laid in the other.
+/// The result for two parts, one laid in the other.
 #[derive(Clone, Debug)]
 pub(crate) struct Held {
     /// The least clearance where no edge stands too far out.
@@ -40,7 +40,7 @@ pub(crate) struct Held {
     pub(super) names: [Arc<str>; 2],
 }
 
-/// A corner is looked round up to so many half kerfs from where the wire turned.
+/// A corner is examined up to this many half kerfs from where the wire turned.
 const FARTHEST: f64 = 16.0;
 
 /// Edges that one core takes at a time.
@@ -135,7 +135,7 @@ impl Held {
         first.next()
     }
 
-    /// All of these, of the parts that were held against each other.
+    /// All of these, of the parts that were compared.
     pub(crate) fn spots<'a>(&'a self, parts: [&'a Part; 2]) -> impl Iterator<Item = Spot> + 'a {
         let of_looks = self.looks.iter().enumerate();
         let of_looks = of_looks.flat_map(move |(which, looks)| {
@@ -163,7 +163,7 @@ impl Held {
     }
 }
 
-/// The place of which a look speaks.
+/// The place that a look is about.
 fn spot(
     which: usize,
     verdict: &Verdict,
@@ -277,7 +277,7 @@ fn looks(which: usize, since: Option<&Since>, parts: [&Part; 2], limits: &Limits
         looks
     };
     if since.is_some() || count <= AT_A_TIME {
-        // To wake a core takes longer.
+        // Waking a core would take longer.
         return some(0..count);
     }
     let steps = (0..count.div_ceil(AT_A_TIME)).into_par_iter();

@@ -1,4 +1,4 @@
-//! What was seen of the edges of a part that lies in another, and what that hangs on.
+//! What was seen of the edges of a part that lies in another, and what that depends on.
 
 use crate::geometry::{Bounds, Point};
 

@@ -1,7 +1,8 @@
 //! Whether a punch goes into its plate: both outlines as the wire leaves them, one laid in the other.
 //!
-//! A contour that is cut twice is held against itself, by the corrections of its two uses. Where both parts are drawn, each contour of one
-//! workpiece is held against that of another which lies so near that it can only be its partner. Everything is in drawing units.
+//! A contour that is cut twice is compared with itself, by the corrections of its two uses. Where
+//! both parts are drawn, each contour of one workpiece is compared with the contour of another that
+//! lies so near that it can only be its partner. Everything is in drawing units.
 
 mod change;
 mod deepest;
@@ -52,7 +53,7 @@ pub struct Spot {
 /// One part laid in the other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pair {
-    /// The least clearance all round; where none is missing, and nobody asks how much more there is, that which there should be.
+    /// The least clearance all round; the required one where none is missing and the surplus is not asked for.
     pub least: f64,
     /// Where less is left than there should be, in the order of the outline of the punch, then of that of the plate.
     pub spots: Vec<Spot>,
@@ -61,7 +62,7 @@ pub struct Pair {
     pub plate: Vec<Segment>,
 }
 
-/// What there is to say of all pairs of a drawing.
+/// The fit of all pairs of a drawing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fit {
     /// The clearance that there should be.
@@ -224,7 +225,8 @@ pub(crate) fn cut_twice(
     held::held(parts, &names, &limits, since.as_ref())
 }
 
-/// What the clearance of two parts is held against, that are cut along one contour, or both drawn.
+/// What the clearance of two parts is checked against, which are cut along one contour or both
+/// drawn.
 fn limits(drawing: &Drawing, settings: &Effective, is_cut_twice: bool) -> Limits {
     let unit_mm = settings.unit_of(drawing).mm;
     let clearance = settings.pair.clearance.unwrap_or(0.0) / unit_mm;
@@ -238,8 +240,9 @@ fn limits(drawing: &Drawing, settings: &Effective, is_cut_twice: bool) -> Limits
     }
 }
 
-/// Two parts laid in each other follow an edit of their outlines, of each of which it is known which segments may have changed. Where one of the
-/// parts cannot, it stays as it was, and so does what was held: which of the two have followed is told.
+/// Two parts laid in each other follow an edit of their outlines, of each of which it is known
+/// which segments may have changed. A part that cannot follow stays as it was, and so does the
+/// result; returns which of the two have followed.
 pub(crate) fn follow(
     drawing: &Drawing,
     outlines: [(&Outline, &[Range<usize>]); 2],

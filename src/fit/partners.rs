@@ -10,10 +10,10 @@ use rayon::iter::ParallelIterator;
 use rayon::slice::ParallelSlice;
 use std::sync::Arc;
 
-/// One core takes so many segments at a time.
+/// Segments that one core takes at a time.
 const AT_A_TIME: usize = 1024;
 
-/// Partners may be so many clearances apart.
+/// Partners may be this many clearances apart.
 const FARTHEST: f64 = 5.0;
 
 /// Who is whose partner. Indices of outlines.
@@ -139,7 +139,7 @@ pub(crate) fn partners(
     (drawn, together)
 }
 
-/// Partners lie no farther apart.
+/// The largest distance of partners.
 pub(crate) fn reach(drawing: &Drawing, settings: &Effective) -> f64 {
     let unit_mm = settings.unit_of(drawing).mm;
     FARTHEST * settings.pair.clearance.unwrap_or(0.0) / unit_mm

@@ -1,4 +1,4 @@
-//! What of two parts laid in each other holds since before an edit: an edge that is where it was, and about which nothing has changed of all
+//! What still holds for two parts laid in each other after an edit: an edge that is where it was, and about which nothing has changed of all
 //! that was asked, is not looked at again.
 
 use super::change::Change;

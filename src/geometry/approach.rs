@@ -1,4 +1,5 @@
-//! How two segments lie to each other: where they meet, where they face each other, how far they coincide.
+//! How two segments lie relative to each other: where they meet, where they face each other, how
+//! far they coincide.
 
 use super::intersection::Meetings;
 use super::{Arc, Few, Line, Point, Segment, Vector, circle_circle, cross, line_circle, line_line};
@@ -126,7 +127,7 @@ fn facing_arcs(a: &Arc, b: &Arc) -> Facing {
     let between = b.center - a.center;
     let mut found = Facing::default();
     if between.norm() <= PARALLEL * a.radius.max(b.radius) {
-        // Concentric: the same distance wherever both are.
+        // Concentric: the distance is the same wherever both reach.
         let shares = [b.start, b.end].map(|end| a.share_of(end).clamp(0.0, 1.0));
         let mut cuts = [0.0, shares[0], shares[1], 1.0];
         cuts.sort_by(f64::total_cmp);

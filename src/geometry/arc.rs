@@ -206,7 +206,8 @@ impl Arc {
     pub(crate) fn rise_of(&self, point: Point) -> f64 {
         let to_center = (point - self.center).norm();
         if self.is_shallow() {
-            // The difference of two squares, without the digits that the two share.
+            // The difference of two squares, computed without cancelling the digits that they
+            // share.
             let (out, along) = (self.start - self.center, point - self.start);
             return (along.norm_squared() + 2.0 * along.dot(&out)) / (to_center + self.radius);
         }

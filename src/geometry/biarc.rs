@@ -13,7 +13,7 @@ pub(crate) trait Curve {
     /// The point and the derivative at parameter `t` of piece `piece`; at the ends of the piece the limits from within.
     fn at(&self, piece: usize, t: f64) -> (Point, Vector);
 
-    /// An upper bound, more or less, of the distance between any two points of the curve.
+    /// Roughly an upper bound of the distance between any two points of the curve.
     fn extent(&self) -> f64;
 }
 
@@ -66,7 +66,7 @@ pub(crate) fn fit(curve: &impl Curve, tolerance: f64) -> Result<Chain, Unfit> {
         let mut open = vec![(from, to, 0)];
         while let Some((from, to, depth)) = open.pop() {
             halves += 1;
-            // Where the curve stands still, its halves become nothing.
+            // Where the curve stands still, its halves become empty.
             if chain.len() > most || halves > 2 * most {
                 return Err(Unfit::TooManyArcs(most));
             }

@@ -6,7 +6,8 @@ use std::ops::ControlFlow;
 
 /// Boxes by key. Each lies in the level whose cells are just larger than it, in the cell of its lower left corner, so
 /// it reaches into the next column and row at most; a query reads a few cells of each level in use. Adding, removing
-/// and finding cost what is found, whatever else the grid holds, as long as boxes of one size do not pile up.
+/// and finding cost what is found, whatever else the grid holds, as long as boxes of one size do
+/// not pile up in one place.
 #[derive(Clone, Debug)]
 pub(crate) struct Grid<K> {
     /// By level in use the first box of each occupied cell.
@@ -40,7 +41,7 @@ impl<K> Default for Grid<K> {
 }
 
 impl<K: Copy + PartialEq> Grid<K> {
-    /// Makes room for so many more boxes.
+    /// Makes room for this many more boxes.
     pub(crate) fn reserve(&mut self, count: usize) {
         self.boxes.reserve(count);
     }
@@ -106,7 +107,7 @@ impl<K: Copy + PartialEq> Grid<K> {
         }
     }
 
-    /// The number of boxes, with those that were removed and whose places are free.
+    /// The number of places for boxes: those in use, and those of removed boxes.
     pub(crate) fn len(&self) -> usize {
         self.boxes.len()
     }
@@ -130,7 +131,7 @@ impl<K: Copy + PartialEq> Grid<K> {
         work
     }
 
-    /// True where a box that touches `area` is one that is sought.
+    /// True where `is_it` holds for a box that touches `area`.
     pub(crate) fn any_near(&self, area: &Bounds, is_it: impl Fn(K) -> bool) -> bool {
         let seek = |key: K, _: &Bounds| match is_it(key) {
             true => ControlFlow::Break(()),
@@ -161,7 +162,7 @@ impl<K: Copy + PartialEq> Grid<K> {
         };
         for (&level, cells) in &self.levels {
             let size = cell_size(level);
-            // A box may begin one cell to the left of where it is met, or below.
+            // A box may begin one cell to the left of where it is met, or one below.
             let (left, bottom) = (
                 cell(area.min.x, size).saturating_sub(1),
                 cell(area.min.y, size).saturating_sub(1),
@@ -169,7 +170,8 @@ impl<K: Copy + PartialEq> Grid<K> {
             let (right, top) = (cell(area.max.x, size), cell(area.max.y, size));
             let columns = (i64::from(right) - i64::from(left) + 1) as u64;
             let rows = (i64::from(top) - i64::from(bottom) + 1) as u64;
-            // A few small boxes do not make large areas expensive.
+            // Few occupied cells: with a large area it is cheaper to look through them than through
+            // all cells of the area.
             if columns.saturating_mul(rows) > cells.len() as u64 {
                 *work += cells.len() as u64;
                 let is_near = |&(&(x, y), _): &(&Cell, &u32)| {

@@ -55,14 +55,14 @@ pub fn left_normal(v: Vector) -> Vector {
 
 /// The unit vector at `angle` radians from the +X axis.
 ///
-/// Never inlined: the compiler takes sines to be cheap, and works them out beside branches that do not need them.
+/// Never inlined: the compiler takes sines to be cheap, and computes them even on branches that do not need them.
 #[inline(never)]
 pub fn direction(angle: f64) -> Vector {
     let (sin, cos) = angle.sin_cos();
     Vector::new(cos, sin)
 }
 
-/// `degrees` in radians. Whole turns are taken off first, which is exact in degrees and not in radians.
+/// `degrees` in radians. Whole turns are removed first, which is exact in degrees and not in radians.
 pub(crate) fn radians(degrees: f64) -> f64 {
     if degrees.abs() > 360.0 {
         (degrees % 360.0).to_radians()
@@ -74,7 +74,7 @@ pub(crate) fn radians(degrees: f64) -> f64 {
 /// Signed angle from `a` to `b` in (−π, π], positive counter-clockwise; 0 when either is zero.
 pub fn turn(a: Vector, b: Vector) -> f64 {
     let (sine, cosine) = (cross(a, b), a.dot(&b));
-    // As most joints do not turn at all; the difference is below rounding.
+    // A short cut for most joints, which do not turn at all; the difference is below rounding.
     if sine.abs() < 1e-9 * cosine {
         return sine / cosine;
     }

@@ -1,9 +1,10 @@
-//! Finds what comes near an outline where the boxes of all touch: outlines lie within each other, or long ones side by side askew.
+//! Finds what comes near an outline where the boxes of all of them touch: outlines nested within
+//! each other, or long slanting ones side by side.
 
 use super::{Bounds, Point, Segment, Slant, Vector};
 use std::ops::ControlFlow;
 
-/// Where something lies: in a box but not in its core, in one that is turned, and between two circles about one point.
+/// Where something lies: in a box but not in its core, in a rotated box, and between two circles about one point.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Shell {
     bounds: Bounds,
@@ -73,7 +74,7 @@ impl Shell {
         &self.bounds
     }
 
-    /// False where another comes nowhere nearer than `reach`.
+    /// False where another surely comes nowhere nearer than `reach`.
     pub(crate) fn may_meet(&self, other: &Shell, reach: f64) -> bool {
         Alike::one(self).may_meet(other, reach)
     }
@@ -106,14 +107,14 @@ fn clear_of(core: &Bounds, about: Point, other: &Bounds) -> Bounds {
         .unwrap_or(Bounds::EMPTY)
 }
 
-/// Shells by key, in a tree of those that lie and measure alike. It does not change.
+/// Shells by key, in a tree that groups shells of similar place and size. It cannot be changed.
 #[derive(Debug)]
 pub(crate) struct Shells<K> {
     shells: Vec<(K, Shell)>,
     nodes: Vec<Node>,
 }
 
-/// What holds of the shells of a range, and the node behind all that are of parts of it.
+/// What is common to the shells of a range, and the first node after those of its parts.
 #[derive(Debug)]
 struct Node {
     first: u32,
@@ -123,7 +124,8 @@ struct Node {
     all: Alike,
 }
 
-/// Shells whose box, core and circles are the widest and the least of some.
+/// What is common to some shells: the widest box and outer circle, the smallest core and inner
+/// circle.
 #[derive(Clone, Copy, Debug)]
 struct Alike {
     bounds: Bounds,
@@ -134,7 +136,7 @@ struct Alike {
     outer: f64,
 }
 
-/// What shells are divided by.
+/// The property by which shells are divided.
 #[derive(Clone, Copy)]
 enum Spread {
     Along,
@@ -195,7 +197,8 @@ impl<K: Copy> Shells<K> {
         work
     }
 
-    /// True where a shell that may come nearer to another than `reach` is one that is sought.
+    /// True where a shell that may come nearer to another than `reach` is one for which `is_it`
+    /// holds.
     pub(crate) fn any_near(&self, to: &Shell, reach: f64, is_it: impl Fn(K) -> bool) -> bool {
         let seek = |key: K, _: &Bounds| match is_it(key) {
             true => ControlFlow::Break(()),
@@ -245,7 +248,7 @@ impl Alike {
         }
     }
 
-    /// What holds of each of some shells, of one at the least.
+    /// What is common to some shells, at least one.
     fn of<K>(shells: &[(K, Shell)]) -> Alike {
         let mut all = Alike::one(&shells[0].1);
         for (_, shell) in &shells[1..] {
@@ -260,8 +263,8 @@ impl Alike {
         all
     }
 
-    /// In what these differ most: where their middles lie, beyond what the longest and the widest cover anyhow, or how much
-    /// they leave clear inside.
+    /// The property in which these differ most: where their centres lie, beyond what the longest
+    /// and the widest cover anyway, or how much they leave clear inside.
     fn spread<K>(&self, shells: &[(K, Shell)]) -> Spread {
         let (mut low, mut high) = (
             Vector::repeat(f64::INFINITY),

@@ -1,5 +1,5 @@
-//! A box that is turned to lie along what it holds: lines side by side askew have such boxes apart, where the axis-parallel ones
-//! of all overlap.
+//! A box that is rotated to lie along what it holds: for slanting lines side by side such boxes are
+//! apart where the axis-parallel ones all overlap.
 
 use super::{Bounds, Point, Segment, Vector, left_normal};
 
@@ -14,7 +14,7 @@ pub(super) struct Slant {
 }
 
 impl Slant {
-    /// Holds whatever there is.
+    /// The box that holds everything.
     pub(super) const ANYWHERE: Slant = Slant {
         along: Vector::new(1.0, 0.0),
         middle: Point::new(0.0, 0.0),

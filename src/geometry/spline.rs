@@ -160,8 +160,8 @@ impl Spline {
         if count < 3 {
             return None;
         }
-        // The bend of a point falls to a quarter with each point between: this many points on both sides make the ends
-        // of the longer curve irrelevant.
+        // The influence of a point falls to a quarter with each point in between: this many points
+        // on both sides make the ends of the longer curve irrelevant.
         const BEHIND: usize = 30;
         let longer: Vec<Point> = (0..count + 1 + 2 * BEHIND)
             .map(|at| round[(at + count * BEHIND - BEHIND) % count])

@@ -5,7 +5,7 @@
 pub struct Tolerances {
     /// Two end points closer than this belong together when entities are chained.
     pub join: f64,
-    /// A radius this little below the correction is rounding, not a fault.
+    /// A radius no further than this below the correction is rounding, not a fault.
     pub(crate) report: f64,
     /// Smaller differences cannot be measured on the part, and warnings ignore them.
     pub(crate) resolution: f64,
@@ -13,7 +13,7 @@ pub struct Tolerances {
     pub(crate) arc_fit: f64,
     /// Two entities within this of each other lie in the same place.
     pub(crate) same_place: f64,
-    /// Two outlines this near each other touch.
+    /// Two outlines nearer than this touch.
     pub(crate) touch: f64,
     /// Controllers stumble over a segment shorter than this.
     pub(crate) short: f64,

@@ -20,7 +20,7 @@ use crate::drawing::Unit;
 use std::borrow::Cow;
 use std::ops::Range;
 
-/// Lines of the text that one question for hints reads; the lines behind get none.
+/// Lines of the text that one question for hints reads; the lines after get none.
 pub(crate) const HINT_LINES: usize = 5_000;
 
 /// Sentences in Markdown, and the bytes that they are about.
@@ -30,14 +30,14 @@ pub(crate) struct Hover {
     pub(crate) text: String,
 }
 
-/// Words behind a place.
+/// Words shown after a place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Hint {
     pub(crate) offset: usize,
     pub(crate) text: String,
 }
 
-/// Lines that fold behind their first, both ends included.
+/// Lines that fold into the first of them, both ends included.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fold {
     pub first: usize,

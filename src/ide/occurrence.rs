@@ -2,10 +2,10 @@
 
 use std::ops::Range;
 
-/// Asked now and then: true when nobody wants the result any more.
+/// Called now and then: true when the result is no longer wanted.
 pub(crate) type Stop<'a> = &'a dyn Fn() -> bool;
 
-/// Nobody wanted the result any more.
+/// The result was no longer wanted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Stopped;
 
@@ -22,7 +22,7 @@ pub(crate) enum Question {
 pub(crate) enum Role {
     Defines,
     Uses,
-    /// It belongs to it.
+    /// It belongs together with the place.
     Partner,
 }
 

@@ -1,5 +1,5 @@
-//! Questions about the whole of a text, asked after every edit: they run beside the document, and stop when nobody
-//! waits any more.
+//! Questions about the whole of a text, asked after every edit: they run on a copy, and stop when
+//! the answer is no longer wanted.
 
 use super::occurrence::{Occurrence, Question, Role, Stop, Stopped};
 use super::program::{highlights, match_of, pauses};
@@ -15,7 +15,7 @@ const PLACES: usize = 10_000;
 #[derive(Clone, Copy)]
 pub(crate) enum Whole<'a> {
     Program(&'a Document),
-    /// For DXF only the text; the name at the place that is asked about; drawing and contours, for those who list them.
+    /// For DXF only the text; the name at the place that is asked about; drawing and contours, where they are listed.
     Dxf {
         text: &'a SourceText,
         name: Option<&'a dxf::Name>,
@@ -95,7 +95,7 @@ impl<'a> Whole<'a> {
     }
 }
 
-/// In a program: the places of a name; else what belongs together.
+/// In a program, the places of a name, or else the places that belong together.
 fn places_in_program(
     program: &Document,
     offset: usize,
@@ -127,6 +127,6 @@ fn places_in_program(
             all.map(partner).collect()
         }
     };
-    // What has no other occurrence, such as a line that nobody calls, still has its own.
+    // A name without other occurrences, such as a line that is never called, still has its own.
     Ok(if together.is_empty() { named } else { together })
 }

@@ -16,7 +16,8 @@ pub(crate) enum Target {
 }
 
 impl Target {
-    /// The targets that a program can have; milling a drawing takes more than the path of a wire.
+    /// The program formats that a program can be converted to; milling needs more than the path of
+    /// a wire.
     const PROGRAMS: [Format; 3] = [Format::ThreeB, Format::FourB, Format::Iso];
 
     fn program(name: &str) -> Option<Target> {
@@ -61,12 +62,13 @@ pub(crate) fn convert(
     let any_errors = errors
         .iter()
         .any(|finding| finding.rule != Rule::NotTheDrawing);
-    // Neither a radius that the wire cannot follow nor what the drawing is now changes where the wire goes.
+    // Neither a radius that the wire cannot follow nor a difference from the drawing changes where
+    // the wire goes.
     errors.retain(|finding| !matches!(finding.rule, Rule::SmallRadius | Rule::NotTheDrawing));
     if !force && !errors.is_empty() {
         return Err(Refusal::Errors(errors));
     }
-    // Whatever the settings make of it: its move would be missing.
+    // Whatever severity the settings give it: its move would be missing.
     if let Some(line) = program.unread_line().filter(|_| !force) {
         let reason = say!(the_line_cannot_be_read);
         return Err(Refusal::Sentence(say!(line_by_number, line + 1, reason)));

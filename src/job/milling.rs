@@ -1,4 +1,4 @@
-//! A drawing as an electrode mills it: under other settings than for a wire.
+//! A drawing as an electrode mills it, under other settings than those for a wire.
 
 use super::Refusal;
 use crate::analysis::Analysis;

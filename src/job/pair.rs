@@ -15,7 +15,7 @@ use std::sync::Arc;
 pub struct PartProgram {
     /// `punch`, `plate`, `stripper`, `holder`, or the name of a workpiece.
     pub part: String,
-    /// Of each pass, mm.
+    /// The correction of each pass, mm.
     pub corrections: Vec<f64>,
     /// The wire runs on the other side of the drawn outline.
     pub is_other_side: bool,

@@ -53,7 +53,7 @@ impl Language {
     }
 }
 
-/// Who chose a language; each overrides those above it.
+/// Who chose a language; each overrides those listed before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(u8)]
 pub(crate) enum Asker {

@@ -1,6 +1,6 @@
-//! Every sentence that a person reads, in every language: one folder a language, and nothing of the house but text.
+//! Every sentence that a person reads, in every language: one folder a language, and nothing in them but text.
 //!
-//! A sentence has a name and takes what it speaks of; the rooms say `say!` with both and hold no wording of their own:
+//! A sentence has a name and takes what it is about; the rooms call `say!` with both and hold no wording of their own:
 //!
 //! ```text
 //! en/        no_such_layer(layer, names) => "there is no layer {layer:?}, expected {names}";
@@ -9,9 +9,10 @@
 //! a room     say!(no_drawing)                                      a `&'static str`
 //! ```
 //!
-//! - What a sentence takes is shown as `format!` shows it, `{layer:?}` and `{length:.3}` included, but that nothing is −0.000. Where the wording hangs on a number or
-//!   on a choice (a plural, a case), the row is a function: `errors(count: usize) => { … }`. Words that are no text of ours (keys, names
-//!   of rules, file endings, letters of a program) are handed in and never translated.
+//! - What a sentence takes is shown as `format!` shows it, `{layer:?}` and `{length:.3}` included, but that nothing is −0.000. Where the wording depends on a number or
+//!   on a choice (a plural, a case), the row is a function: `errors(count: usize) => { … }`. Words
+//!   that are not text of ours (keys, names of rules, file extensions, letters of a program) are
+//!   handed in and never translated.
 //! - `en/` says which sentences there are (`declare!`), a file for each room. Another language is a folder with the same rows under
 //!   `translate!`, its line in `Language`, and its arm in `in_spoken!`; a row that it lacks does not compile.
 //! - A process speaks one language: an editor starts a server of its own, and a command is one person's. `speak` chooses it before
@@ -100,7 +101,7 @@ impl Display for AsItIs<'_> {
     }
 }
 
-/// A number to so many decimals is no negative zero: no sentence says −0.000.
+/// A number that is rounded to zero has no sign: no sentence says −0.000.
 impl Display for dyn Shown + '_ {
     fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
         let Some(decimals) = formatter.precision() else {

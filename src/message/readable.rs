@@ -1,5 +1,5 @@
-//! Makes foreign text safe to show: a name in a drawing, or of a file, moves no cursor, hides nothing and turns no line
-//! around.
+//! Makes foreign text safe to show: the name of a file, or one in a drawing, moves no cursor, hides
+//! nothing and reverses no line.
 
 use std::borrow::Cow;
 
@@ -13,7 +13,7 @@ pub(crate) fn is_hidden(character: char) -> bool {
         )
 }
 
-/// The text with `U+FFFD` for every [`is_hidden`] character. Line ends are among them: a name stands in one line.
+/// The text with `U+FFFD` for every [`is_hidden`] character. Line ends are among them: a name is a single line.
 pub(crate) fn readable(text: &str) -> Cow<'_, str> {
     let is_plain = |byte: u8| (b' '..0x7f).contains(&byte);
     if text.bytes().all(is_plain) || !text.contains(is_hidden) {

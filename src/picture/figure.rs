@@ -120,8 +120,8 @@ fn areas(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
     }
 }
 
-/// The loop of the first pass around an outline, where the kerf of the wire is known: everything between that and the
-/// contour that no kerf covers stays.
+/// The loop of the first pass around an outline, where the kerf of the wire is known: everything
+/// between that and the contour that no kerf covers is left standing.
 fn round_of(frame: &Frame, paths: &[(&WirePath, f64)]) -> Option<String> {
     let own = |cut_off: bool| {
         let is_it = |path: &WirePath| path.pass == 1 && path.cut_off == cut_off;
@@ -133,7 +133,7 @@ fn round_of(frame: &Frame, paths: &[(&WirePath, f64)]) -> Option<String> {
     };
     let mut round = own(false)?;
     let end = round.last()?.end();
-    // The tab closes it, whichever way the tab is cut.
+    // The tab closes the loop, whichever way the tab is cut.
     let tab = own(true).unwrap_or_default();
     let is_end = |at: Option<Point>| at.is_some_and(|at| (at - end).norm() * frame.scale < 1.0);
     if is_end(tab.first().map(Segment::start)) {

@@ -1,7 +1,7 @@
 //! A picture of contours, faults and wire path as SVG, for people: one file that needs nothing beside it.
 //!
-//! It shows the findings and plans of others and decides nothing. It knows drawings, findings and paths, and nothing of
-//! files or protocols. The same input gives the same bytes.
+//! It shows findings and paths that are made elsewhere and decides nothing. It knows drawings,
+//! findings and paths, and nothing of files or protocols. The same input gives the same bytes.
 //!
 //! Interactive viewers find the parts by their class: `figure` is the drawing, `lens` an enlarged fault, `mark` the
 //! number beside one (with `data-at`, the point on the sheet that it belongs to), `chrome` the text around it, `fine`
@@ -108,7 +108,7 @@ pub fn svg(view: &View) -> String {
     sheet.0
 }
 
-/// Something that should be cut stays there.
+/// True where something that should be cut is left there.
 fn leaves_some(finding: &Finding) -> bool {
     matches!(
         finding.detail,

@@ -1,4 +1,4 @@
-//! A program as a picture: the wire's way in its order, with its faults.
+//! A program as a picture: the wire's path in the order of travel, with its faults.
 //!
 //! Every block is a path whose `data-line` is its line in the text, from 0, in the order in which the machine runs
 //! them; beyond [`MOST_BLOCKS`] consecutive blocks share a path with the line of the first.
@@ -13,7 +13,7 @@ use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-/// Blocks up to this number have a path each.
+/// Up to this many blocks have a path each.
 const MOST_BLOCKS: usize = 20_000;
 
 /// The picture of a program, with the name of its file. `faults` are lines (from 0) with their faults, worst first.
@@ -93,15 +93,15 @@ fn mm(point: Point) -> Point {
 
 const UPPER: &str = r#"<path class="upper" d="M0 0h24"/>"#;
 
-/// A move, and the way of the wire's upper end.
+/// A move, and the path of the wire's upper end.
 type Leaning<'a> = (&'a &'a Step, &'a Vec<Segment>);
 
-/// Both lean, in one contour.
+/// True where the wire leans on both moves, in one contour.
 fn leans_on(a: &Leaning, b: &Leaning) -> bool {
     !a.1.is_empty() && !b.1.is_empty() && a.0.contour == b.0.contour
 }
 
-/// The way of the wire's upper end along consecutive moves.
+/// The path of the wire's upper end along consecutive moves.
 fn upper_path(sheet: &mut Sheet, frame: &Frame, run: &[Leaning]) {
     let pieces = run.iter().flat_map(|(_, pieces)| pieces.iter());
     let data = path_data(frame, pieces.map(|piece| scaled(*piece)), false);

@@ -69,7 +69,7 @@ impl<'a> Subject<'a> {
         })
     }
 
-    /// The box of everything cut; of everything shown where nothing is.
+    /// The box of everything that is cut, or of everything shown where nothing is cut.
     pub(crate) fn extents(&self) -> Bounds {
         let mut bounds = Bounds::EMPTY;
         for outline in self.outlines {
@@ -166,7 +166,7 @@ fn extents(drawing: &Drawing, paths: &[WirePath]) -> Option<Bounds> {
         .then_some(bounds)
 }
 
-/// An error or a warning on a segment, of any rule but `small-radius`; and the hints that are of one place.
+/// An error or a warning on a segment, of any rule but `small-radius`; and the hints about a single place.
 pub(super) fn is_other(finding: &Finding) -> bool {
     let is_of_segment = matches!(finding.place, Place::Segment { .. });
     let is_of_one_place = matches!(

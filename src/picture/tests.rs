@@ -5,7 +5,7 @@ use crate::finding::{Detail, Place, Rule, Severity, Side, SmallRadius};
 use crate::geometry::{Point, Segment};
 use crate::toolpath::{PathSegment, Source};
 
-/// With the correction of the path that is shown.
+/// Settings with the correction of the path that is shown.
 fn settings() -> Effective {
     Effective::default()
 }

@@ -1,19 +1,19 @@
-//! The window that enlarges one place, in a row of them below the figure, and what stands below it.
+//! The window that enlarges one place, in a row of them below the figure, and the text below it.
 
 use super::sheet::{Frame, MARGIN, SHEET_WIDTH, Sheet, escaped, number};
 use crate::geometry::Point;
 
-/// Between neighbours of a row.
+/// The gap between neighbours in a row.
 const GAP: f64 = 16.0;
 
-/// The windows of a picture: how many stand in a row, and the height of each and of what is said below it.
+/// The windows of a picture: the number in a row, and the height of each and of the text below it.
 pub(super) struct Windows {
     pub(super) columns: usize,
     pub(super) height: f64,
     pub(super) caption: f64,
 }
 
-/// One of them, by the corner of its upper left.
+/// One of them, by its upper left corner.
 pub(super) struct Window {
     index: usize,
     left: f64,
@@ -28,12 +28,12 @@ impl Windows {
         (SHEET_WIDTH - 2.0 * MARGIN - GAP * (columns - 1.0)) / columns
     }
 
-    /// The height of the rows for so many.
+    /// The height of the rows for this many windows.
     pub(super) fn height_of(&self, count: usize) -> f64 {
         count.div_ceil(self.columns) as f64 * (self.height + self.caption)
     }
 
-    /// One of those whose first row begins at `top`, from 0.
+    /// The window with this index, from 0, where the first row begins at `top`.
     pub(super) fn at(&self, index: usize, top: f64) -> Window {
         let [column, row] = [index % self.columns, index / self.columns].map(|place| place as f64);
         Window {
@@ -52,7 +52,8 @@ impl Window {
         (self.left + self.width, self.top + self.height)
     }
 
-    /// `middle` in the middle of it, in a scale; coordinates are relative to it.
+    /// The frame with `middle` at the centre of the window, at a scale; coordinates are relative to
+    /// `middle`.
     pub(super) fn frame(&self, middle: Point, scale: f64) -> Frame {
         Frame {
             origin: middle,
@@ -62,8 +63,8 @@ impl Window {
         }
     }
 
-    /// Opens an element with these attributes, and in it the drawing, cut off at the edge by a path of the name `clip`. `ground` is the
-    /// class of what lies behind.
+    /// Opens an element with these attributes, and in it the drawing, clipped at the edge by a path
+    /// named `clip`. `ground` is the class of the background.
     pub(super) fn open(
         &self,
         sheet: &mut Sheet,
@@ -82,7 +83,7 @@ impl Window {
         ));
     }
 
-    /// Ends the drawing and the element; below it stand its number, figures and their place.
+    /// Ends the drawing and the element; below it come its number, figures and their place.
     pub(super) fn close(&self, sheet: &mut Sheet, figures: &str, place: &str) {
         let rectangle = self.rectangle();
         sheet.line(format_args!(

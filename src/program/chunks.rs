@@ -1,7 +1,7 @@
 //! A program as a list of chunks of consecutive lines, so that an edit rereads only those that it touched.
 //!
-//! The meaning of a line may depend on the state before it. Each chunk knows the state before and behind itself: the
-//! chunks behind an edit are reread until the state agrees with the earlier one.
+//! The meaning of a line may depend on the state before it. Each chunk knows the state before and
+//! after itself: the chunks after an edit are reread until the state agrees with the earlier one.
 
 #![warn(clippy::indexing_slicing)]
 
@@ -35,8 +35,8 @@ pub(in crate::program) trait ChunkReader: Sync {
         before: Self::State,
     ) -> (Self::Begun, Self::State);
 
-    /// The part that can be done in parallel. Of the `old` chunks that these stand in place of, what their lines have in
-    /// common may be taken.
+    /// The part that can be done in parallel. What lines have in common with the `old` chunks that
+    /// these replace may be reused.
     fn finish(&self, text: &SourceText, begun: Self::Begun, old: &[Self::Chunk]) -> Self::Chunk;
 
     fn before(chunk: &Self::Chunk) -> Self::State;
@@ -115,7 +115,7 @@ pub(in crate::program) struct Reread {
 }
 
 impl Reread {
-    /// All chunks, in the place of none.
+    /// All chunks, in place of none.
     pub(crate) fn all<C>(chunks: &[C]) -> Reread {
         Reread {
             chunks: 0..chunks.len(),
@@ -177,7 +177,7 @@ impl<C: Send + Sync> Chunks<C> {
             .places
             .partition_point(|place| place.lines.start <= last)
             .max((from + 1).min(self.list.len()));
-        // Those that looked at these lines, be there short ones between.
+        // The chunks whose reading looked ahead at these lines, even past short ones in between.
         let (mut before, mut between) = (from, 0);
         while between < L::REACH
             && let Some(index) = before.checked_sub(1)

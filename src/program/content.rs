@@ -30,7 +30,7 @@ impl Language {
             let of = Language::ALL.iter().position(|one| one.has_line(block));
             *of.map_or(&mut others, |of| &mut lines[of]) += 1;
         }
-        // Of languages with equally many lines the first one.
+        // On a tie, the first language.
         let all = Language::ALL.into_iter().zip(lines).rev();
         let (most, lines) = all.max_by_key(|(_, lines)| *lines)?;
         (lines > others).then_some(most)

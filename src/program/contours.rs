@@ -1,8 +1,9 @@
-//! The contours of a program, in any language: which stops stand within one, and where one crosses itself. After an edit
-//! only those are looked at that it touches.
+//! The contours of a program, in any language: which stops lie within one, and where one crosses
+//! itself. After an edit only the contours that it touches are looked at.
 //!
-//! An open cut is followed behind its stops, so what it comes to depends on cuts behind it: it is known how far was
-//! looked. All that begins from the first touched cut up to where contours begin as before is looked at again.
+//! An open cut is followed past its stops, so the result depends on later cuts; how far the search
+//! went is kept. Everything from the first touched cut up to where contours begin as before is
+//! looked at again.
 
 use super::chunks::Reread;
 use super::path::{Found, HasCuts, Known, KnownTabs};
@@ -14,7 +15,7 @@ pub(in crate::program) type PartAt = (usize, usize);
 
 /// A document whose cuts begin and end at parts of its chunks.
 pub(in crate::program) trait Followed: HasCuts<Cut: Clone> {
-    /// The first cut that begins from one place on, before another, of which anything is to be asked.
+    /// The first cut that begins between two places and needs to be looked at.
     fn next_cut(&self, from: PartAt, before: PartAt) -> Option<Self::Cut>;
 
     fn begin(&self, cut: &Self::Cut) -> PartAt;
@@ -22,18 +23,19 @@ pub(in crate::program) trait Followed: HasCuts<Cut: Clone> {
     /// Where the cut behind it begins.
     fn behind(&self, cut: &Self::Cut) -> PartAt;
 
-    /// What an open cut comes to behind its stops; `None` where that is no question.
+    /// The contour that an open cut forms with the cuts after its stops; `None` where it need not
+    /// be looked for.
     fn follow(&self, cut: &Self::Cut, known: &mut KnownTabs) -> Option<Contour<Self::Cut>>;
 
-    /// Names its chunks anew.
+    /// Renumbers its chunks.
     fn renumber(cut: &mut Self::Cut, moved: &dyn Fn(usize) -> usize);
 }
 
-/// What an open cut comes to behind its stops.
+/// The contour that an open cut forms with the cuts after its stops.
 pub(in crate::program) struct Contour<C> {
     /// The stops within it, in the order of the text, each by its chunk and its place in there.
     pub(crate) tabs: Vec<(usize, usize)>,
-    /// All of it, where the last of its cuts is its tab: it is looked at as one.
+    /// All its cuts as one, where the last of them is its tab.
     pub(crate) whole: Option<C>,
     /// It does not close.
     pub(crate) is_open: bool,
@@ -54,7 +56,7 @@ struct Head {
     is_open: bool,
 }
 
-/// The contours of a program, as far as there is anything to know.
+/// The contours of a program that stop, are open or cross themselves.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::program) struct Contours<C> {
     heads: Vec<Head>,
@@ -93,8 +95,7 @@ impl Touched<'_> {
         Some((self.reread.moved(chunk)?, place))
     }
 
-    /// Puts what is known of the touched cuts in the place of what was known of them, in a list of things that begin
-    /// with cuts.
+    /// Replaces what was known of the touched cuts, in a list of things in the order of cuts.
     pub(crate) fn splice<T>(
         &self,
         list: &mut Vec<T>,
@@ -119,8 +120,9 @@ impl Touched<'_> {
 }
 
 impl<C: Clone> Contours<C> {
-    /// Looks at the cuts that were touched, and at those whose contours depend on them: each contour is handed out, and
-    /// whether it crosses itself, where that was to be asked. Returns all that was looked at.
+    /// Looks at the cuts that were touched, and at those whose contours depend on them: each
+    /// contour is handed out, with whether it crosses itself where that had to be found. Returns
+    /// all that was looked at.
     pub(crate) fn look<'a, D: Followed<Cut = C>>(
         &mut self,
         document: &D,
@@ -147,7 +149,7 @@ impl<C: Clone> Contours<C> {
         #[cfg(test)]
         (self.looked_at = 0);
         loop {
-            // What belonged to a contour that is looked at again is asked again, too.
+            // Whatever belonged to a contour that is looked at again is looked at again, too.
             while let Some(head) = self.heads.get(gone)
                 && touched
                     .moved(head.begin)

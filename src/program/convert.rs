@@ -23,12 +23,12 @@ const WAY: &str = "WAY";
 /// A bulge does not hold arcs well that turn by more than this, nearly full circles, rad.
 const MOST_BY_BULGE: f64 = TAU * 0.75;
 
-/// The way of one cut, µm.
+/// The path of one cut, µm.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CutPath {
     /// Each begins where the one before ended.
     pub(crate) segments: Vec<Segment>,
-    /// Segments at the beginning that lead to a contour, which others go round.
+    /// The number of segments at the beginning that lead to the contour.
     pub lead_in: usize,
     /// Segments at the end that lead away from it.
     pub lead_out: usize,
@@ -108,7 +108,7 @@ pub fn cuts(document: &Document) -> Cuts {
         while spans.next_if(|span| span.steps.end <= index).is_some() {
             cuts.close(std::mem::take(&mut open));
         }
-        // The program may state a place anew: the wire was taken there.
+        // The program may state a new position: the wire was taken there.
         node += step.start - stands;
         stands = step.end;
         if !step.moves() {
@@ -192,7 +192,8 @@ fn between(ideal: &Segment, step: &Step, from: Point, to: Point) -> Segment {
 }
 
 impl Cuts {
-    /// Why the cuts cannot become a program of a language without losing the correction: lower-case, no final dot.
+    /// Why the cuts cannot become a program of a language without losing the correction: in lower
+    /// case without a full stop.
     pub(crate) fn refusal(&self, format: Format, settings: &Effective) -> Option<String> {
         if let Some(line) = self.four_b {
             return Some(say!(a_4b_program_holds_the_contour_of_the_part, line + 1));

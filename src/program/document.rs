@@ -71,7 +71,7 @@ impl Document {
         }
     }
 
-    /// The cuts that the last reading began to look at contours with.
+    /// The number of cuts from which the last reading looked for contours.
     #[cfg(test)]
     pub(in crate::program) fn cuts_looked_at(&self) -> usize {
         match self {
@@ -128,8 +128,8 @@ impl Document {
         }
     }
 
-    /// The fixes of one finding as edits of the text, the preferred one first. A fix that might spoil the program is
-    /// neither preferred nor made unasked.
+    /// The fixes of one finding as edits of the text, the preferred one first. A fix that might
+    /// spoil the program is neither preferred nor made by "fix all".
     pub(crate) fn fixes(&self, finding: &Finding) -> Vec<TextFix> {
         let offered = self.offered(finding);
         match self {
@@ -194,7 +194,7 @@ impl Document {
         self.program().unread_line()
     }
 
-    /// The line from which the program runs on further than it is followed: it calls its subprograms too often.
+    /// The line at which the program is no longer followed, since it calls its subprograms too often.
     pub(crate) fn unfollowed_line(&self) -> Option<usize> {
         match self {
             Document::ThreeB(_) => None,
@@ -207,7 +207,7 @@ impl Document {
         Whereabouts::within(self.program())
     }
 
-    /// The machine's way, block by block.
+    /// The machine's path, block by block.
     pub fn trace(&self) -> Trace {
         let trace = steps::trace(self.program());
         let taper = match self {

@@ -54,7 +54,7 @@ const AT_A_TIME: usize = 64;
 /// Blocks, each with the number of its piece, as many in a list as one core takes at a time.
 pub(super) type Numbered<B> = Vec<Vec<(usize, B)>>;
 
-/// The blocks of pieces; where one cannot be written, that.
+/// The blocks of pieces; the error is the first piece that cannot be written.
 pub(super) fn encode_all<'a, E>(
     encoder: &E,
     pieces: &'a [Piece],

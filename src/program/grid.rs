@@ -36,7 +36,7 @@ pub(crate) fn point_of(node: Node) -> Point {
 struct Candidate {
     node: Node,
     /// The largest distance of the arc about it from the true one, or of its end from the intended one, in hundredths
-    /// of a step; where that `is_known`, else no more than that.
+    /// of a step; exact where that `is_known`, else a lower bound.
     cost: i64,
     is_known: bool,
     /// Distance from the true centre.
@@ -106,7 +106,7 @@ fn middle_of(arc: &Arc) -> Option<Vector> {
     is_between.then(|| direction(arc.start_angle + arc.sweep / 2.0))
 }
 
-/// What the error of an arc about a grid point is at the least: at its middle, and from its start to its end.
+/// A lower bound of the error of an arc about a grid point, from its middle and its ends.
 fn least_cost(arc: &Arc, middle: Option<Vector>, center: Node, from: Node, to: Node) -> f64 {
     let miss = radii_differ(center, from, to);
     let Some(middle) = middle else { return miss };
@@ -162,7 +162,7 @@ fn farthest_between(written: &Segment, piece: &Segment, at_ends: f64) -> f64 {
                 Segment::Line(line) => left_normal(line.direction()),
                 Segment::Arc(arc) => own.center - arc.center,
             };
-            // About one centre every place is as far.
+            // About a common centre every place is equally far.
             let by = along.try_normalize(0.0).map(|along| along * own.radius);
             let look = |by: Vector| Some(own.center + by).filter(|&place| own.spans(place));
             // It reaches its end at its own radius, which may miss that end a little.

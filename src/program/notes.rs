@@ -1,11 +1,11 @@
-//! What a program does, noted block by block while it is written: whoever only compares it need not read it.
+//! What a program does, noted block by block while it is written: a comparison then need not read the text.
 
 use super::path::{Kind, Step, Trace, Writing};
 use crate::geometry::Point;
 use std::ops::Range;
 
-/// What the machine does at each block as it is written: the trace that reading the text gives, but for what only the
-/// whole text shows. Lines are not counted.
+/// What the machine does at each block as it is written: the trace that reading the text would
+/// give, except for what only the whole text shows. Lines are not counted.
 #[derive(Debug, Default)]
 pub(crate) struct Notes {
     pub(crate) steps: Vec<Step>,

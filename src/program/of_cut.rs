@@ -72,7 +72,7 @@ impl OfCut {
         self.place.range(chunks)
     }
 
-    /// It as a finding at its present place.
+    /// The finding at its present place.
     pub(crate) fn finding<C>(&self, chunks: &Chunks<C>, text: &SourceText) -> Finding {
         let mut detail = self.detail.clone();
         let related = self.other.map(|other| other.range(chunks));
@@ -88,7 +88,7 @@ impl OfCut {
         }
     }
 
-    /// Puts what is found of the touched cuts in the place of what was, in a list in the order in which cuts begin.
+    /// Replaces the findings of the touched cuts in a list that is in the order in which cuts begin.
     pub(crate) fn splice(list: &mut Vec<OfCut>, touched: &Touched<'_>, fresh: Vec<OfCut>) {
         let renumber = |one: &mut OfCut, moved: &dyn Fn(usize) -> usize| {
             one.begin.0 = moved(one.begin.0 as usize) as u32;

@@ -19,7 +19,7 @@ type Key = (Severity, (usize, usize), Rule, usize);
 
 /// A program with known faults.
 pub(super) trait Report {
-    /// The source for wording a finding: of many findings few are shown.
+    /// What a finding is worded from: of many findings only a few are shown.
     type Kept;
 
     fn found(&self) -> impl Iterator<Item = Found<Self::Kept>>;
@@ -30,7 +30,7 @@ pub(super) trait Report {
     }
 
     /// The first byte of such a chunk, and how many findings of each rule are there, in the severity of their rule; `None`
-    /// where that is not known without a look at each.
+    /// where that is not known without looking at each.
     fn tally(&self, _chunk: usize) -> Option<(usize, &[(Rule, usize)])> {
         None
     }
@@ -59,7 +59,7 @@ pub(super) trait Report {
             let severity = settings.severity_over(found.rule, found.severity)?;
             Some(Found { severity, ..found })
         };
-        // Of many findings those are held of which some are the first, each by its key; the others are only counted.
+        // Only the first findings are kept, each by its key; the others are counted.
         let mut first: First<Self::Kept> = First::of(limit.max(1));
         for chunk in 0..self.chunks() {
             match self
@@ -92,7 +92,7 @@ pub(super) trait Report {
 struct First<K> {
     held: Vec<(Key, K)>,
     most: usize,
-    /// What is behind it is not among the first.
+    /// Findings after it are not among the first.
     last: Option<Key>,
     count: usize,
 }
@@ -122,7 +122,7 @@ impl<K> First<K> {
         }
     }
 
-    /// How many findings count of a chunk that begins at a byte, where none of them is among the first.
+    /// The number of findings of a chunk that begins at a byte, if none of them is among the first.
     fn passed(
         &self,
         settings: &Effective,

@@ -1,4 +1,5 @@
-//! The machine's way in a part of a program: an answer costs the part, and a glance at each chunk.
+//! The machine's path in a part of a program: an answer costs the length of the part, and a glance
+//! at each chunk.
 
 use super::path::{CutSteps, Kind, Step, Totals, Trace, Writing};
 use crate::geometry::{Point, Vector};

@@ -12,7 +12,7 @@ pub(crate) struct Stand {
     pub(crate) end: Option<Point>,
 }
 
-/// For several places: the last chunk read is kept.
+/// Answers for several places: the last chunk read is kept.
 pub(crate) struct Whereabouts<'a> {
     program: &'a dyn Program,
     /// Behind this line the position is unknown; it is only searched for when needed.

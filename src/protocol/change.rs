@@ -42,7 +42,7 @@ struct Keys {
     before: Option<String>,
 }
 
-/// Tells `"entity": null` from no entity at all.
+/// Distinguishes `"entity": null` from a missing entity.
 fn given<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Option<Entity>>, D::Error> {
     Option::deserialize(deserializer).map(Some)
 }
@@ -70,7 +70,7 @@ impl<'de> Deserialize<'de> for DrawingChange {
     }
 }
 
-/// What stands under a handle while changes are tried.
+/// What a handle refers to while changes are tried.
 #[derive(Clone, Copy)]
 enum Standing {
     Nothing,
@@ -97,7 +97,7 @@ pub(crate) fn apply(
     drawing: &mut core::Drawing,
     changes: Vec<DrawingChange>,
 ) -> Result<Delta, String> {
-    // All are tried on what the handles stand for first: undoing half of them would need new ids for what was removed.
+    // All are first tried on what the handles refer to: undoing half of them would need new ids for removed entities.
     let mut standing: FxHashMap<&str, Standing> = FxHashMap::default();
     for (index, change) in changes.iter().enumerate() {
         try_change(drawing, &mut standing, change)
@@ -302,7 +302,7 @@ pub(crate) fn changes_of(drawing: &core::Drawing, edit: &core::DrawingEdit) -> V
             before: None,
         });
     }
-    // New entities come first, while those that they stand next to are still there; their handles are those that the core gives.
+    // New entities come first, while their neighbours are still there; their handles are those that the core gives.
     let mut grown = drawing.clone();
     let mut new = Vec::new();
     for (after, change) in added {
@@ -352,7 +352,8 @@ fn at(vertices: &mut AtVertices, entity: EntityId, index: usize) -> &mut AtVerte
         .or_default()
 }
 
-/// One splice for each run of neighbouring vertices, from the last run to the first, so that indices stay true.
+/// One splice for each run of neighbouring vertices, from the last run to the first, so that
+/// indices stay valid.
 fn splices(by_index: &BTreeMap<usize, AtVertex>) -> Vec<Splice> {
     let mut splices: Vec<Splice> = Vec::new();
     for (&index, at) in by_index {

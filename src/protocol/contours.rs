@@ -155,7 +155,8 @@ mod tests {
     use crate::geometry::Point;
     use std::f64::consts::PI;
 
-    /// Two half circles meet but for the last digits of the sine; what the rule `gap` speaks of is listed.
+    /// Two half circles meet except for the last digits of the sine; gaps that the rule `gap`
+    /// reports are listed.
     #[test]
     fn rounding_is_no_gap() {
         for (off, expected) in [(0.0, vec![]), (0.002, vec![(0, 0.002), (1, 0.002)])] {

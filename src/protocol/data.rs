@@ -189,7 +189,8 @@ impl FindingData {
         data
     }
 
-    /// Where it is in the program, in whose frame all points are: a block of 3B knows its own from its start only.
+    /// Adds the place in the program and moves all points to its frame: a block of 3B gives its own
+    /// points from its start only.
     fn stand(&mut self, detail: &Detail, stand: Stand) {
         if let (Some(center), Some(start)) = (self.center, self.start) {
             let [center, start] = [center, start].map(Into::<Point>::into);

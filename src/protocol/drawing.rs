@@ -182,7 +182,8 @@ impl<'de> Deserialize<'de> for Entity {
 }
 
 impl Drawing {
-    /// The core's drawing. Errors: a handle that stands twice, a number that is none, a radius that is not above 0.
+    /// The core's drawing. Errors: a handle that occurs twice, a number that is not finite, a
+    /// radius that is not above 0.
     pub(crate) fn into_core(self) -> Result<core::Drawing, String> {
         let mut drawing = core::Drawing::new(self.units.map(Unit::from));
         for entity in self.entities {
@@ -197,7 +198,7 @@ impl Drawing {
 }
 
 impl Entity {
-    /// The core's entity. Errors: a number that is none, a radius that is not above 0.
+    /// The core's entity. Errors: a number that is not finite, a radius that is not above 0.
     pub(crate) fn into_core(self) -> Result<core::Entity, String> {
         self.check()?;
         let layer = self.layer.as_deref().unwrap_or("0");
@@ -207,7 +208,8 @@ impl Entity {
         })
     }
 
-    /// Says which number of the entity is none.
+    /// The error names the number of the entity that is not finite, or the radius that is not above
+    /// 0.
     pub(crate) fn check(&self) -> Result<(), String> {
         let name = &self.handle;
         let point = |key: &str, at: &Point| match at.x.is_finite() && at.y.is_finite() {

@@ -40,7 +40,7 @@ pub(crate) struct Closure {
 }
 
 impl Closure {
-    /// Rounded to nm: what is below comes of reckoning.
+    /// Rounded to nm: anything smaller comes from the calculation.
     pub(crate) fn of(drift: [f64; 2]) -> Closure {
         let [x, y] = drift.map(|um| (um * 1e3).round() / 1e3 + 0.0);
         Closure { x, y }

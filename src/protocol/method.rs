@@ -4,7 +4,7 @@ use super::*;
 use schemars::generate::SchemaGenerator;
 use serde_json::{Map, Value};
 
-/// Makes of rows the names, and the part of the schema that says what each takes and gives.
+/// Turns rows into the names and the part of the schema that says what each takes and gives.
 macro_rules! methods {
     ($($constant:ident $name:literal $(by $sender:ident)? { $($key:ident: $type:ty),+ })*) => {
         $(pub(crate) const $constant: &str = $name;)*

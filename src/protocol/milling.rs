@@ -1,4 +1,4 @@
-//! What milling a drawing comes to, beside the reply that holds its program.
+//! The figures of milling a drawing, beside the reply that holds its program.
 
 use crate::document::Snapshot;
 use crate::toolpath;
@@ -88,7 +88,7 @@ impl Milling {
         }
     }
 
-    /// What a person is told: the layers, then each contour.
+    /// The sentences for a person: the layers, then each contour.
     pub(crate) fn told(&self, contours: usize) -> Vec<String> {
         let has_rest = self.last_layer < self.layer * (1.0 - 1e-6);
         let rest = |sentence: String| if has_rest { sentence } else { String::new() };

@@ -1,7 +1,8 @@
 //! The types of every `wedm/` message, and how they are made from the core and turned into it.
 //!
-//! Keys are camelCase, angles degrees, coordinates drawing units. Server and command line share these types, so that
-//! what an editor is sent and what `--output json` prints are one thing. Nothing here knows of transport or state.
+//! Keys are camelCase, angles degrees, coordinates drawing units. Server and command line share
+//! these types, so that an editor is sent the same as `--output json` prints. Nothing here knows of
+//! transport or state.
 
 mod change;
 mod contours;

@@ -1,7 +1,7 @@
 //! Numbers as CAD programs send them: what is not a number becomes NaN here and is named with its place later.
 //!
-//! A drawing with one `null` among a million coordinates shall be refused with the handle and the vertex, which
-//! a parser's "invalid type: null" does not tell.
+//! A drawing with one `null` among a million coordinates is refused with the handle and the vertex,
+//! which a parser's "invalid type: null" would not tell.
 
 use serde::de::{Deserialize, Deserializer, Visitor};
 
@@ -47,7 +47,8 @@ mod tests {
 
     #[test]
     fn the_number_is_the_one_that_was_written_to_the_last_bit() {
-        // Parsers that multiply by a power of ten are a bit off with these: a radius then falls on the other side of its limit.
+        // Parsers that multiply by a power of ten are a bit off with these: a radius could then
+        // fall on the other side of its limit.
         for text in [
             "0.10000000000000009",
             "31.245270191439438",

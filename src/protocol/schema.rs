@@ -67,7 +67,7 @@ pub(crate) fn settings_schema() -> Value {
     whole
 }
 
-/// TOML has no null, which an editor would propose.
+/// Removes null, which TOML does not have and an editor would propose.
 fn leave_out_null(part: &mut Value) {
     match part {
         Value::Array(items) => items.iter_mut().for_each(leave_out_null),
@@ -78,7 +78,7 @@ fn leave_out_null(part: &mut Value) {
                     kinds.retain(|kind| !kind.is_null() && !is_null(kind));
                 }
             }
-            // What fits one of one fits all, and a fault within is told as such.
+            // A choice of one type is that type, and a fault within it is then reported as such.
             if keys
                 .get("anyOf")
                 .is_some_and(|all| all.as_array().map(Vec::len) == Some(1))
@@ -92,7 +92,7 @@ fn leave_out_null(part: &mut Value) {
     }
 }
 
-/// Turns what each rule has in a table into keys of their own, which editors complete and check.
+/// Turns a table by rule into one key for each rule, which editors complete and check.
 fn name_rules(table: &mut Value) {
     let of_each = table["additionalProperties"].take();
     let key = |rule: Rule| {
@@ -155,7 +155,7 @@ fn place_of(row: &Row) -> (&'static str, &str) {
     }
 }
 
-/// Puts into the type of a level of settings what the row of a key says beside the type: the range, and the meaning as plain text.
+/// Adds to the type of a level of settings what the row of a key says beyond its type: the range, and the meaning as plain text.
 fn declare(definitions: &mut Map<String, Value>, row: &Row) {
     let (of, key) = place_of(row);
     let Some(schema) = definitions

@@ -95,7 +95,7 @@ pub(crate) struct Simulation {
 }
 
 impl Simulation {
-    /// `feed` in mm/min, of the cuts alone; one that is not above 0 says no time.
+    /// `feed` in mm/min, for the cuts alone; one that is not above 0 gives no time.
     pub(crate) fn of(trace: &Trace, feed: Option<f64>) -> Simulation {
         let closure = trace.closure();
         let (cut, jumps) = trace.lengths();
@@ -153,7 +153,7 @@ impl SimulatedBlock {
     }
 }
 
-/// Nanometres are more than anybody measures.
+/// Rounded to nanometres, finer than anybody measures.
 fn rounded(um: f64) -> f64 {
     (um * 1000.0).round() / 1000.0
 }

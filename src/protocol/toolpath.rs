@@ -74,7 +74,7 @@ pub(crate) struct PathPiece {
 }
 
 impl Toolpath {
-    /// What has been planned of a drawing under its settings.
+    /// The paths that have been planned for a drawing under its settings.
     pub(crate) fn new(
         drawing: &Drawing,
         outlines: &[Outline],

@@ -1,4 +1,4 @@
-//! What a job comes to on the machine, beside the reply that holds its paths or its program.
+//! Lengths, times and costs of a job, beside the reply that holds its paths or its program.
 
 use crate::drawing::{Drawing, Outline};
 use crate::geometry::Xy as Point;

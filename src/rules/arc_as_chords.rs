@@ -1,7 +1,7 @@
 //! `arc-as-chords`: five or more lines in a row whose ends lie on one circle.
 //!
-//! Somewhere on its way the drawing's arc was broken into chords. The wire cuts the facets, and the program has a block
-//! for each. Fix: one arc.
+//! Somewhere on its way an arc of the drawing was broken into chords. The wire cuts the facets, and
+//! the program has a block for each. Fix: one arc.
 //!
 //! An observation at a segment depends on two windows of [`LEAST`] chords: the one that starts there and the one that
 //! starts a segment earlier. A sequence begins where the first fits one circle and the second does not. Its length is
@@ -123,7 +123,8 @@ fn check(outlook: &Outlook, range: Range<usize>, observations: &mut Vec<Observat
     // Starts at the segment before the range.
     let fits = windows(outlook, range.start as isize - 1..range.end as isize);
     for (index, pair) in range.zip(fits.windows(2)) {
-        // A full circle of chords has no beginning, so the first segment may serve as one.
+        // A full circle of chords has no beginning, so the first segment may serve as the
+        // beginning.
         if pair[1] && (!pair[0] || (outlook.contour.closed && index == 0)) {
             observations.push(Observation::at(index));
         }
@@ -135,7 +136,7 @@ fn windows(outlook: &Outlook, starts: Range<isize>) -> Vec<bool> {
     if outlook.contour.len() < LEAST {
         return vec![false; starts.len()];
     }
-    // `None` for a segment that is no line.
+    // `None` for a segment that is not a line.
     let line = |index: isize| match outlook.segment(index)?.geometry {
         Segment::Line(line) => Some(line),
         Segment::Arc(_) => None,
@@ -238,7 +239,7 @@ fn fixes(outlook: &Outlook, observation: Observation) -> Vec<Fix> {
         add(chords / 2..chords, &fit, &points);
     } else {
         add(0..chords, &fit, &points);
-        // Chords beyond the limit go on behind the new arc: they would be the next finding.
+        // Chords beyond the limit are left after the new arc: they would be the next finding.
         let (mut last, limit) = (
             chords,
             if outlook.contour.closed {
@@ -294,7 +295,7 @@ fn moved(points: &[Point], arc: &Arc) -> f64 {
     arc.radius * (1.0 - half.cos()) + deviation
 }
 
-/// Each arc replaces its chords' first vertex; the other vertices go.
+/// Each arc takes over the first vertex of its chords; the other vertices go.
 fn in_polyline(
     outlook: &Outlook,
     places: &[ContourSegment],
@@ -331,7 +332,7 @@ fn in_polyline(
     Some(changes)
 }
 
-/// An ARC is added behind the first LINE, and the LINEs go.
+/// An ARC is added after the first LINE, and the LINEs go.
 fn in_chain(
     outlook: &Outlook,
     places: &[ContourSegment],

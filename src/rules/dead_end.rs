@@ -19,16 +19,16 @@ pub(crate) const RULE: PairRule = PairRule {
     rule: Rule::LostPocket,
     reach: |limits| 2.0 * limits.correction,
     check,
-    // `left` explains what lies between the two.
+    // `left` accounts for what lies between the two.
     pair_by_pair: false,
     ..PairRule::PLAIN
 };
 
-/// Two facing walls are parallel up to this turn (radians): the normals of arcs with radii of kilometres are known no
-/// better.
+/// Two facing walls are parallel up to this turn (radians): the normals of arcs with radii of
+/// kilometres are not known any better.
 const OPPOSITE: f64 = 1e-6;
 
-/// Rounding a contour to three decimals leaves less than this, mm.
+/// A remainder below this, mm, may come from rounding the contour to three decimals.
 const LEAST_MM: f64 = 5e-4;
 
 /// The two walls of a corner face each other above this turn (radians).
@@ -95,8 +95,9 @@ fn check(one: &Wall, other: &Wall, same_contour: bool) -> Vec<PairObservation> {
     observations
 }
 
-/// True for neighbours that part for good, where every disc on a side that touches both gets past their joint: they meet without a
-/// corner, or both are straight. Only a tip at the start of the first may yet hold a disc against the second.
+/// True for neighbours that part for good, where every disc on a side that touches both gets past
+/// their joint: they meet without a corner, or both are straight. Only a tip at the start of the
+/// first may still hold a disc against the second.
 fn let_pass(before: &Wall, behind: &Wall, side: Side, radius: f64) -> bool {
     let limits = before.outlook.limits;
     let (first, second) = (before.geometry(), behind.geometry());
@@ -112,9 +113,9 @@ fn let_pass(before: &Wall, behind: &Wall, side: Side, radius: f64) -> bool {
 /// Two lines may continue each other up to this turn (as the distance of unit vectors).
 const RUNS_ON: f64 = 0.25;
 
-/// True for two lines in the same direction, one behind the other and too far apart for one disc to touch both: the
-/// places where a disc touches two walls are as far apart as the two normals times its radius. Among many short lines
-/// most neighbours are like this.
+/// True for two lines in the same direction, in line with each other and too far apart for one disc
+/// to touch both: the places where a disc touches two walls are as far apart as the two normals
+/// times its radius. Among many short lines most neighbours are like this.
 fn run_on(one: &Wall, other: &Wall, radius: f64) -> bool {
     let (Segment::Line(line), Segment::Line(next)) = (one.geometry(), other.geometry()) else {
         return false;
@@ -155,8 +156,9 @@ fn run_on(one: &Wall, other: &Wall, radius: f64) -> bool {
     turned <= RUNS_ON && 2.0 * turned * radius + rounding < gap
 }
 
-/// True when two segments, by their indices, both lie in or touch what is beyond a disc. In the direction of travel
-/// that part runs from the first to the second of its walls; `count` is that of the contour's segments.
+/// True when two segments, by their indices, both lie in or touch the part beyond a disc. In the
+/// direction of travel that part runs from the first to the second of its walls; `count` is the
+/// number of the contour's segments.
 pub(crate) fn holds([from, to]: [usize; 2], count: usize, segments: [usize; 2]) -> bool {
     let along = |index: usize| (index + count - from) % count.max(1);
     segments.into_iter().all(|index| along(index) <= along(to))
@@ -164,7 +166,7 @@ pub(crate) fn holds([from, to]: [usize; 2], count: usize, segments: [usize; 2]) 
 
 impl DeadEnd {
     /// The end that a disc about `center` makes between two walls of a contour. `None` where it does not touch both,
-    /// where it may pass, and for a single corner no deeper than others of its kind.
+    /// where it may pass, and for a single corner no deeper than its turn explains.
     pub(crate) fn between(one: &Wall, other: &Wall, side: Side, center: Point) -> Option<DeadEnd> {
         let (outlook, limits) = (&one.outlook, one.outlook.limits);
         let radius = radius(limits);
@@ -220,9 +222,9 @@ impl DeadEnd {
         from + isize::from(!self.from.at_vertex)..from + self.steps as isize
     }
 
-    /// True where both places are the one corner that turns away from the wire, so that the whole contour seems to lie
-    /// beyond it: ends that miss each other by g let the disc touch the wall before the corner up to √(2 g r) away from
-    /// it.
+    /// True where both places are at the same corner that turns away from the wire, so that the
+    /// whole contour seems to lie beyond it: ends that miss each other by g let the disc touch the
+    /// wall before the corner up to √(2 g r) away from it.
     fn is_at_one_joint(&self, outlook: &Outlook) -> bool {
         let before = (self.from.index + outlook.contour.len() - 1) % outlook.contour.len();
         if self.steps == 0 || !self.from.at_vertex || self.to.index != before {
@@ -412,7 +414,7 @@ impl DeadEnd {
         corners
     }
 
-    /// The corner between the segment before the first of some joints and the segment behind the last, if it turns
+    /// The corner between the segment before the first of some joints and the segment after the last, if it turns
     /// towards the wire.
     fn corner_at(
         &self,

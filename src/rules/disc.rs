@@ -6,7 +6,7 @@ use crate::finding::Side;
 use crate::geometry::Locus;
 use crate::geometry::{Point, Segment, Vector, left_normal};
 
-/// A wall that a disc touches: at a place of it, or at its start vertex.
+/// A place where a disc touches a wall: along it, or at its start vertex.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Touch {
     pub(crate) index: usize,
@@ -20,7 +20,7 @@ pub(super) fn slack(limits: &Limits, radius: f64) -> f64 {
     (1e-6 * radius).max(limits.tolerances.clearance)
 }
 
-/// Where a disc may lie that touches a wall, or its start vertex.
+/// Where the centre of a disc may lie that touches a wall, or its start vertex.
 pub(super) fn loci(wall: &Wall, side: Side, radius: f64) -> [Option<Locus>; 2] {
     let along = Locus::beside(
         wall.geometry(),

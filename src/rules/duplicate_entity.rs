@@ -101,8 +101,8 @@ fn are_one_ring(first: &Geometry, second: &Geometry, at: usize, tolerance: f64, 
     {
         return false;
     }
-    // A little further on the one must still lie beside the start of the other: this rejects most outlines that only
-    // meet in a point.
+    // A little further on, the one must still lie on the other beside its start: this rejects most
+    // outlines that only meet in a point.
     let Some(before) = second.segment_of(
         (at + second.segment_count() - 1) % second.segment_count().max(1),
         flat,

@@ -66,7 +66,8 @@ pub(crate) fn end_moved(
 }
 
 /// The change that joins two ends which should meet: the start of the later segment moves to the end of the earlier
-/// one. Where only the earlier one is straight, that one moves instead: a line bears it better than an arc.
+/// one. Where only the earlier one is straight, that one moves instead: a line tolerates that
+/// better than an arc.
 pub(crate) fn joined(
     drawing: &Drawing,
     before: &ContourSegment,

@@ -18,7 +18,7 @@ pub(crate) const RULE: LocalRule = LocalRule {
     ..LocalRule::PLAIN
 };
 
-/// A gap can only be where an entity begins.
+/// A gap can only occur where an entity begins.
 fn check(outlook: &Outlook, range: Range<usize>, observations: &mut Vec<Observation>) {
     let pieces = &outlook.contour.pieces;
     let first = pieces.partition_point(|piece| piece.first() < range.start);
@@ -32,7 +32,8 @@ fn check(outlook: &Outlook, range: Range<usize>, observations: &mut Vec<Observat
     }
 }
 
-/// Ends up to this distance apart count as meeting: it is no more than rounding to the resolution.
+/// Ends up to this distance apart count as meeting: the distance rounds to no more than the
+/// resolution.
 fn least(outlook: &Outlook) -> f64 {
     let tolerances = &outlook.limits.tolerances;
     tolerances.report.max(1.5 * tolerances.resolution)

@@ -5,8 +5,9 @@
 //! offset is empty, the wire does not fit at all. Both need a closed contour with a known wire side.
 //!
 //! A dead end that is too narrow all along has no loop of its own and is only `narrow-slot`; a hole made of arcs below
-//! the correction is only `small-radius`. The library `cavalier_contours` makes the offset. It is believed only where
-//! its loops keep clear of the contour, and its empty result only if no disc of the correction fits.
+//! the correction is only `small-radius`. The library `cavalier_contours` makes the offset. It is
+//! trusted only where its loops keep clear of the contour, and its empty result only if no disc of
+//! the correction fits.
 
 use super::{Outlook, small_radius};
 use crate::finding::Side;
@@ -14,8 +15,8 @@ use crate::geometry::{Bounds, Point, Segment, left_normal};
 use cavalier_contours::polyline::{PlineSource, PlineSourceMut, Polyline};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// Contours with more segments are skipped: their offset would take longer than an edit may. `narrow-slot` still works
-/// there.
+/// Contours with more segments are skipped: their offset would take longer than an edit may take.
+/// `narrow-slot` still works there.
 pub(crate) const MOST_SEGMENTS: usize = 5_000;
 
 /// What the offset of a contour loses.
@@ -23,7 +24,7 @@ pub(crate) const MOST_SEGMENTS: usize = 5_000;
 pub(crate) enum Lost {
     /// All of it: the offset is empty.
     All,
-    /// A part, by the point of its loop that lies deepest in it and the index of the segment beside that point.
+    /// A part: the deepest point of its loop, and the index of the segment beside that point.
     Pocket { near: Point, index: usize },
 }
 

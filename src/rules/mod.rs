@@ -1,7 +1,8 @@
 //! The rules of the wire: a folder or file each, with its check and its fix.
 //!
-//! A rule works on geometry: it takes contours and returns observations at segments, and makes of one of them a finding and its fixes as edits of the
-//! drawing. It knows nothing of text, protocols, or the wording of its messages.
+//! A rule works on geometry: it takes contours, returns observations at segments, and turns an
+//! observation into a finding with fixes, which are edits of the drawing. It knows nothing of text,
+//! protocols, or the wording of its messages.
 
 pub(crate) mod arc_as_chords;
 pub(crate) mod dead_end;
@@ -79,7 +80,7 @@ pub(crate) struct Outlook<'a> {
     pub(crate) contour: &'a Contour,
     pub(crate) index: &'a ContourIndex,
     pub(crate) limits: &'a Limits,
-    /// The number of its workpiece: contours of others do not meet it.
+    /// The number of its workpiece; contours of other workpieces are not compared with it.
     pub(crate) part: u16,
     /// Segments that need not be worked out again.
     pub(crate) at_hand: Option<&'a AtHand>,
@@ -105,7 +106,7 @@ impl AtHand {
         let count = range.len();
         let mut segments: Vec<ContourSegment> = Vec::with_capacity(count);
         segments.extend(contour.segments_in(drawing, range));
-        // Where an entity is missing, the numbers are not those of the contour.
+        // Where an entity is missing, the indices are not those of the contour.
         if segments.len() != count {
             segments.clear();
         }
@@ -209,10 +210,10 @@ pub(crate) struct LocalRule {
     /// Checks the segments `range` of a contour and adds its observations. An observation at a segment may depend only
     /// on that segment and those within `reach` of it.
     pub(crate) check: fn(&Outlook, Range<usize>, &mut Vec<Observation>),
-    /// How many segments before and behind a changed one must be checked again.
+    /// How many segments before and after a changed one must be checked again.
     pub(crate) reach: fn(&Outlook, Range<usize>) -> (usize, usize),
-    /// Whether the observation at the first segment of a closed contour stands, where that depends on the whole
-    /// contour.
+    /// Whether the observation at the first segment of a closed contour holds, where that depends
+    /// on the whole contour.
     pub(crate) holds: fn(&Outlook, Observation) -> bool,
     /// The other places that are concerned.
     pub(crate) related: fn(&Outlook, Observation) -> Vec<Place>,
@@ -228,7 +229,7 @@ pub(crate) struct LocalRule {
 }
 
 impl LocalRule {
-    /// A rule without observations, in a segment by itself.
+    /// The defaults of a rule on a segment by itself.
     const PLAIN: LocalRule = LocalRule {
         rule: Rule::More,
         check: |_, _, _| {},
@@ -242,7 +243,7 @@ impl LocalRule {
     };
 }
 
-/// The segment before the joint of an observation, where it is of another entity.
+/// The segment before the joint of an observation, where it belongs to another entity.
 fn other_at_joint(outlook: &Outlook, observation: Observation) -> Vec<Place> {
     let (before, own) = (
         outlook.segment(observation.index as isize - 1),
@@ -286,8 +287,8 @@ pub(crate) const CONTOUR_RULES: &[ContourRule] = &[open_contour::RULE];
 pub(crate) struct PairObservation {
     /// Sides of travel that it concerns, of the first and of the second segment; `None` for either.
     pub(crate) sides: (Option<Side>, Option<Side>),
-    /// A disc (centre, radius) that must be empty: no segment of the drawing may reach into it, else the observation
-    /// falls.
+    /// A disc (centre, radius) that must be empty: no segment of the drawing may reach into it,
+    /// else the observation is dropped.
     pub(crate) disc: Option<(Point, f64)>,
     /// Only the contour's own segments count for the disc.
     pub(crate) own_disc: bool,
@@ -305,7 +306,7 @@ pub(crate) struct PairRule {
     pub(crate) check: fn(&Wall, &Wall, bool) -> Vec<PairObservation>,
     pub(crate) detail: fn(&Wall, &Wall, bool) -> Option<Detail>,
     pub(crate) fixes: fn(&Wall, &Wall) -> Vec<Fix>,
-    /// Neighbouring pairs observe one thing: the narrowest stands for all.
+    /// Neighbouring pairs observe the same thing: the narrowest stands for all.
     pub(crate) one_per_place: bool,
     /// Silent for two entities that are duplicates of each other as a whole.
     pub(crate) silent_for_doubles: bool,
@@ -318,7 +319,7 @@ pub(crate) struct PairRule {
 }
 
 impl PairRule {
-    /// A rule without observations that makes a finding of each pair.
+    /// The defaults of a rule that makes a finding of each pair.
     const PLAIN: PairRule = PairRule {
         rule: Rule::More,
         reach: |_| 0.0,
@@ -333,7 +334,7 @@ impl PairRule {
     };
 }
 
-/// How many segments before and behind a segment a pair rule may look at.
+/// How many segments before and after a segment a pair rule may look at.
 pub(crate) const NEIGHBOURS: usize = 4;
 
 /// Every rule on pairs of segments. `duplicate-entity` comes first, since others are silent for its pairs.

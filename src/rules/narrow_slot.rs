@@ -101,7 +101,7 @@ fn narrowest(one: &Wall, other: &Wall, same_contour: bool) -> Option<Slot> {
                 .then(|| (corner.side(toward), wall_side(b, foot, -toward)))
             });
         }
-        // Between the two ends of an open contour is its opening, which `open-contour` reports.
+        // Between the two ends of an open contour lies its opening, which `open-contour` reports.
         for met in other
             .corners()
             .filter(|met| !(same_contour && corner.is_free_end() && met.is_free_end()))
@@ -130,8 +130,9 @@ fn narrowest(one: &Wall, other: &Wall, same_contour: bool) -> Option<Slot> {
     })
 }
 
-/// True when the distance of two walls has a minimum or stays constant, where they are `width` apart and curve toward
-/// each other with these curvatures (the second derivatives of the distance; −∞ for a vertex, which cannot be moved).
+/// True when the distance of two walls has a minimum or stays constant, where they are `width`
+/// apart and curve towards each other with these curvatures (the second derivatives of the
+/// distance; −∞ for a vertex, which cannot be moved).
 fn is_minimum(width: f64, one: f64, other: f64) -> bool {
     const ROUNDING: f64 = 1e-6;
     let (u, v) = (1.0 - width * one, 1.0 - width * other);

@@ -1,6 +1,6 @@
 //! `near-tangent`: two segments that look tangent but are not quite.
 //!
-//! The control takes the joint for a corner: it stops there or turns the offset round it, and the wire leaves a mark.
+//! The control takes the joint for a corner: it stops there or rolls the offset round it, and the wire leaves a mark.
 //! Fix: the arc at the joint becomes tangent, or two nearly collinear lines become one.
 
 use super::arc_as_chords::{self, are_between_chords};
@@ -38,7 +38,8 @@ fn check(outlook: &Outlook, range: Range<usize>, observations: &mut Vec<Observat
             if between.get(index - range.start) == Some(&true) {
                 continue;
             }
-            // Where the wire runs inside, the larger kinks are sharp corners, if they leave enough to count.
+            // Where the wire runs inside, the larger kinks are sharp corners if they leave enough
+            // stock to count.
             let uncut = own_share(outlook.limits.last_correction, turn);
             let is_corner = uncut >= outlook.limits.tolerances.resolution;
             observations.push(Observation {
@@ -49,8 +50,8 @@ fn check(outlook: &Outlook, range: Range<usize>, observations: &mut Vec<Observat
     }
 }
 
-/// Whether the kink before the segment at `index` is measurable: at its middle, the shorter of the two segments is off
-/// the direction of the other by that much.
+/// Whether the kink before the segment at `index` is measurable: at its middle, the shorter of the
+/// two segments is off the direction of the other by at least the resolution.
 fn shows(outlook: &Outlook, index: usize, turn: f64) -> bool {
     let length = |index: isize| {
         outlook
@@ -69,7 +70,7 @@ fn detail(outlook: &Outlook, observation: Observation, _count: Option<usize>) ->
     })
 }
 
-/// The change that moves the contour least, and by less than the difference between two places that count as one.
+/// The change that moves the contour least, and by less than the distance within which two places count as one.
 fn fixes(outlook: &Outlook, observation: Observation) -> Vec<Fix> {
     let index = observation.index as isize;
     let (Some(before), Some(behind)) = (outlook.segment(index - 1), outlook.segment(index)) else {

@@ -70,7 +70,7 @@ fn fixes(outlook: &Outlook) -> Vec<Fix> {
     else {
         return Vec::new();
     };
-    // A spline has no vertices of its own to close it with.
+    // A spline has no vertices of its own with which to close it.
     let own = outlook.drawing.is_editable(piece.entity)
         && matches!(
             outlook

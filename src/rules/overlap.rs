@@ -1,7 +1,8 @@
 //! `overlap`: two segments on one line or one circle that coincide over more than 0.005 mm.
 //!
-//! The wire would go twice along the same wall, and the way on is ambiguous. Two entities that duplicate each other as
-//! a whole are `duplicate-entity`. Fix: an entity that lies wholly within another one goes.
+//! The wire would go along the same wall twice, and how the contour goes on is ambiguous. Two
+//! entities that duplicate each other as a whole are `duplicate-entity`. Fix: an entity that lies
+//! wholly within another one goes.
 
 use super::wall::{Joints, Wall};
 use super::{PairObservation, PairRule};

@@ -45,7 +45,7 @@ struct Contact {
     touches: bool,
 }
 
-/// Where two segments cross, else where they touch, but not at a joint of theirs.
+/// Where two segments cross, else where they touch, apart from their joints.
 ///
 /// A vertex that lies on the other segment within the touch tolerance belongs to the segment that starts in it, so that
 /// one pair reports each place. The sides that the contour comes from and goes to decide whether it crosses there.
@@ -66,7 +66,8 @@ fn contact(one: &Wall, other: &Wall, same_contour: bool) -> Option<Contact> {
         same_place: tolerances.same_place,
     };
     let at_joint = |point: Point| joints.are_at(point, tolerances.join);
-    // Here the two come so near without crossing that a meeting close by is not a separate one.
+    // Where the two come this near without crossing, another contact close by is not a separate
+    // one.
     let ends_of = |ends: &Segment, on: Segment| {
         [ends.start(), ends.end()]
             .into_iter()
@@ -160,7 +161,7 @@ impl Near<'_> {
         shared_length(&segment, &on, self.same_place) > self.same_place
     }
 
-    /// A vertex on the inside of a segment.
+    /// A vertex on a segment, away from its ends.
     fn on_segment(&self, corner: &Corner, on: &Segment) -> Option<Contact> {
         if self.runs_along(corner.incoming, Some(*on))
             || self.runs_along(corner.outgoing, Some(*on))
@@ -191,7 +192,7 @@ impl Near<'_> {
             (one.outgoing, other.incoming),
             (one.outgoing, other.outgoing),
         ];
-        // Chaining reports open ends that meet.
+        // Open ends that meet are left to chaining.
         if open(one) && open(other) || along.into_iter().any(|(a, b)| self.runs_along(a, b)) {
             return None;
         }

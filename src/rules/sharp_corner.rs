@@ -37,7 +37,7 @@ pub(crate) fn inner_side(turn: f64) -> Option<Side> {
 }
 
 fn check(outlook: &Outlook, range: Range<usize>, observations: &mut Vec<Observation>) {
-    // Only asked where some corner is flat enough.
+    // Worked out only where some corner is flat enough.
     let mut between: Option<Vec<bool>> = None;
     let (first, steepest) = (range.start, arc_as_chords::steepest());
     for index in range.clone() {
@@ -64,7 +64,7 @@ fn check(outlook: &Outlook, range: Range<usize>, observations: &mut Vec<Observat
     }
 }
 
-/// The last pass leaves R; uncut is what stands between the arc and this one corner: `R (1 / cos(θ/2) − 1)` between
+/// The last pass leaves R; `uncut` is what stays between the arc and this corner: `R (1 / cos(θ/2) − 1)` between
 /// straight walls, less where they are short. Anything beyond that is `lost-pocket`: the wire does not get there.
 fn detail(outlook: &Outlook, observation: Observation, count: Option<usize>) -> Option<Detail> {
     let index = observation.index as usize;
@@ -83,10 +83,10 @@ fn detail(outlook: &Outlook, observation: Observation, count: Option<usize>) -> 
 /// How many segments on either side of a corner may hold the disc in it.
 const HOLDING: isize = 8;
 
-/// What stays of the corner at the start of the segment at `index` beside a disc of `radius`, on the side that the
-/// contour turns to. Between long walls that is what the disc that touches both leaves. Where the walls are short or
-/// fall back it is at most `R (1 / cos(θ/2) − 1)`, the corner's own share of the loss. `None` at the end of an open
-/// contour.
+/// How much of the corner at the start of the segment at `index` a disc of `radius` leaves, on the
+/// side to which the contour turns. Between long walls that is what the disc that touches both
+/// leaves. Where the walls are short or fall back it is at most `R (1 / cos(θ/2) − 1)`, the
+/// corner's own share of the loss. `None` at the end of an open contour.
 fn corner_depth(outlook: &Outlook, index: usize, radius: f64) -> Option<f64> {
     let count = outlook.contour.len();
     let wall = |index: isize| {
@@ -141,7 +141,7 @@ fn corner_depth(outlook: &Outlook, index: usize, radius: f64) -> Option<f64> {
     {
         return Some(depth);
     }
-    // A wall holds the disc, or the tip at its start does: behind the corner a tip may end the last wall.
+    // A wall holds the disc, or the tip at its start does: after the corner a tip may end the last wall.
     let early: Vec<Wall> = (1..=reach)
         .filter_map(|steps| wall(index - steps))
         .collect();

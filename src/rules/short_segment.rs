@@ -96,7 +96,8 @@ pub(super) fn is_point(outlook: &Outlook, place: &ContourSegment) -> bool {
     is_alone && place.geometry.length() <= outlook.limits.tolerances.zero_length
 }
 
-/// The segment's start vertex goes and its end becomes that of what came before. The ends of an open polyline stay.
+/// The segment's start vertex goes, and the segment before it then ends where this one did. The
+/// ends of an open polyline stay.
 fn in_polyline(place: &ContourSegment, closed: bool, vertices: &[Vertex]) -> Option<Vec<Change>> {
     let (entity, count) = (
         place.entity,

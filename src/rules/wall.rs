@@ -1,4 +1,4 @@
-//! One segment of a contour as the rules on pairs see it, with what lies before and behind it.
+//! One segment of a contour as the rules on pairs see it, with its neighbours.
 
 use super::{NEIGHBOURS, Outlook};
 use crate::drawing::ContourSegment;
@@ -38,7 +38,7 @@ impl<'a> Wall<'a> {
         Some(Wall::behind(before, outlook, index, segment))
     }
 
-    /// The segment at an index behind the one before it, both of which are known.
+    /// The segment at an index after the one before it, both of which are known.
     pub(crate) fn behind(
         before: Option<Segment>,
         outlook: &Outlook<'a>,
@@ -70,7 +70,7 @@ impl<'a> Wall<'a> {
             .is_some_and(|turned| turned.y.abs() <= SMOOTH * turned.x)
     }
 
-    /// True where the contour turns away from what lies on a side, in a corner that counts.
+    /// True where the segment starts at a corner that counts and turns away from the given side.
     pub(crate) fn starts_in_tip(&self, side: Side) -> bool {
         !self.starts_smoothly() && self.turn().is_some_and(|turn| turn * side.sign() < -SMOOTH)
     }
@@ -181,7 +181,7 @@ pub(super) fn parting<'w, 'a>(
     };
     let sweep = |wall: &Wall| wall.geometry().as_arc().map_or(0.0, |arc| arc.sweep.abs());
     let swept = sweep(one) + sweep(other);
-    // Most turn by less than a quarter turn in their joint.
+    // Most turn by less than a quarter turn at their joint.
     let turns_less = |most: f64| match behind.turned {
         Some(turned) if turned.x < 0.0 || most <= FRAC_PI_2 => {
             turned.y.atan2(turned.x).abs() < most

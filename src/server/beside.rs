@@ -1,5 +1,5 @@
 //! Which documents lie beside each other: a program and its drawing. An open document takes precedence over the file on
-//! disk; a change of the one has the other judged again.
+//! disk; a change to one has the other judged again.
 
 use super::config;
 use super::content::Content;
@@ -68,7 +68,7 @@ impl State {
             let from = match self.links.paths.get(&path) {
                 Some(uri) => match self.documents.get(uri).and_then(|open| open.form.clone()) {
                     Some(form) => From::Known(Ok(form)),
-                    // It is yet to be judged, and says so then.
+                    // It is yet to be judged, and notifies its partners then.
                     None => continue,
                 },
                 None => self.on_disk(&path),
@@ -128,7 +128,8 @@ impl State {
         }
     }
 
-    /// Finds the partners of a document; a drawing is only asked again when files have changed.
+    /// Finds the partners of a document; a drawing's partners are only searched for again when
+    /// files have changed.
     fn relink(&mut self, uri: &Arc<str>, files_changed: bool) {
         let Some(open) = self.documents.get(uri) else {
             return;

@@ -33,7 +33,7 @@ pub(super) struct Config {
     /// The client's answer to `workspace/configuration`.
     pulled: Settings,
     folders: Vec<PathBuf>,
-    /// Misfits that the user has been shown, by level.
+    /// Values at fault that the user has been shown, by level.
     shown: FxHashMap<&'static str, Vec<String>>,
 }
 
@@ -65,7 +65,8 @@ impl Config {
         self.folders.extend(added);
     }
 
-    /// Replaces one level. Returns, as sentences, the misfits that the user has not seen yet.
+    /// Replaces one level. Returns, as sentences, the values at fault that the user has not been
+    /// told of yet.
     pub(crate) fn set_level(&mut self, level: Level, json: &Value) -> Vec<String> {
         let (settings, mut errors) = from_json(json);
         match level {
@@ -127,7 +128,7 @@ impl Config {
         search.upwards(start, opened)
     }
 
-    /// The faults in a project's file whose text is `text`, by itself and together with the client's settings.
+    /// The faults in a project's file with the text `text`, by itself and together with the client's settings.
     pub(crate) fn errors_in(&self, text: &str) -> Vec<SettingsError> {
         let (settings, mut errors) = from_toml(text);
         errors.retain(|error| !error.of_levels);

@@ -19,7 +19,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
 pub(super) enum Content {
-    /// Shared with workers: an edit copies it while one still reads it.
+    /// Shared with workers: an edit copies it while a worker still reads it.
     Read(Arc<Document>),
     Settings(SourceText),
     Foreign,
@@ -40,12 +40,12 @@ pub(super) enum Remains {
 const SMALL_TEXT: usize = 16 * 1024;
 const SMALL_DRAWING: usize = 500;
 
-/// Words by which a drawing or program may grow beyond its own length.
+/// Words by which a drawing or program may become much larger than its text.
 const MULTIPLIERS_IN_DXF: [&[u8]; 4] = [b"INSERT", b"SPLINE", b"ELLIPSE", b"HATCH"];
 const MULTIPLIERS_IN_ISO: [&[u8]; 2] = [b"98", b"L"];
 
 impl Content {
-    /// True where it is small, whatever it contains: reading it holds nobody up.
+    /// True where it is small, whatever it contains: reading it holds up nothing.
     pub(crate) fn is_small(&self) -> bool {
         match self {
             Content::Read(document) => match document.source() {
@@ -77,7 +77,7 @@ impl Content {
         }
     }
 
-    /// Replaces bytes of the text; does not read it first if it has not been read.
+    /// Replaces bytes of the text; does not read the document first if it has not been read.
     pub(crate) fn edit_text(&mut self, range: std::ops::Range<usize>, replacement: &str) {
         match self {
             Content::Settings(text) | Content::Unread(Remains::Text { text, .. }) => {
@@ -92,7 +92,7 @@ impl Content {
                 if let Err(panic) = edited {
                     report(&*panic);
                     let (kind, mut text) = text_of(document);
-                    // The panic came before the text was touched, or after.
+                    // Tells whether the panic came before the text was changed or after.
                     let done = text.len() == before - range.len() + replacement.len()
                         && text
                             .bytes()
@@ -146,7 +146,7 @@ impl Content {
         *document.beside() != beside && Arc::make_mut(document).set_beside(beside)
     }
 
-    /// Makes ready what the first edit needs, unless somebody reads it.
+    /// Prepares what the first edit needs, unless the document is in use.
     pub(crate) fn make_ready(&mut self) {
         if let Content::Read(document) = self
             && let Some(document) = Arc::get_mut(document)

@@ -208,7 +208,7 @@ impl RequestContext {
         Ok((context, is_small))
     }
 
-    /// True when nobody wants the result any more.
+    /// True when the result is no longer wanted.
     pub(crate) fn is_cancelled(&self) -> bool {
         self.check().is_err()
     }

@@ -129,12 +129,12 @@ impl Workers {
         }
     }
 
-    /// Judges a document, however many answers are being made.
+    /// Runs the judging of a document, however many answers are being made.
     pub(crate) fn judge(&self, job: impl FnOnce() + Send + 'static) {
         self.judges.push(Box::new(job));
     }
 
-    /// Runs a request's job on a worker, unless its answer is not wanted any more when its turn comes.
+    /// Runs a request's job on a worker, unless its answer is no longer wanted when its turn comes.
     pub(crate) fn run(
         &self,
         is_about_a_place: bool,

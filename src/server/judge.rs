@@ -1,4 +1,4 @@
-//! Takes a document through its pending changes, and judges it: small work at once, the rest on a worker, so that no
+//! Makes a document's pending changes, and judges it: small work at once, the rest on a worker, so that no
 //! document waits for another.
 
 use super::content::{Content, Remains, is_small_drawing, is_small_text};
@@ -19,9 +19,9 @@ use std::time::{Duration, Instant};
 
 /// A pending change of a document.
 pub(super) enum Task {
-    /// It is this text.
+    /// The document is now this text.
     Text { kind: Kind, text: String },
-    /// It is this drawing.
+    /// The document is now this drawing.
     Drawing(Box<Drawing>),
     /// The client has changed its text.
     Change {
@@ -37,13 +37,13 @@ pub(super) enum Task {
     Settings,
     /// The derived data are in doubt.
     Rebuild,
-    /// What lies beside it may have changed, or be another.
+    /// The documents beside it may have changed or been replaced.
     Beside,
-    /// It has been read and shown: what its first edit needs is made ready.
+    /// It has been read and shown: what its first edit needs is to be prepared.
     Ready,
 }
 
-/// A document on its way through its pending changes.
+/// A document whose pending changes are being made.
 pub(super) struct Job {
     pub(crate) uri: Arc<str>,
     pub(crate) version: i64,
@@ -58,9 +58,9 @@ pub(super) struct Job {
     /// The findings that the client has been shown.
     pub(crate) shown: Shown,
     pub(crate) beside: Option<Wanted>,
-    /// Others are compared with it.
+    /// Other documents are compared with it.
     pub(crate) wants_form: bool,
-    /// They are so already.
+    /// It has its form already.
     pub(crate) has_form: bool,
 }
 
@@ -84,7 +84,7 @@ pub(super) struct Judged {
     pub(crate) refused: Vec<String>,
 }
 
-/// The most changes, of one message and in all, that are made at once.
+/// The most changes, in one message and in all, that are made at once.
 const FEW: usize = 16;
 
 /// Judging that takes longer than this is long: waiting changes are then made together.
@@ -197,7 +197,7 @@ impl Job {
             is_changed |= refused.len() == refusals;
             is_other |= wants_form;
         }
-        // A text or drawing that a panic has left is read again.
+        // A text or drawing that a panic has left unread is read again.
         is_changed |= matches!(content, Content::Unread(_));
         is_other |= wants_form && matches!(content, Content::Unread(_));
         content.read(&settings);

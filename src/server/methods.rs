@@ -400,7 +400,7 @@ impl Backend {
         .await
     }
 
-    /// What the program holds for every document alike.
+    /// Does not depend on any document.
     async fn rule_page(&self, params: protocol::RulePage) -> Result<protocol::RulePageText> {
         let unknown = || Error::invalid_params(say!(there_is_no_rule_named, params.rule));
         let rule = Rule::named(&params.rule).ok_or_else(unknown)?;
@@ -431,7 +431,7 @@ fn read<P: DeserializeOwned>(mut params: Value) -> Result<(P, About)> {
     let mut take = |key: &str| params.get_mut(key).map(Value::take);
     let about = About {
         token: take("workDoneToken").filter(|token| token.is_string() || token.is_number()),
-        // The settings' own reader reads them, and names a misfit.
+        // The settings' own reader reads them, and reports what does not fit.
         options: take("options"),
         uri: params
             .get("uri")

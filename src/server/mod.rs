@@ -48,7 +48,8 @@ use transport::{Inbox, Transport, Writer};
 /// How the server is run.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Options {
-    /// End when the process that `initialize` names has died. Off where its number means nothing, as in a container.
+    /// End when the process that `initialize` names has died. Off where the process number means
+    /// nothing, as in a container.
     pub(crate) watch_parent: bool,
 }
 

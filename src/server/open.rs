@@ -15,7 +15,7 @@ use std::sync::{Arc, Weak};
 pub(super) struct Open {
     /// The URI in the client's own spelling.
     pub(crate) uri: Arc<str>,
-    /// Of the content.
+    /// The version of the content.
     pub(crate) version: i64,
     pub(crate) content: Content,
     /// A drawing of a CAD program, not a text.
@@ -34,7 +34,7 @@ pub(super) struct Open {
     pub(crate) published: bool,
     /// The last judging took long.
     pub(crate) is_slow: bool,
-    /// Dropped by the next change: requests about the earlier state notice it.
+    /// Dropped at the next change, which requests about the earlier state notice.
     revision: Arc<()>,
     /// The findings that the client has been shown, as they were written.
     pub(crate) shown: Shown,

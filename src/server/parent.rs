@@ -1,4 +1,5 @@
-//! Watches the process that started us: when it has died without closing our input, nobody needs us any more.
+//! Watches the process that started us: when it has died without closing our input, the server is
+//! no longer needed.
 
 use std::time::Duration;
 
@@ -19,7 +20,7 @@ pub(super) fn watch(pid: u32, gone: impl FnOnce() + Send + 'static) {
     }
 }
 
-/// False only when there is surely no such process: one that may not be asked is alive.
+/// False only when there is surely no such process: one that we may not signal is alive.
 #[cfg(unix)]
 fn is_alive(pid: u32) -> bool {
     let Ok(pid) = i32::try_from(pid) else {

@@ -41,7 +41,7 @@ pub(super) enum From {
     },
 }
 
-/// A file that was read for it.
+/// A file that was read for another document.
 pub(super) struct Kept {
     pub(crate) stamp: Stamp,
     pub form: Result<Form, String>,
@@ -62,12 +62,12 @@ pub(super) struct Links {
     without_programs: FxHashMap<PathBuf, SystemTime>,
 }
 
-/// A change of a folder so soon after another may leave its time as it was.
+/// A change to a folder this soon after another may leave its time stamp as it was.
 const SOON: Duration = Duration::from_secs(2);
 
 impl Links {
-    /// The programs in a folder. This is asked after every edit of a drawing: a folder that has none is not read again
-    /// before it has changed.
+    /// The programs in a folder. This is needed after every edit of a drawing, so a folder without
+    /// programs is not read again until it has changed.
     pub(super) fn programs_in(&mut self, folder: &Path) -> Vec<PathBuf> {
         let changed = stamp_of(folder).map(|(changed, _)| changed);
         if changed.is_some() && self.without_programs.get(folder) == changed.as_ref() {

@@ -151,7 +151,7 @@ impl State {
         self.pull_configuration();
     }
 
-    /// Asks for the section `wedm`, where the client can be asked.
+    /// Asks for the section `wedm`, where the client supports that.
     pub(crate) fn pull_configuration(&mut self) {
         if !self.client.abilities.configuration {
             return;

@@ -39,8 +39,8 @@ pub(super) struct Shown {
     under: Option<(Arc<Effective>, f64)>,
     /// The mark of each kept finding, by which it is searched for.
     marks: Vec<u64>,
-    /// Behind those of the last publish the most recently removed ones: often a key removes a finding and the next
-    /// brings it back.
+    /// First those of the last publish, then the most recently removed ones: often one keystroke
+    /// removes a finding and the next brings it back.
     kept: Vec<Option<Box<Kept>>>,
     /// The number of findings of the last publish, and of their bytes.
     count: usize,
@@ -57,7 +57,7 @@ struct Kept {
     places: Box<[[usize; 2]]>,
     /// The ranges themselves.
     ranges: Box<[Range]>,
-    /// What it is about may have changed: the data and the ranges are not sure.
+    /// What it is about may have changed: its data and ranges must be checked.
     is_in_doubt: bool,
 }
 
@@ -71,7 +71,7 @@ const MOST_ALIKE: usize = 16;
 const MOST_GONE: usize = 256;
 
 impl Shown {
-    /// Takes down what has changed since the last publish, so that what is about other things stays as it is.
+    /// Notes what has changed since the last publish, so that findings about other things stay as they are.
     fn follow(&mut self, since: &Since) {
         for kept in self.kept.iter_mut().flatten() {
             kept.is_in_doubt |= !kept.follow(since);
@@ -159,8 +159,8 @@ impl Shown {
         Written::from(shown)
     }
 
-    /// The index of a kept finding. They come in about their earlier order, so the search goes on from `next`, then
-    /// before it.
+    /// The index of a kept finding. Findings come in roughly their earlier order, so the search
+    /// goes from `next` on, then before it.
     fn find(&self, mark: u64, next: usize, mut is_it: impl FnMut(&Kept) -> bool) -> Option<usize> {
         let behind = (next..self.marks.len()).chain(0..next.min(self.marks.len()));
         behind
@@ -223,7 +223,7 @@ impl Kept {
     }
 }
 
-/// True where two findings differ in their range of the text at the most.
+/// True where two findings differ at most in their range of the text.
 fn says_the_same(one: &Finding, other: &Finding) -> bool {
     let in_text = |place: &Place| matches!(place, Place::Text { .. });
     one.rule == other.rule
@@ -293,7 +293,7 @@ mod tests {
                 f64::from(x + 8) - 0.1,
             );
         }
-        // Lines that run on for each other, and cross the first square.
+        // Lines that continue each other, and cross the first square.
         for line in 0..4 {
             let _ = write!(
                 text,

@@ -1,7 +1,7 @@
 //! The one thread that owns every document.
 //!
 //! Handlers and workers hand it closures in order. It drains them before it judges what has changed, so that a burst of
-//! edits costs one publish. A closure that panics costs its own request, no document.
+//! edits costs one publish. A closure that panics costs its own request, but no document.
 
 use super::client::{Client, Weight};
 use super::config::{self, Config};
@@ -235,7 +235,7 @@ impl State {
         });
     }
 
-    /// True where a worker has a document. A changed document is judged before anybody reads it.
+    /// True where a worker has a document. A changed document is judged before it is read.
     fn is_busy(&mut self, uri: &Arc<str>, changes: bool) -> bool {
         if !changes
             && self
@@ -296,7 +296,7 @@ impl State {
         }
     }
 
-    /// Puts a document in its place.
+    /// Adds an open document, replacing one of the same URI.
     pub(crate) fn insert(&mut self, open: Open) {
         let uri = open.uri.clone();
         if matches!(open.content, Content::Settings(_))
@@ -364,7 +364,7 @@ impl State {
         }
     }
 
-    /// Takes a document through its pending changes: small work here, the rest on a worker.
+    /// Makes a document's pending changes: small work here, the rest on a worker.
     fn judge(&mut self, uri: &Arc<str>) {
         let beside = self.wanted_beside(uri);
         let Some(open) = self.documents.get_mut(uri) else {

@@ -14,13 +14,13 @@ pub(in crate::server) type Fields = [u32; 4];
 /// Bits of each field in a packed token.
 const BITS: [u32; 4] = [16, 20, 20, 8];
 
-/// Stands for a token that does not fit; no type has this number.
+/// Marks a token that does not fit; no type has this number.
 const WIDE: u64 = u64::MAX;
 
 /// Numbers of a token in the protocol.
 const FIELDS: usize = 5;
 
-/// Of more tokens than this several cores write the text, each so many at a time.
+/// Beyond this many tokens several cores write the text, each this many at a time.
 const AT_ONCE: usize = 1 << 15;
 
 /// The tokens of a document, eight bytes each.
@@ -83,7 +83,7 @@ impl Packed {
     }
 }
 
-/// The numbers of some tokens, with a comma behind each; `wide` are those of the tokens that are wide.
+/// The numbers of some tokens, with a comma after each; `wide` are those of the tokens that are wide.
 fn push_tokens(words: &[u64], wide: &[Fields], json: &mut Vec<u8>) {
     json.reserve(words.len() * 10 + 1);
     let mut wide = wide.iter();
@@ -140,8 +140,9 @@ impl TokenMemory {
             .is_some_and(|sent| sent.stamp == stamp && previous == stamp.to_string())
     }
 
-    /// Remembers the tokens sent for `stamp`. Returns the edit from those named `previous`, or `None` where they are
-    /// not known any more; and the result id, if there can be one: wide tokens are sent whole each time.
+    /// Remembers the tokens sent for `stamp`. Returns the edit from those named `previous`, or
+    /// `None` where they are no longer known; and the result id, if there can be one: wide tokens
+    /// are sent whole each time.
     pub(crate) fn replace(
         &self,
         previous: Option<&str>,

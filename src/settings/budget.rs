@@ -5,12 +5,12 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Budget {
     /// The comparisons that the segments of a drawing may take, and in addition for each segment: one for a pair of
-    /// segments, one for four boxes that are looked through. Thousands of long lines whose boxes hold each other would be
-    /// compared for ever.
+    /// segments, one for four boxes that are looked through. Comparing thousands of long lines with
+    /// overlapping boxes would never end.
     pub looks: u64,
     pub looks_of_a_segment: u64,
-    /// The search stops at this many: a drawing where this much lies on or across each other is not ready to cut, and
-    /// thousands of copies in one place would be compared for ever.
+    /// The search stops at this many: a drawing where this much lies on or across each other is not
+    /// ready to cut, and comparing thousands of copies in one place would never end.
     pub most_seen: usize,
 }
 

@@ -66,9 +66,9 @@ pub struct Effective {
     pub lead: Lead,
     /// The length of the tab of a punch until it is cut off, mm.
     pub tab: LengthSetting,
-    /// The word before that, where set.
+    /// The word that stops the machine before the tab is cut off, where set.
     pub tab_stop: Option<String>,
-    /// mm past the start.
+    /// How far each pass goes on past its start, mm.
     pub closing_overlap: f64,
     pub job: JobSettings,
     /// The settings of a pair.
@@ -76,13 +76,14 @@ pub struct Effective {
     pub workpieces: Workpieces,
     /// The settings of a milling electrode.
     pub milling: MillingSettings,
-    /// An electrode cuts, not a wire: it comes from above without leads, and runs along the middle of open contours.
+    /// An electrode cuts, not a wire: it enters from above without leads, and runs along the middle
+    /// of open contours.
     pub mills: bool,
     /// Only this workpiece is cut.
     pub only: Option<u16>,
     pub order: Order,
     pub jumps: Jumps,
-    /// The wire stays threaded on the way between contours, so that way cuts, too. Set for a format whose programs do
+    /// The wire stays threaded between contours, so that the way there cuts, too. Set for a format whose programs do
     /// not stop.
     pub stays_threaded: bool,
     pub compensation: Compensation,
@@ -101,7 +102,7 @@ pub struct Effective {
 }
 
 impl Effective {
-    /// Whether the path is a contour itself, without offset: an electrode mills the middle of an open contour.
+    /// Whether the path is the contour itself, without offset: an electrode mills along an open contour.
     pub(crate) fn goes_along_middle(&self, closed: bool) -> bool {
         self.mills && !closed
     }
@@ -111,7 +112,7 @@ impl Effective {
         Some(self.docs_url.as_ref()?.replace("{rule}", rule.name()))
     }
 
-    /// Fills in the defaults. Misfits have been reported and left out before.
+    /// Fills in the defaults. Values that do not fit have been reported and left out before.
     pub fn of(settings: &Settings) -> Effective {
         let milling = settings.milling.clone().unwrap_or_default();
         let says_a_wire = settings.correction.is_some()

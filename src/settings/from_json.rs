@@ -4,7 +4,8 @@ use super::level;
 use super::value::{Entry, Node, Value};
 use super::{Settings, SettingsError};
 
-/// Reads one level of settings. A misfit is left out and reported, the other keys hold; null is "not set".
+/// Reads one level of settings. A value that does not fit is left out and reported, the other keys
+/// hold; null is "not set".
 ///
 /// An object that holds the section `wedm` stands for that section: editors send either.
 pub(crate) fn from_json(json: &serde_json::Value) -> (Settings, Vec<SettingsError>) {

@@ -10,7 +10,7 @@ use std::path::Path;
 /// Name of the project's file.
 pub(crate) const FILE_NAME: &str = "wedm.toml";
 
-/// The most bytes of a settings file; nobody writes that many, and each costs hundreds in memory.
+/// The most bytes of a settings file; nobody writes that many, and each takes hundreds in memory.
 const LARGEST: usize = 1024 * 1024;
 
 /// The bytes of a settings file, bounded even where the file has no end.
@@ -21,8 +21,8 @@ pub(crate) fn read_file(path: &Path) -> Result<Vec<u8>, String> {
     disk::read_path_at_most(path, 16 * LARGEST as u64)
 }
 
-/// Reads a `wedm.toml`. Misfits are left out and reported with their bytes, everything else holds. A file larger than a
-/// mebibyte is left out as a whole.
+/// Reads a `wedm.toml`. Values that do not fit are left out and reported with their bytes;
+/// everything else holds. A file larger than a mebibyte is left out as a whole.
 pub fn from_toml(text: &str) -> (Settings, Vec<SettingsError>) {
     if text.len() > LARGEST {
         let message = say!(the_file_has_too_many_bytes, text.len(), LARGEST);

@@ -18,7 +18,7 @@ pub(crate) fn as_lines(keeps: &[Keep]) -> String {
 }
 
 /// The edit of `text` that adds the settings: below the head of its table if there is one, else at the end. `None`
-/// where the text cannot take it, as where the table is written in another way.
+/// where the text cannot take it, for example because the table is written in another way.
 pub(crate) fn keep(text: &str, keeps: &[Keep]) -> Option<TextEdit> {
     let table = &keeps.first()?.table;
     let lines: String = keeps.iter().map(line).collect();
@@ -43,7 +43,7 @@ pub(crate) fn keep(text: &str, keeps: &[Keep]) -> Option<TextEdit> {
     };
     let mut changed = text.to_owned();
     changed.replace_range(edit.range.clone(), &edit.text);
-    // A value that the user still has to write is no fault of the text.
+    // A value that the user still has to write is not a fault of the text.
     let is_toml = |text: &str| toml::from_str::<toml::Table>(text).is_ok();
     let is_one_table = keeps.iter().all(|keep| keep.table == *table);
     (is_one_table && is_toml(&changed)).then_some(edit)

@@ -1,6 +1,6 @@
 //! Every key of the settings, once: name, type, default, range and meaning.
 //!
-//! Any level may set any key. A key that is added here is read, overlaid and documented; what is to be done with it is its user's matter.
+//! Any level may set any key. A key that is added here is read, overlaid and documented; what it does is up to the code that uses it.
 
 use super::reader::{Reader, Table};
 use super::row::{Range, Row, naming_profiles};
@@ -17,7 +17,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Coarser than a tenth of a millimetre is no arc of the drawing any more, finer than a nanometre is noise.
+/// Coarser than a tenth of a millimetre the arcs no longer show the drawing's curve; finer than a
+/// nanometre is noise.
 const ARC_FIT: Range = Range::of(1e-6, 0.1);
 
 /// Digits of controllers: with fewer than four nothing larger than a millimetre could be cut.
@@ -26,7 +27,7 @@ const DIGITS: Range = Range::of(4.0, 9.0);
 /// Digits behind the point of millimetres: from micrometres to nanometres.
 const DECIMALS: Range = Range::of(3.0, 6.0);
 
-/// Ways after which an electrode is fed: finer than a micrometre no machine goes.
+/// Distances after which an electrode is fed: no machine goes finer than a micrometre.
 const MILLING_STEPS: Range = Range {
     least: 0.001,
     ..Range::FROM_ZERO

@@ -16,7 +16,7 @@ pub(super) fn read(root: &Node) -> (Settings, Vec<SettingsError>) {
     (settings, reader.errors)
 }
 
-/// A profile that is named ships, or is declared at this level.
+/// Refuses a profile that neither ships nor is declared at this level.
 fn refuse_unknown_profile(reader: &mut Reader, settings: &mut Settings, root: &Node) {
     let Some(profile) = settings
         .program

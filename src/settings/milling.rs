@@ -20,7 +20,7 @@ pub struct Electrode {
     /// Volume that it loses of each volume that it erodes.
     pub wear: f64,
     pub compensation: WearCompensation,
-    /// Way after which `linear` feeds again; 0 for the others.
+    /// Distance after which `linear` feeds again; 0 for the others.
     pub step: f64,
     /// The round ends of an open slot count among the volume that a layer erodes.
     pub slot_ends: bool,
@@ -32,7 +32,7 @@ impl MillingSettings {
         Some(self.tool_diameter? / 2.0 + self.gap?)
     }
 
-    /// Something is said that has no default.
+    /// True where a key without a default is set.
     pub(crate) fn is_said(&self) -> bool {
         let numbers = [
             self.tool_diameter,
@@ -85,7 +85,7 @@ impl MillingSettings {
 }
 
 impl Effective {
-    /// The electrode of the settings, or the sentence why there is none.
+    /// The electrode of the settings, or the sentence that says why there is none.
     pub fn electrode(&self) -> Result<Electrode, String> {
         self.milling.electrode().map_err(|(_, sentence)| sentence)
     }

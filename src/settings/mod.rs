@@ -108,7 +108,7 @@ impl Settings {
     }
 
     /// Contradictions after all levels are merged: in the corrections of the passes, the pair, the electrode and the
-    /// program. `place` finds the place in a text.
+    /// program. `place` finds the place of a fault in a text.
     pub(crate) fn contradictions(
         &self,
         place: &dyn Fn(&PassFault) -> Option<std::ops::Range<usize>>,
@@ -153,7 +153,8 @@ impl Settings {
     }
 }
 
-/// A setting that does not fit: which one, and what was expected. Lower-case, no final dot.
+/// A setting that does not fit: which one, and what was expected. In lower case without a full
+/// stop.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SettingsError {
     /// Dotted key, as written.

@@ -2,22 +2,22 @@
 
 use super::Passes;
 
-/// Two lengths in mm that differ by less are equal: half a diameter is rounded.
+/// Two lengths in mm that differ by less are equal: halving a diameter may round.
 const ROUNDING: f64 = 1e-9;
 
 /// A pass that cannot follow the one before it, or that no wire can cut.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct PassFault {
-    /// The dotted key that it speaks of.
+    /// The dotted key that it is about.
     pub(crate) key: &'static str,
     /// Index of the pass.
     pub(crate) pass: usize,
-    /// Lower-case, no final dot.
+    /// In lower case without a full stop.
     pub(crate) message: String,
 }
 
 impl PassFault {
-    /// A fault of no single pass.
+    /// A fault that concerns no single pass.
     pub(super) fn of(key: &'static str, message: String) -> PassFault {
         PassFault {
             key,

@@ -1,7 +1,7 @@
 //! Profiles: how an ISO program is written for one kind of machine, as data.
 //!
-//! Shipped profiles are in `profiles.toml`, a user's in the table `[profiles.NAME]` of `wedm.toml`; both are read
-//! alike.
+//! Shipped profiles are in `profiles.toml`, a user's in the table `[profiles.NAME]` of `wedm.toml`;
+//! both are read the same way.
 
 use super::reader::Reader;
 use super::shipped::shipped;

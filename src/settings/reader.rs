@@ -1,4 +1,5 @@
-//! Reads tables of settings from a tree of values: each key is checked, a misfit is left out and reported.
+//! Reads tables of settings from a tree of values: each key is checked, a value that does not fit
+//! is left out and reported.
 
 use super::row::{LARGEST, Range, Row};
 use super::spelling::{listed, named, nearest, snake_case};
@@ -18,8 +19,8 @@ pub(super) trait Table: Default {
     fn read(&mut self, reader: &mut Reader, key: &str, dotted: &str, node: &Node) -> bool;
 }
 
-/// The misfits so far. A method reads one kind of value: its dotted key, the value, and the range where numbers have
-/// one.
+/// The values at fault so far. A method reads one kind of value: its dotted key, the value, and the
+/// range where numbers have one.
 #[derive(Default)]
 pub(super) struct Reader {
     pub(super) errors: Vec<SettingsError>,
@@ -141,7 +142,7 @@ impl Reader {
                         _ => self.number(&key, item, range),
                     }
                 });
-                // One wrong pass of a list makes the others doubtful.
+                // One wrong number in a list makes the others doubtful.
                 let numbers: Vec<Option<f64>> = numbers.collect();
                 numbers.into_iter().collect()
             }

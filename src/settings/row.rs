@@ -2,11 +2,11 @@
 
 use super::shipped_profiles;
 
-/// The largest number of any setting: with it no coordinate that a machine or a drawing may have is lost, and none becomes
-/// infinite.
+/// The largest number of any setting: no coordinate of a machine or drawing loses its digits beside
+/// it, or becomes infinite.
 pub(crate) const LARGEST: f64 = 1e12;
 
-/// The smallest number above zero: what is divided by it stays finite.
+/// The smallest number above zero: dividing by it stays finite.
 const SMALLEST: f64 = 1e-12;
 
 /// The range of a key's numbers.
@@ -93,7 +93,7 @@ impl Row {
         plain + rest
     }
 
-    /// The meaning of the key in short, without a final dot.
+    /// The meaning of the key in short, without a full stop.
     pub fn first_sentence(&self) -> String {
         let meaning = self.plain_meaning().replace('`', "");
         let first = meaning.split('。').next().unwrap_or_default();

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-/// How a value merges that two levels set.
+/// How a value that two levels set is merged.
 pub(super) trait Overlay: Clone {
     fn overlaid(&self, later: &Self) -> Self;
 }

@@ -52,7 +52,7 @@ impl Value {
         match self {
             Value::Null => say!(not_set).into(),
             Value::Truth(truth) => truth.to_string(),
-            // Hundreds of digits say less.
+            // Hundreds of digits would tell less.
             Value::Number(number)
                 if number.is_finite()
                     && (number.abs() >= 1e15 || number.abs() < 1e-9 && *number != 0.0) =>

@@ -1,22 +1,23 @@
-//! The bytes of a text that are not kept: what somebody asks for is read again where they came from, in parts. What that is, and whether it
-//! is still the same, the caller knows.
+//! The bytes of a text that are not kept: what is asked for is read again from its origin, in
+//! parts. The caller knows what that origin is, and whether it is still the same.
 
 use std::fmt;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
-/// Reads a range of the bytes again; `None` where that cannot be, or where they are others now.
+/// Reads a range of the bytes again; `None` where that is not possible, or where they have changed.
 pub(crate) type Again = Arc<dyn Fn(Range<usize>) -> Option<Vec<u8>> + Send + Sync>;
 
 /// Bytes of a part.
 const PART: usize = 1024;
-/// Bytes behind a part that are read with it: lines are short, and none that begins in it is cut.
+/// Bytes after a part that are read with it: lines are short, so that none that begins in the part
+/// is cut.
 const BEHIND: usize = 128;
 
 pub(super) struct Aside {
     length: usize,
     again: Again,
-    /// Those that have been asked for; empty where they were lost.
+    /// The parts that have been asked for; empty where they were lost.
     parts: Vec<OnceLock<Box<[u8]>>>,
     whole: OnceLock<Vec<u8>>,
     lost: OnceLock<()>,
@@ -37,7 +38,7 @@ impl Aside {
         self.length
     }
 
-    /// True once something could not be read again: what was told of the text does not hold.
+    /// True once something could not be read again: what was found in the text does not hold.
     pub(super) fn is_lost(&self) -> bool {
         self.lost.get().is_some()
     }

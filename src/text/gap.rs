@@ -10,9 +10,9 @@ pub(super) struct Bytes {
     buffer: Vec<u8>,
     /// The bytes of the buffer outside the text.
     gap: Range<usize>,
-    /// The contiguous text, once somebody has asked for it.
+    /// The contiguous text, once it has been asked for.
     whole: OnceLock<Vec<u8>>,
-    /// In the place of all bytes, where they are not kept.
+    /// Stands in for all bytes where they are not kept.
     aside: Option<Box<Aside>>,
 }
 
@@ -30,7 +30,7 @@ impl Bytes {
         }
     }
 
-    /// Bytes that are read again by whoever asks for them.
+    /// Bytes that are not kept, but read again when they are asked for.
     pub(crate) fn aside(length: usize, again: Again) -> Bytes {
         Bytes {
             aside: Some(Box::new(Aside::new(length, again))),
@@ -53,7 +53,7 @@ impl Bytes {
         self.aside.is_some()
     }
 
-    /// The bytes before the gap, and those behind it.
+    /// The bytes before the gap, and those after it.
     pub(crate) fn pieces(&self) -> (&[u8], &[u8]) {
         if let Some(aside) = &self.aside {
             return (aside.whole(), &[]);
@@ -139,7 +139,7 @@ impl Bytes {
         self.whole = OnceLock::new();
         let more = replacement.len().saturating_sub(range.len());
         if self.gap.is_empty() {
-            // What is before the first gap need not move.
+            // The bytes before the first gap need not move.
             self.gap = next..next;
         }
         if self.gap.len() < more {

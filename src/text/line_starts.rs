@@ -6,7 +6,7 @@ use std::ops::Range;
 /// Lines in one block.
 const BLOCK: usize = 64;
 
-/// The starts of the lines of a text, rising from 0. Moving all lines behind a place costs a step for each block of them.
+/// The starts of the lines of a text, rising from 0. Moving all lines after a place costs a step for each block of them.
 #[derive(Clone, Debug)]
 pub(crate) enum LineStarts {
     /// The start of each block's first line, and the distance of each line from it.
@@ -78,7 +78,7 @@ impl LineStarts {
         }
     }
 
-    /// Replaces the starts of some lines by `fresh`, and moves all behind them by `shift` (modulo 2³²).
+    /// Replaces the starts of some lines by `fresh`, and moves all after them by `shift` (modulo 2³²).
     pub(super) fn replace(&mut self, lines: Range<usize>, fresh: &[u32], shift: u32) {
         let starts = match self {
             LineStarts::Near { blocks, offsets } => {
@@ -117,7 +117,7 @@ fn replace_near(
     shift: u32,
 ) -> bool {
     let first = lines.start / BLOCK;
-    // Where the number of lines stays, the blocks behind only move.
+    // Where the number of lines stays, the blocks after only move.
     let end = match fresh.len() == lines.len() {
         true => offsets.len().min((lines.end / BLOCK + 1) * BLOCK),
         false => offsets.len(),

@@ -6,7 +6,7 @@ use std::ops::Range;
 /// A text as the remains of an older one, and the insertions between them.
 #[derive(Clone, Debug)]
 pub(crate) struct Patch {
-    /// In the order of the text. The remains of the old one rise.
+    /// In the order of the text. The remains of the old text come in their old order.
     pieces: Vec<Piece>,
     old_length: usize,
 }

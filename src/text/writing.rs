@@ -36,11 +36,11 @@ impl Writing {
     }
 }
 
-/// True for a GB 18030 text that is valid UTF-8 too, as 凸模 alone would be: everything but ASCII is a two-byte common
-/// letter of GB 18030, and as UTF-8 it would mix scripts within a word.
+/// True for a GB 18030 text that is valid UTF-8 too, as 凸模 alone would be: everything except ASCII
+/// is a common two-byte letter of GB 18030, and as UTF-8 it would mix scripts within a word.
 fn is_gb_18030_by_chance(text: &str) -> bool {
     let script = |letter: char| match letter {
-        // Signs, which stand beside letters of any script.
+        // Signs, which occur beside letters of any script.
         '\0'..='\u{bf}' => None,
         '\u{c0}'..='\u{36f}' => Some("Latin"),
         '\u{370}'..='\u{3ff}' => Some("Greek"),
@@ -79,7 +79,7 @@ mod tests {
         check("; 凸模 R 0.08".as_bytes(), None);
         check("\u{feff}; 凸模".as_bytes(), None);
         check(b"; \xb0\xbc\xc4\xa3\r\n", Some("; 凹模\r\n"));
-        // These bytes are UTF-8 as well, of letters that never stand together in a word.
+        // These bytes are UTF-8 as well, of letters that never occur together in a word.
         check(b"; \xcd\xb9\xc4\xa3\r\n", Some("; 凸模\r\n"));
         for text in [
             "; pi\u{e8}ce \u{f8} 5 \u{b5}m \u{b1}2\u{b0}",

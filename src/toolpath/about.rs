@@ -1,23 +1,23 @@
-//! What lies about each wall of a contour, for paths that run beside it; of walls nothing is known here but their boxes.
+//! What lies about each wall of a contour, for paths that run beside it; it knows nothing of walls but their boxes.
 
 use crate::geometry::Bounds;
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use rayon::slice::ParallelSliceMut;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// So many walls that follow each other are a few.
+/// The number of consecutive walls that make "a few".
 pub(super) const FAN: usize = 8;
 
-/// So many walls about each few are kept on an average.
+/// The walls that are kept about each few, on average.
 const MOST_ABOUT: usize = 64;
 
-/// Of a few that has more about it, no wall has a list of its own.
+/// Where more lies about a few, its walls share one list.
 const MOST_OF_EACH: usize = 24;
 
-/// One core takes so many walls at a time.
+/// Walls that one core takes at a time.
 const AT_A_TIME: usize = 2048;
 
-/// Of each wall those whose boxes come near to its own.
+/// For each wall those whose boxes come near its own.
 #[derive(Clone, Debug)]
 pub(super) struct About {
     pub(super) reach: f64,
@@ -27,8 +27,8 @@ pub(super) struct About {
 }
 
 impl About {
-    /// What lies so far about each, by the boxes of all; `None` where that is too much. `few_near` adds those few whose box touches another, by
-    /// the first of them and with that box.
+    /// What lies within this distance of each, by the boxes of all; `None` where that is too much.
+    /// `few_near` adds those few whose box touches another, by the first of them and with that box.
     pub(super) fn of(
         boxes: &[Bounds],
         reach: f64,
@@ -116,7 +116,8 @@ pub(super) fn merged<'a>(boxes: impl Iterator<Item = &'a Bounds>) -> Bounds {
     all
 }
 
-/// The order of boxes in which those that lie together stand together: by the bits of column and row of their middles in turn.
+/// An order of boxes in which those near each other in the plane are near each other in the list:
+/// by the bits of column and row of their middles in turn.
 pub(super) fn by_place(boxes: &[Bounds]) -> Vec<u32> {
     let all = merged(boxes.iter());
     let scale = f64::from(u16::MAX) / all.width().max(all.height()).max(f64::MIN_POSITIVE);

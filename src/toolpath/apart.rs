@@ -80,8 +80,9 @@ pub(super) fn are_apart(a: &Segment, b: &Segment, distance: f64) -> bool {
         || lies_behind(b, a, distance)
 }
 
-/// True where `segment` is a line, and `other` lies beyond one of its ends, which is then what of the line is nearest to all of it, and keeps
-/// the distance from that. So lies the wall of a round corner that the path comes out of.
+/// True where `segment` is a line, and `other` lies beyond one of its ends, which is then the point
+/// of the line nearest to all of `other`, and keeps the distance from it. The wall of a round
+/// corner that the path comes out of lies like that.
 fn lies_beyond(segment: &Segment, other: &Segment, distance: f64) -> bool {
     let Segment::Line(line) = segment else {
         return false;

@@ -4,17 +4,17 @@ use super::corners::{Element, between};
 use super::path::{PathSegment, Source};
 use crate::geometry::{Arc, Point, Segment};
 
-/// A path that is gone from one of its points on, as it lies: nothing of a long one is moved for that.
+/// A path that is travelled from one of its points on; a long one is not rearranged for that.
 #[derive(Default)]
 pub(super) struct Begun {
     path: Vec<Element>,
     first: usize,
-    /// Of a first element that is entered in its middle what lies behind the point, and what lies before it and comes last.
+    /// If the first element is entered in its middle, the part after the point, and the part before it, which comes last.
     split: Option<[Segment; 2]>,
 }
 
 impl Begun {
-    /// All of a path from its begin on.
+    /// All of a path from its beginning on.
     pub(super) fn whole(path: Vec<Element>) -> Begun {
         Begun {
             path,

@@ -25,10 +25,10 @@ pub(crate) struct Walls {
     twice_area: OnceLock<f64>,
 }
 
-/// Up to so many walls lie together as they follow each other.
+/// Up to this many walls are grouped in their order along the contour.
 const MOST_IN_ORDER: usize = 1024;
 
-/// One core takes so many walls at a time.
+/// Walls that one core takes at a time.
 const AT_A_TIME: usize = 2048;
 
 impl Walls {
@@ -41,7 +41,7 @@ impl Walls {
         Walls::within(segments, boxes)
     }
 
-    /// The same by one core, for what others are waiting for.
+    /// The same by one core, for work that other cores are waiting for.
     pub(crate) fn by_one_core(segments: Vec<Segment>) -> Walls {
         let boxes = segments.iter().map(Segment::bounds).collect();
         Walls::within(segments, boxes)
@@ -80,7 +80,7 @@ impl Walls {
         }
     }
 
-    /// Puts others in the place of a stretch of segments. Of several stretches that are changed at once, which begin and end where they did, all
+    /// Replaces a stretch of segments. Of several stretches that are changed at once, which begin and end where they did, all
     /// areas are those about one `origin`.
     pub(super) fn splice(&mut self, stretch: Range<usize>, new: &[Segment], origin: Point) {
         self.about = OnceLock::new();
@@ -152,7 +152,7 @@ impl Walls {
         match self.tangents.get() {
             Some(known) => known,
             None => {
-                // Nobody waits for it meanwhile: a core that waited might be one that it takes.
+                // No core may wait for this meanwhile: it might be one that the work needs.
                 let made = each(self.segments.len(), AT_A_TIME, ends);
                 self.tangents.get_or_init(|| made)
             }
@@ -193,8 +193,9 @@ impl Walls {
         self.find_near(path, distance, |_, _| true)
     }
 
-    /// The same for a path that runs beside the wall `own` no further from it than `distance` and a little: where it is known what lies about
-    /// that few walls are asked, and that one itself where `with_own`.
+    /// The same for a path that runs beside the wall `own` no further from it than `distance` and a
+    /// little: where it is known what lies about that wall, only few walls are checked, and the
+    /// wall itself where `with_own`.
     pub(crate) fn too_near_beside(
         &self,
         own: usize,
@@ -218,8 +219,8 @@ impl Walls {
         })
     }
 
-    /// What lies about each few, for paths that run at a distance; made over the cores where it is asked for first, so not by what runs
-    /// on several of them already.
+    /// What lies about each few, for paths that run at a distance; worked out on several cores
+    /// where it is first needed, so it must not be called from work that runs on several already.
     pub(crate) fn know_about(&self, distance: f64) {
         if self.about.get().is_none() {
             let few_near = |area: &Bounds, few: &mut Vec<_>| self.few_near(area, few);
@@ -278,7 +279,8 @@ impl Walls {
         })
     }
 
-    /// How far a point is from the nearest one; they are looked for `reach` about it first. Endless where there are none.
+    /// How far a point is from the nearest one; they are looked for `reach` about it first.
+    /// Infinite where there are none.
     pub(crate) fn distance_to(&self, point: Point, reach: f64) -> f64 {
         let nearest = self.nearest_to(point, reach);
         nearest.map_or(f64::INFINITY, |(away, _)| away)
@@ -400,7 +402,7 @@ pub(super) fn nearest_by(
     }
 }
 
-/// Twice the area that some segments share in what they go round, about a point.
+/// The contribution of some segments to twice the area of their contour, about a point.
 pub(super) fn area_about(segments: &[Segment], origin: Point) -> f64 {
     let areas = segments.iter().map(|segment| segment.twice_area(origin));
     areas.sum()

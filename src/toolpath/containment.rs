@@ -1,4 +1,5 @@
-//! Which contours lie within which, and the orders of cutting that come of it: what lies within a contour is cut before it.
+//! Which contours lie within which, and the orders of cutting that follow from it: what lies within
+//! a contour is cut before it.
 
 use crate::drawing::{Drawing, Outline, winding};
 use crate::geometry::{Bounds, Grid};

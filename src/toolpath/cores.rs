@@ -1,4 +1,4 @@
-//! Work over the cores of the machine: what is made, or held against a proof, piece by piece.
+//! Work over the cores of the machine: what is made, or checked against a proof, piece by piece.
 
 use rayon::iter::{
     IndexedParallelIterator, IntoParallelIterator, ParallelExtend, ParallelIterator,
@@ -11,7 +11,8 @@ const STEP: usize = 1024;
 /// Steps between two questions whether the answer is still wanted.
 const ROUND: usize = 32;
 
-/// What comes of each of so many, in their order. A core takes so many at a time; to wake one takes as long as some microseconds of work.
+/// The results for `count` items, in their order. A core takes a number of them at a time; waking
+/// one costs as much as some microseconds of work.
 pub(crate) fn each<Made: Send>(
     count: usize,
     at_a_time: usize,
@@ -72,7 +73,7 @@ pub(super) fn first_fault<Fault: Send, Stop>(
         let step = |at: usize| first + at * STEP..(first + (at + 1) * STEP).min(last);
         let steps = (last - first).div_ceil(STEP);
         let fault = match steps {
-            // To wake a core takes longer.
+            // Waking a core would take longer.
             1 => fault_of(step(0)).err(),
             _ => {
                 let steps = (0..steps).into_par_iter();

@@ -14,7 +14,7 @@ use crate::geometry::{
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-/// One core takes so many elements at a time.
+/// Elements that one core takes at a time.
 pub(super) const AT_A_TIME: usize = 2048;
 
 /// A piece of the closed path and the wall it belongs to.
@@ -63,8 +63,9 @@ pub(super) enum Joint {
     CrossNear(Point),
 }
 
-/// The offsets of all walls and the ways round their convex corners, before anything is cut. Each has as its key twice its wall, and one more
-/// for the way round the end of that. Each is made when it is asked for: that takes less time than to fetch it from memory.
+/// The offsets of all walls and the ways round their convex corners, before anything is cut. The
+/// key of each is twice the index of its wall, plus one for the way round the end of that wall.
+/// Each is made when it is asked for: that takes less time than to fetch it from memory.
 #[derive(Clone, Copy)]
 pub(super) struct Offsets<'a> {
     pub(crate) walls: &'a [Wall],
@@ -128,8 +129,8 @@ impl Offsets<'_> {
         }
     }
 
-    /// The way round the end of a wall between its ends. Its angle at the begin, and how far it turns, are the same at every correction: they
-    /// may be known.
+    /// The way round the end of a wall between its ends. Its angle at the beginning, and how far it
+    /// turns, are the same at every correction: they may be known.
     pub(super) fn roll_between(
         &self,
         wall: usize,
@@ -202,7 +203,7 @@ impl Offsets<'_> {
         }
     }
 
-    /// What is behind one.
+    /// What follows one.
     pub(super) fn joint(&self, key: usize) -> Joint {
         match (self.way(key / 2), is_roll(key)) {
             (Way::Through(joint), _) => joint,
@@ -259,7 +260,7 @@ pub(super) fn goes_backwards(segment: &Segment, start: Point, end: Point) -> boo
         && (share_on(segment, end) - share_on(segment, start)) * length < -1e-9
 }
 
-/// The offsets and the ways round corners that there are, in the order of the contour.
+/// The existing offsets and ways round corners, in the order of the contour.
 pub(super) struct Raw<'a> {
     pub(super) offsets: Offsets<'a>,
     keys: Vec<u32>,
@@ -303,8 +304,8 @@ impl<'a> Raw<'a> {
         self.offsets.geometry(self.key(index))
     }
 
-    /// Of an open contour that is gone there and back, so many walls either way: the element that leads round its end. Those before it
-    /// lie on the side of the wire.
+    /// For an open contour that is travelled there and back, with this many walls either way: the
+    /// element that leads round its end. Those before it lie on the side of the wire.
     pub(crate) fn end_roll(&self, walls: usize) -> usize {
         self.keys
             .partition_point(|key| (key / 2) < walls as u32)

@@ -12,7 +12,7 @@ use crate::settings::Lead;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 use std::f64::consts::TAU;
 
-/// One core looks at so many pieces of a path at a time.
+/// Pieces of a path that one core looks at at a time.
 const AT_A_TIME: usize = 4096;
 
 /// A place on the walls.

@@ -21,9 +21,10 @@ pub(super) struct Job<'a> {
     pub(crate) unit_mm: f64,
     /// The contour that all passes leave is worked out, too.
     pub(crate) finishes: bool,
-    /// A loop that is everywhere at its distance is enough: whether the offset has others is not asked.
+    /// A loop that is everywhere at its distance is enough: whether the offset has others is not
+    /// checked.
     pub(crate) a_loop_will_do: bool,
-    /// For a path neighbours cut with each other were not enough: it was looked for among all crossings.
+    /// Intersecting neighbours was not enough for a path: it was searched for among all crossings.
     pub(crate) searched: AtomicBool,
     pub(crate) goes_on: &'a (dyn Fn() -> bool + Sync),
 }

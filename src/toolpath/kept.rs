@@ -1,4 +1,4 @@
-//! What of a path holds since before an edit: a piece that is where it was, beside walls that are where they were, is not proved again.
+//! What of a path still holds after an edit: a piece that is where it was, beside walls that are where they were, is not proved again.
 
 use super::clearance::Walls;
 use super::corners::Element;
@@ -7,10 +7,11 @@ use super::path::Source;
 use crate::geometry::Bounds;
 use std::ops::Range;
 
-/// Where more walls have changed, all is looked at.
+/// Where more walls have changed, everything is looked at.
 const MOST_CHANGED: usize = 64;
 
-/// Where a wall, or a piece, is not what it was, so many behind it are looked at for where the two are the same again.
+/// Where a wall, or a piece, is not what it was, this many after it are searched for the place
+/// where the two agree again.
 const AHEAD: usize = 8;
 
 /// A wall that was not there before.
@@ -20,10 +21,10 @@ pub(crate) const NEW: u32 = u32::MAX;
 pub(super) struct Kept<'a> {
     /// How many walls there were.
     pub(super) before: usize,
-    /// Of each wall which it was.
+    /// For each wall, the index that it had before.
     pub(super) was: Vec<u32>,
     pub(super) pieces: &'a Walls,
-    /// Of each piece what it follows, as they were.
+    /// What each piece followed before.
     pub(super) follows: &'a [u32],
     /// The path is that of neighbours cut with each other, and was not looked for among all crossings.
     pub(super) is_by_neighbours: bool,
@@ -99,7 +100,7 @@ impl<'a> Kept<'a> {
         self.at = 0;
     }
 
-    /// The boxes of what was not there before, among the walls as they are now, and so far about them.
+    /// The boxes of what was not there before, among the walls as they are now, grown by `distance`.
     pub(crate) fn about(&self, walls: &Walls, distance: f64) -> Vec<Bounds> {
         let new = (0..self.was.len()).filter(|&wall| self.was[wall] == NEW);
         new.map(|wall| walls.bounds_of(wall).grown(distance))
@@ -162,7 +163,7 @@ impl<'a> Kept<'a> {
         }
     }
 
-    /// True for a piece that is as proved as it was; `about` are the boxes of what is new.
+    /// True for a piece whose proof still holds; `about` are the boxes of what is new.
     pub(crate) fn holds(&mut self, element: &Element, about: &[Bounds]) -> bool {
         let Some(follows) = self.followed(element, element.wall) else {
             return false;

@@ -1,4 +1,4 @@
-//! The path along one contour, proved, or the fault that stands in its place.
+//! The path along one contour, proved, or the fault that prevents it.
 
 use super::clearance::Walls;
 use super::cores::{first_fault, sum};
@@ -55,7 +55,7 @@ pub(super) enum Laid {
     Point(Point),
 }
 
-/// What comes of a contour.
+/// The result for a contour.
 pub(super) type Outcome = Result<Laid, Fault>;
 
 /// Why a contour has no path, with the wall where that shows.
@@ -70,8 +70,9 @@ pub(super) enum Fault {
 }
 
 impl Job<'_> {
-    /// The walls of a contour with the wire on the side of that sign, and the path along them, proved. Where there is none because
-    /// of crumbs, they are left out: their neighbours move by less than what any control can follow.
+    /// The walls of a contour with the wire on the given side (+1 left, −1 right), and the path
+    /// along them, proved. Where there is none because of crumbs, they are left out: their
+    /// neighbours move by less than what any control can follow.
     pub(crate) fn along(
         &self,
         count: usize,
@@ -115,7 +116,7 @@ impl Job<'_> {
         Ok((walls, own, laid))
     }
 
-    /// How corners are made of a path.
+    /// How the corners of a path are made.
     pub(super) fn joining(&self, along: Along) -> Joining {
         Joining {
             correction: along.correction,
@@ -315,7 +316,7 @@ impl Job<'_> {
             .map_err(|Unproved { wall }| Fault::Unproved { wall }))
     }
 
-    /// Holds a path against its proof.
+    /// Checks a path against its proof.
     fn holds(
         &self,
         proof: &Proof,
@@ -332,7 +333,7 @@ impl Job<'_> {
             raw: of,
         } = path;
         let held = match kept {
-            // Little of it is looked at.
+            // Only little of it has to be checked.
             Some(mut kept) => {
                 self.go_on()?;
                 let about = kept.about(place.own, place.correction);
@@ -375,7 +376,7 @@ impl Job<'_> {
         })
     }
 
-    /// The finding that stands for a path which cannot be made.
+    /// The finding for a path that cannot be made.
     pub(crate) fn no_path(&self, fault: &Fault, walls: &[Wall], required: f64) -> Finding {
         let near = |wall: usize| {
             walls
@@ -431,8 +432,8 @@ pub(super) fn goes_out_and_back(path: &[Element]) -> bool {
     area.abs() <= 1e-9 * length * length
 }
 
-/// Twice the area that a path goes round. The sine of how far an arc turns is known by its ends, well enough where it turns by more than a
-/// little.
+/// Twice the area that a path goes round. The sine of an arc's turn is known from its ends, well
+/// enough where it turns by more than a little.
 fn twice_area(path: &[Element], origin: Point) -> f64 {
     sum(path.len(), |at| match path[at].geometry {
         Segment::Arc(arc) if arc.sweep.abs() > 0.1 => {

@@ -1,7 +1,7 @@
-//! The path of a pass behind the first along the same offsets and ways round corners as the first, laid and proved in one sweep.
+//! The path of a later pass along the same offsets and ways round corners as that of the first, made and proved in one sweep.
 //!
-//! The corrections of two passes differ by little, and nearly always the same is left of what is cut. Whether that is so, the proof
-//! says: where it does not, the path is laid from nothing.
+//! The corrections of two passes differ by little, so nearly always the same pieces are left. The
+//! proof decides whether that is so; where it is not, the path is made from scratch.
 
 use super::corners::{
     AT_A_TIME, Element, Joining, Joint, Offsets, Way, between, goes_backwards, is_all_of, is_roll,
@@ -22,7 +22,7 @@ use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 /// Pieces between two questions whether the path is still wanted.
 const STEP: usize = 1024;
 
-/// The path along what an earlier one goes along; `None` where that cannot be, or does not hold its proof.
+/// The path along what an earlier one follows; `None` where that is not possible, or fails its proof.
 pub(super) fn along_before(
     proof: &Proof,
     before: Before,
@@ -34,7 +34,7 @@ pub(super) fn along_before(
     if path.is_some() || !sweep.is_through.load(Relaxed) {
         return path;
     }
-    // About corners that hardly turn no way round is left.
+    // At corners that hardly turn no way round is left.
     let is_there = |element: &&Element| {
         !element.is_roll() || matches!(proof.offsets.way(element.wall), Way::Roll(_))
     };
@@ -52,15 +52,15 @@ struct Sweep<'a> {
     /// How the corners of the first path were made.
     of_first: Joining,
     goes_on: &'a (dyn Fn() -> bool + Sync),
-    /// This is no way to find the path.
+    /// The path cannot be found like this.
     fails: AtomicBool,
     /// For a corner about which there is no way round any longer.
     is_through: AtomicBool,
-    /// The pieces at or behind which it is not seen at once that nothing is missing.
+    /// The pieces at or after which it is not obvious that nothing is missing.
     waiting: Mutex<Vec<usize>>,
 }
 
-/// What of a piece is known from the one before it.
+/// What is known of a piece from the one before it.
 struct Begun {
     at: usize,
     whole: Segment,
@@ -134,7 +134,7 @@ impl<'a> Sweep<'a> {
         follows_of(element.wall as u32, element) as usize
     }
 
-    /// What a piece is cut from.
+    /// The whole element that a piece is cut from.
     fn whole(&self, at: usize) -> Option<Segment> {
         let (key, offsets) = (self.key(at), &self.proof.offsets);
         if !is_roll(key) {
@@ -299,7 +299,7 @@ mod tests {
         })
     }
 
-    /// A path along that of a first pass is the one that is laid from nothing, on contours of which some lose pieces from one correction to the
+    /// A path along that of a first pass is the one that is made from scratch, on contours of which some lose pieces from one correction to the
     /// next, or gain them; on most there is one.
     #[test]
     fn what_is_laid_along_a_first_pass_is_what_is_laid_from_nothing() {

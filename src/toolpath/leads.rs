@@ -20,10 +20,10 @@ use std::sync::OnceLock;
 /// mm that a start hole keeps from what the wire cuts.
 pub(super) const HOLE_CLEAR: f64 = 0.1;
 
-/// So often a lead is halved.
+/// How often a lead is halved at most.
 const MOST_HALVED: usize = 64;
 
-/// So often what a lead reaches beyond the path is halved, where the last of the longer ones does not fit.
+/// How often the part of a lead beyond the path is halved, where the last of the longer ones does not fit.
 const HALVED_BEYOND: u32 = 4;
 
 /// The walls of all contours.
@@ -165,7 +165,8 @@ impl Surroundings<'_> {
         Err(fault(self.severity, source, sentence, place))
     }
 
-    /// The same; else what is in the way of the shortest one. Nothing is where the thread hole is too near for an arc.
+    /// The same; otherwise what is in the way of the shortest one, or nothing where the thread hole
+    /// is too near for an arc.
     pub(super) fn way(
         &self,
         thread: Point,
@@ -268,7 +269,7 @@ pub(super) fn fault(
     finding(Rule::LeadIn, severity, place, sentence, other)
 }
 
-/// What a rule says of leads and holes, in a sentence.
+/// A finding of a rule about leads and holes, with its sentence.
 pub(super) fn finding(
     rule: Rule,
     severity: Severity,
@@ -353,7 +354,7 @@ pub(super) fn thread_hole(
     // Halved down to the path; then what reaches beyond the path is halved.
     let least = nearest + 1e-6 / unit_mm;
     let full = Some(settings.lead_in / unit_mm).filter(|length| length.is_finite());
-    // What somebody has set is counted from the path.
+    // A length that the user has set counts from the path.
     let from = settings.stated_lead_in.map_or(0.0, |_| nearest);
     let halved = std::iter::successors(full, |length| Some(length / 2.0))
         .map(|length| from + length)

@@ -1,5 +1,6 @@
-//! A part of whose contour an edit has moved something, changed where it is: the pieces of the path, and the edges, beside what has moved. What
-//! such an edit costs hangs on what it touches; only where there are more pieces or fewer all behind them are numbered anew.
+//! A part of whose contour an edit has moved something, changed where it is: the pieces of the
+//! path, and the edges, beside what has moved. The cost of such an edit depends on what it touches;
+//! only where the number of pieces changes are all later ones renumbered.
 
 use super::clearance::area_about;
 use super::corners::Element;
@@ -16,10 +17,10 @@ use crate::geometry::{Bounds, Segment};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// Where more segments have changed, all is laid anew.
+/// Where more segments have changed, everything is made anew.
 const MOST: usize = 64;
 
-/// What of a part is not as it was.
+/// What has changed in a part.
 #[derive(Debug, Default)]
 pub(crate) struct Moved {
     /// Edges that are gone, and how many stand in their place; the last ones first.
@@ -144,7 +145,7 @@ impl Part {
         new.collect::<Option<_>>().filter(|_| is_whole)
     }
 
-    /// Puts other segments in the place of some, and hands out those.
+    /// Replaces some segments, and returns the old ones.
     fn put_drawn(&mut self, new: &[(usize, Segment)]) -> Option<Vec<(usize, Segment)>> {
         for &(index, geometry) in new {
             self.drawn[index].geometry = geometry;
@@ -152,7 +153,7 @@ impl Part {
         Some(self.own.as_mut()?.replace(new))
     }
 
-    /// Puts other pieces of the path in the place of some, one stretch after the other, and hands out how that is undone.
+    /// Replaces pieces of the path, one stretch after the other, and returns how that is undone.
     fn put_path(&mut self, stretches: &[Stretch]) -> Vec<Stretch> {
         let origin = self.drawn[0].geometry.start();
         let put = |(stretch, new): &Stretch| {
@@ -215,7 +216,7 @@ impl Part {
         done.map(|()| moved)
     }
 
-    /// `was` says of each piece of the path which it was, of so many before.
+    /// `was` gives for each piece of the path the index that it had among the pieces before.
     fn edges_follow_on(
         &mut self,
         job: &Job,

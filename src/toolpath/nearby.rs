@@ -1,4 +1,4 @@
-//! Walls that are asked again and again what is near, each time not far from where they were asked before.
+//! Walls that are searched repeatedly, each time not far from the place before.
 
 use super::clearance::{Walls, nearest_by};
 use crate::geometry::{Bounds, Point};
@@ -6,7 +6,7 @@ use crate::geometry::{Bounds, Point};
 /// Walls, with those that lie about the last place.
 pub(crate) struct Nearby<'a> {
     walls: &'a Walls,
-    /// How far about what is asked others are found with it.
+    /// How far beyond the requested area walls are looked up in advance.
     ahead: f64,
     /// All that touches this is known.
     area: Bounds,

@@ -1,4 +1,4 @@
-//! What the proof of an earlier pass says of a later one.
+//! What the proof of an earlier pass implies for a later one.
 //!
 //! Nothing of the contour lies in the disc of the larger correction about a place of the earlier path. The disc of the smaller one about the
 //! place on the same normal of the wall lies in it: there the later path keeps as clear, and only what reaches beyond is to be proved.

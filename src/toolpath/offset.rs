@@ -13,7 +13,7 @@ pub(super) struct Wall {
     pub(crate) source: Source,
 }
 
-/// One core takes so many walls at a time.
+/// Walls that one core takes at a time.
 const AT_A_TIME: usize = 2048;
 
 /// What stands for a segment without length until it is left out.
@@ -25,7 +25,7 @@ const NO_WALL: Wall = Wall {
     source: Source::Tab,
 };
 
-/// The walls of a contour of so many segments. Both neighbours close a gap within the join tolerance half way, and segments without
+/// The walls of a contour of `count` segments. Both neighbours close a gap within the join tolerance half way, and segments without
 /// length are left out.
 pub(super) fn walls(
     count: usize,

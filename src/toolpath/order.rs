@@ -158,8 +158,8 @@ fn picks(drawing: &Drawing, outlines: &[Outline], handles: &[String]) -> FxHashM
     picks
 }
 
-/// Brings paths into an order in which each is followed by the one that begins nearest to where it ends, of those within which nothing
-/// is left to cut. The first one that may be cut begins.
+/// Brings paths into an order in which each is followed by the one that begins nearest to where it
+/// ends, among those within which nothing is left to cut. The first one that may be cut begins.
 pub(super) fn by_nearest(
     drawing: &Drawing,
     outlines: &[Outline],

@@ -43,9 +43,10 @@ pub(crate) struct Part {
     pub(super) own: Option<Walls>,
     /// The pieces of the path.
     pub(super) ways: Vec<Wall>,
-    /// Of each piece of the path its wall; nothing where it has not been proved beside the contour at the correction.
+    /// For each piece of the path its wall; nothing where it has not been proved beside the contour
+    /// at the correction.
     pub(super) path_follows: Vec<u32>,
-    /// Of each edge the piece of the path; nothing where it is not the offset of the path.
+    /// For each edge the piece of the path; nothing where it is not the offset of the path.
     pub(super) edges_follow: Vec<u32>,
     /// The path, and the outline, are those of neighbours cut with each other.
     pub(super) is_by_neighbours: [bool; 2],
@@ -111,7 +112,7 @@ pub(crate) struct Cutting<'a> {
     pub walls: Option<&'a Walls>,
 }
 
-/// The part that all passes leave of a closed contour; `before` is the same before an edit of the contour, under the same settings.
+/// The part that all passes leave of a closed contour; `before` is the part before an edit of the contour, under the same settings.
 pub(crate) fn part(
     drawing: &Drawing,
     contour: &Contour,
@@ -361,7 +362,7 @@ impl Job<'_> {
         walls(count, segment, true, zero_length)
     }
 
-    /// The same where it is plain and little has changed: what holds since before is not proved again. `None` where that does not come out.
+    /// The same where it is simple and little has changed: what still holds is not proved again. `None` where that fails.
     fn mended(
         &self,
         contour: Segments,

@@ -114,7 +114,7 @@ pub(crate) fn lengths(paths: &[WirePath]) -> (f64, f64) {
     (cut, jumps.fold(0.0, |sum, way| sum + way))
 }
 
-/// Why there is no path; a plain sentence for the user, lower-case, no final dot.
+/// Why there is no path; a plain sentence for the user, in lower case without a full stop.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Refusal {
     Sentence(String),

@@ -1,4 +1,4 @@
-//! The paths of all contours of one request, with their leads, each held against all contours.
+//! The paths of all contours of one request, with their leads, each checked against all contours.
 
 use super::Planned;
 use super::begun::Begun;
@@ -41,7 +41,7 @@ enum Offset {
     Beside(Wanted, Box<Unled>),
 }
 
-/// One core takes so many contours at a time.
+/// Contours that one core takes at a time.
 const CONTOURS_AT_A_TIME: usize = 8;
 
 /// One pass along a contour.
@@ -113,7 +113,8 @@ impl Job<'_> {
         Ok((planned, findings))
     }
 
-    /// The offsets of contours, with leads that are held against all of them, and the leads that do not fit.
+    /// The offsets of contours, with leads that are checked against all of them, and the leads that
+    /// do not fit.
     pub(crate) fn offset_all(
         &self,
         chosen: &[usize],

@@ -2,7 +2,7 @@
 //!
 //! A place of the wire's centre lies on the edge of where it may be when no wall is nearer than the correction and one is just
 //! that far away. Every such place is on the raw offset of a wall or on the way round a corner. So a path is right when all of it is
-//! such places, and when of what was cut off the raw elements none is.
+//! such places, and when nothing that was cut off the raw elements is.
 
 use super::clearance::Walls;
 use super::corners::{Element, Offsets, Raw, meetings};
@@ -15,7 +15,7 @@ use crate::drawing::winding_of;
 use crate::geometry::{Arc, Bounds, Point, Segment};
 use std::ops::{Deref, Range};
 
-/// What the offset of one contour is held against.
+/// What the offset of one contour is checked against.
 pub(super) struct Proof<'a> {
     pub(crate) place: Beside<'a>,
     pub(crate) offsets: Offsets<'a>,
@@ -164,7 +164,7 @@ impl Beside<'_> {
     }
 }
 
-/// What is there of one of the offsets, with the pieces of the path before and behind it.
+/// The pieces of the path that lie on one of the offsets, and those before and after them.
 pub(super) struct There<'p> {
     pub(super) pieces: &'p [Element],
     pub(super) before: Option<&'p Element>,

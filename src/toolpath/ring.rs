@@ -6,7 +6,7 @@ use crate::geometry::{Point, Segment};
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefMutIterator, ParallelIterator};
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
-/// One core takes so many elements at a time.
+/// Elements that one core takes at a time.
 const AT_A_TIME: usize = 2048;
 
 /// The pieces of a path, and of each the raw element that it is of.

@@ -1,4 +1,4 @@
-//! The ways round one contour without leads: what a program is held against.
+//! The ways round one contour without leads: what a program is compared with.
 
 use super::job::Job;
 use super::laid::{Along, Laid};
@@ -9,7 +9,7 @@ use crate::geometry::Side;
 use crate::settings::Effective;
 
 /// The paths of all passes beside a contour whose segments are in the direction of travel, in that direction, from anywhere;
-/// corrections in mm. Of a pass that has no path nothing is there. Everything else is in the unit of so many mm.
+/// corrections in mm. A pass that has no path is `None`. Everything else is in a unit of `unit_mm` mm.
 pub(crate) fn rounds(
     segments: &[ContourSegment],
     (side, closed): (Side, bool),

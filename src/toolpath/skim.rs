@@ -1,4 +1,4 @@
-//! The path of a pass behind the first.
+//! The paths of the passes after the first.
 
 use super::clearance::Walls;
 use super::corners::Element;
@@ -54,7 +54,7 @@ impl Job<'_> {
         Ok(all)
     }
 
-    /// The path of a pass behind the first: beside the contour, or where the corners are to have a constant stock beside the first path.
+    /// The path of a pass after the first: beside the contour, or where the corners are to have a constant stock beside the first path.
     pub(super) fn skim(
         &self,
         walls: &[Wall],

@@ -1,8 +1,8 @@
 //! The path beside a contour of which an edit has changed a stretch: as it was, but for the pieces beside that stretch.
 //!
 //! Neighbours are cut with each other, and what they use up goes: where three elements that follow each other are all there, what goes on one
-//! side of them does not hang on the other side. So the stretch is laid by itself, with some walls about it, from three such elements to
-//! three others that are what they were.
+//! side of them does not depend on the other side. So the stretch is made by itself, with some
+//! walls about it, from three such elements to three others that are what they were.
 
 use super::clearance::Walls;
 use super::corners::{Element, Joining, Offsets, Raw};
@@ -16,7 +16,8 @@ use std::ops::Range;
 /// Walls that are laid anew about what has changed.
 const ABOUT: usize = 16;
 
-/// Where what has changed lies so many walls apart, or of a contour of so few, all is laid anew.
+/// Where the changes spread over more walls, or the contour has hardly more, everything is made
+/// anew.
 const MOST: usize = 128;
 
 /// Some walls that are laid anew, round a contour from the first on.
@@ -38,7 +39,7 @@ pub(super) struct Splice {
     before_the_end: Option<usize>,
 }
 
-/// The path beside the walls, where what is kept says most of it; `None` where it does not.
+/// The path beside the walls, where the kept path gives most of it; `None` where it does not.
 pub(super) fn spliced(kept: &Kept, walls: &[Wall], joining: &Joining) -> Option<Vec<Element>> {
     Splice::of(kept, walls, joining)?.path(kept, walls)
 }

@@ -1,4 +1,5 @@
-//! The passes of a contour with their leads: to and fro, on past the start, and but for a tab, which is cut off after a stop.
+//! The passes of a contour with their leads: to and fro, on past the start, and without the tab,
+//! which is cut off after a stop.
 //!
 //! With a tab the passes end where it begins, and alternate ones go back from there: a step leads from the path of one to that of the
 //! next. Passes that all go one way come back to the thread hole from where the tab begins. Then the tab is cut in passes of its own, to and
@@ -50,7 +51,8 @@ impl Job<'_> {
         kerfs: &Kerfs,
     ) -> Result<Vec<WirePath>, Refusal> {
         let tab = self.tab(&unled)?;
-        // From the begin of the tab to the thread hole and back there, in place of along the contour.
+        // From the beginning of the tab to the thread hole and back there, in place of along the
+        // contour.
         let returns = self.settings.passes.sequence() == Sequence::OneWay && unled.passes.len() > 1;
         let form = self.lead(wanted);
         let is_straight = form == Lead::Straight;
@@ -318,7 +320,7 @@ impl Job<'_> {
         Ok(self.units(overlap))
     }
 
-    /// The length of a contour in drawing units; an error where `mm` are as long.
+    /// The length of a contour in drawing units; an error where `mm` is at least as long.
     fn hold_shorter(
         &self,
         unled: &Unled,
@@ -341,7 +343,7 @@ impl Job<'_> {
     }
 }
 
-/// How a pass is gone.
+/// How a pass is travelled.
 struct Form {
     back: bool,
     /// Where a straight way leads to it from.

@@ -31,7 +31,7 @@ impl Job<'_> {
         }
     }
 
-    /// What the leads of a pass are held against; its correction is in drawing units.
+    /// What the leads of a pass are checked against; its correction is in drawing units.
     pub(super) fn surroundings<'a>(
         &'a self,
         unled: &'a Unled,
@@ -114,7 +114,7 @@ impl Job<'_> {
                 &surroundings(rough.correction),
             )?
         };
-        // The first lead has been held against everything.
+        // The first lead has been checked against everything.
         let first = usize::from(stand.is_none());
         for pass in unled.passes.iter().skip(first) {
             if pass.begin != thread && !pass.path.is_empty() {
@@ -154,7 +154,8 @@ impl Job<'_> {
         Err(Refusal::Findings(vec![finding]))
     }
 
-    /// The path with the way from and back to the thread hole, where that is another point than its begin. An open path ends where it ends.
+    /// The path with the way from and back to the thread hole, where that is another point than its
+    /// beginning. An open path ends where it ends.
     pub(super) fn with_leads(
         &self,
         outline: usize,

@@ -10,7 +10,7 @@ namespace Wedm.Core
     {
         /// <summary>
         /// The change that makes <paramref name="after"/> out of <paramref name="before"/> (null: not there), or null where both say
-        /// the same. A polyline that only has other vertices is spliced: what costs the server is the edit, not the polyline.
+        /// the same. A polyline of which only vertices differ is spliced, so that the cost is that of the edit, not of the polyline.
         /// </summary>
         public static JObject Between(string handle, Entity before, Entity after)
         {

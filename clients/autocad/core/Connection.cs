@@ -61,10 +61,10 @@ namespace Wedm.Core
         /// <summary>A notification of the server: method and params.</summary>
         public Action<string, JToken> OnNotification { get; set; }
 
-        /// <summary>A request of the server. What it returns is the answer; null answers that the method is not known.</summary>
+        /// <summary>A request of the server. What it returns is the answer; with null the answer is that the method is not known.</summary>
         public Func<string, JToken, JToken> OnRequest { get; set; }
 
-        /// <summary>Why the connection has ended; null while it stands, or while messages still wait.</summary>
+        /// <summary>Why the connection has ended; null while it is up, or while messages are still waiting.</summary>
         public string End => _inbox.IsEmpty ? _end : null;
 
         public void Notify(string method, JToken parameters)

@@ -3,7 +3,7 @@ using System.IO;
 
 namespace Wedm.Core
 {
-    /// <summary>The name of a drawing towards the server.</summary>
+    /// <summary>The name by which the server knows a drawing.</summary>
     public static class DrawingUri
     {
         /// <summary>

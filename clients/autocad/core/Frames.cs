@@ -8,7 +8,7 @@ namespace Wedm.Core
     /// <summary>The base protocol of LSP: a header with the length in bytes, an empty line, the body.</summary>
     internal static class Frames
     {
-        /// <summary>Longest header line that is read on; a server never sends one of a hundredth of it.</summary>
+        /// <summary>Longest header line that is accepted; a server sends none of a hundredth of that.</summary>
         private const int LongestHeaderLine = 4096;
 
         public static void Write(Stream stream, byte[] body)

@@ -50,7 +50,7 @@ namespace Wedm.Core
 
         public string Uri { get; }
 
-        /// <summary>Of what the server has been sent last.</summary>
+        /// <summary>The version that the server was sent last.</summary>
         public int Version { get; private set; }
 
         /// <summary>Findings of <see cref="FindingsVersion"/>.</summary>
@@ -108,7 +108,7 @@ namespace Wedm.Core
             return changes.Count;
         }
 
-        /// <summary>Draws on a layer of the plugin's own, which is no part of what is cut. Returns null, or why nothing was drawn.</summary>
+        /// <summary>Draws on one of the plugin's own layers, which are not cut. Returns null, or why nothing was drawn.</summary>
         internal string Draw(string layer, IReadOnlyList<Entity> entities, bool anew)
         {
             var refusal = _host.Draw(layer, entities, anew);
@@ -154,7 +154,7 @@ namespace Wedm.Core
             var version = (int?)publish["version"];
             if (version != Version)
             {
-                // An answer to what has been overtaken: the next one is on its way.
+                // The answer to an older version: the next one is on its way.
                 return;
             }
             Findings = publish["diagnostics"].Cast<JObject>().Select(diagnostic => new Finding(diagnostic)).ToArray();
@@ -180,7 +180,7 @@ namespace Wedm.Core
             {
                 return "the fix does not fit the drawing: " + fault.Message;
             }
-            // Undo may have gone by without an event: what is there is compared, not what is remembered.
+            // An undo may have come without an event: the drawing itself is compared, not what is remembered of it.
             foreach (var entity in entities)
             {
                 _sent.TryGetValue(entity.Key, out var known);

@@ -3,7 +3,7 @@ using System.Text;
 
 namespace Wedm.Core
 {
-    /// <summary>Writes a program beside its target and puts it in the target's place, so that no half program ever stands there.</summary>
+    /// <summary>Writes a program beside its target and renames it, so that the target is never half a program.</summary>
     public static class ProgramFile
     {
         /// <exception cref="IOException">It cannot be written; the target is as it was.</exception>

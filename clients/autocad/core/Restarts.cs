@@ -3,7 +3,7 @@ using System;
 namespace Wedm.Core
 {
     /// <summary>
-    /// How often a server that ends is started again, and how long it is left alone before: "When the server ends" in docs/protocol.md.
+    /// How often a server that ends is started again, and after what pause: "When the server ends" in docs/protocol.md.
     /// </summary>
     internal sealed class Restarts
     {
@@ -12,7 +12,7 @@ namespace Wedm.Core
 
         private static readonly double[] Pauses = { 0, 0.5, 1, 2, 4 };
 
-        /// <summary>A server that has lived so long is not blamed for what came before.</summary>
+        /// <summary>After a server that has lived this long, the count of ends in a row begins anew.</summary>
         private static readonly TimeSpan SoundLife = TimeSpan.FromSeconds(60);
 
         private int _ends;
@@ -30,7 +30,7 @@ namespace Wedm.Core
             return _ends == Pauses.Length ? (TimeSpan?)null : TimeSpan.FromSeconds(Pauses[_ends++]);
         }
 
-        /// <summary>The user wants another start: what was before does not count.</summary>
+        /// <summary>The user wants another start: earlier ends no longer count.</summary>
         public void Reset()
         {
             _ends = 0;

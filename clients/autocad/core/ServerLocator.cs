@@ -62,8 +62,8 @@ namespace Wedm.Core
         }
 
         /// <summary>
-        /// Whether a path leads to one place from wherever CAD works. What is relative leads into the folder of the drawing, and what begins with
-        /// a drive or a slash alone, on Windows, to where the last one was: a program there is anybody's.
+        /// Whether a path means the same file whatever the current folder is. A relative one leads into the folder of the drawing, and one with
+        /// only a drive or a slash, on Windows, depends on the current one: anybody may have put a program there.
         /// </summary>
         private static bool IsFull(string path)
         {

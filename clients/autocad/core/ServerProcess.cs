@@ -30,7 +30,7 @@ namespace Wedm.Core
             {
                 throw new ServerMissingException(path + " cannot be started: " + fault.Message);
             }
-            // The log must be read, or a server that writes much of it would wait for ever.
+            // The log must be read, or a server that writes a lot would block for ever.
             _process.ErrorDataReceived += (sender, line) => _lastLogLine = line.Data ?? _lastLogLine;
             _process.BeginErrorReadLine();
             Connection = new Connection(_process.StandardOutput.BaseStream, _process.StandardInput.BaseStream);
@@ -40,7 +40,7 @@ namespace Wedm.Core
 
         public int Id => _process.Id;
 
-        /// <summary>The last line of the server's log, null where it has said nothing.</summary>
+        /// <summary>The last line of the server's log, null where it is empty.</summary>
         public string LastLogLine => _lastLogLine;
 
         public void Kill()

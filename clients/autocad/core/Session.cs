@@ -6,7 +6,7 @@ using Newtonsoft.Json.Linq;
 
 namespace Wedm.Core
 {
-    /// <summary>How a session with the server stands.</summary>
+    /// <summary>The state of a session with the server.</summary>
     public enum SessionState
     {
         Stopped,
@@ -43,7 +43,7 @@ namespace Wedm.Core
         private TimeSpan? _readyAt;
         private TimeSpan _restartAt;
 
-        /// <summary>A question that was asked before the greeting was over: it is put when it is, behind the drawings that it is about.</summary>
+        /// <summary>A question from before the greeting was over: it is sent once its drawings have been opened.</summary>
         private sealed class Deferred
         {
             public string Method;
@@ -193,7 +193,7 @@ namespace Wedm.Core
         /// <summary>The ending of its files: what an electrode mills by is ISO with heights.</summary>
         public static string EndingOf(string format) => format == "milling" ? ".iso" : "." + format;
 
-        /// <summary>Asks for a program ("3b", "4b", "iso", "milling"). Errors in the drawing are told in full where the server names them.</summary>
+        /// <summary>Asks for a program ("3b", "4b", "iso", "milling"). Where errors in the drawing prevent it, they are passed on in full.</summary>
         public void Generate(LiveDrawing drawing, string format, Action<string> program, Action<string> refused)
         {
             drawing.Flush();
@@ -201,7 +201,7 @@ namespace Wedm.Core
             Request("wedm/generate", question, result => program((string)result["program"]), error => refused(InFull(error)));
         }
 
-        /// <summary>Asks for the path of the wire, with its holes and figures.</summary>
+        /// <summary>Asks for the path of the wire, with its start holes and its figures (time, weight, cost).</summary>
         public void FindPath(LiveDrawing drawing, Action<Toolpath> found, Action<string> refused)
         {
             drawing.Flush();
@@ -329,7 +329,7 @@ namespace Wedm.Core
             return questions;
         }
 
-        /// <summary>Answers all that waits for a server that is gone.</summary>
+        /// <summary>Answers all requests that wait for a server that is gone.</summary>
         private void Abandon(ServerProcess server, string reason)
         {
             server.Connection.Abandon(reason);

@@ -23,14 +23,14 @@ namespace Wedm.Core
 
         public double[] At { get; }
 
-        /// <summary>Null where the settings do not say it.</summary>
+        /// <summary>Null where the settings do not state it.</summary>
         public double? DiameterMm { get; }
 
-        /// <summary>By the settings or a mark in the drawing; else it was found.</summary>
+        /// <summary>True where the settings or a mark in the drawing give it; else a place was searched for.</summary>
         public bool IsGiven { get; }
     }
 
-    /// <summary>The path of the wire's centre, where the wire is threaded, and what it comes to on the machine.</summary>
+    /// <summary>The path of the wire's centre, where the wire is threaded, and the time, weight and cost on the machine.</summary>
     public sealed class Toolpath
     {
         /// <summary>What lies on these layers is drawn by the plugin: the server sets them aside, too.</summary>
@@ -87,7 +87,7 @@ namespace Wedm.Core
             return csv.ToString();
         }
 
-        /// <summary>What it comes to on the machine, a line for each figure that is known, and the keys that are missing for the others.</summary>
+        /// <summary>The figures for the machine, one a line where they are known, and the keys of the settings that the others need.</summary>
         public string Figures()
         {
             var lines = new List<string> { "cut " + Number("length", "0.000") + " mm, jumps " + Number("jumps", "0.000") + " mm" };
@@ -145,7 +145,7 @@ namespace Wedm.Core
     /// <summary>Whether punch and plate fit, as the wire leaves them.</summary>
     public sealed class Fit
     {
-        /// <summary>So many places are named.</summary>
+        /// <summary>The number of places that are named.</summary>
         private const int Named = 5;
 
         private readonly JToken _result;

@@ -19,7 +19,7 @@ namespace Wedm.AutoCad
     {
         private const double DegreesPerRadian = 180.0 / Math.PI;
 
-        /// <summary>Of the mark of a thread hole, drawing units.</summary>
+        /// <summary>Height of the mark of a thread hole, drawing units.</summary>
         private const double MarkHeight = 1;
 
         private readonly Document _document;
@@ -153,7 +153,7 @@ namespace Wedm.AutoCad
             }
             else if (!Set(there, entity))
             {
-                // Another kind stands in its place: it takes over layer, colour and linetype.
+                // An entity of another kind replaces it, and takes over layer, colour and linetype.
                 var fresh = Append(transaction, entity);
                 fresh.SetPropertiesFrom(there);
                 there.Erase();
@@ -230,7 +230,7 @@ namespace Wedm.AutoCad
             return true;
         }
 
-        /// <summary>Only vertices that differ are written, so that widths of the others stay.</summary>
+        /// <summary>Only vertices that differ are written, so that the others keep their widths.</summary>
         private static void SetVertices(Polyline polyline, PolylineEntity wanted)
         {
             var mirror = Mirror(polyline.Normal);

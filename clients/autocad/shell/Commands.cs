@@ -9,7 +9,7 @@ using CadApplication = Autodesk.AutoCAD.ApplicationServices.Core.Application;
 
 namespace Wedm.AutoCad
 {
-    /// <summary>The commands. Each asks the server and returns; what it answers is dealt with when it arrives.</summary>
+    /// <summary>The commands. Each asks the server and returns; the answer is dealt with when it arrives.</summary>
     public sealed class Commands
     {
         private static Palette _palette;
@@ -41,7 +41,7 @@ namespace Wedm.AutoCad
         [CommandMethod("WEDMISO")]
         public static void GenerateIso() => Generate("iso");
 
-        /// <summary>Writes the program of an electrode that mills, whose [milling] stands in wedm.toml.</summary>
+        /// <summary>Writes the program of an electrode that mills, with the table [milling] of the wedm.toml.</summary>
         [CommandMethod("WEDMMILL")]
         public static void GenerateMilling() => Generate("milling");
 
@@ -91,7 +91,7 @@ namespace Wedm.AutoCad
                 Plugin.Say));
         }
 
-        /// <summary>Says what the drawing comes to on the machine.</summary>
+        /// <summary>Says how long the drawing takes on the machine, and the other figures that are known.</summary>
         [CommandMethod("WEDMWORK")]
         public static void SayFigures()
         {

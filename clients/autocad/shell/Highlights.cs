@@ -13,7 +13,7 @@ namespace Wedm.AutoCad
         private const short Red = 1;
         private const short Yellow = 2;
 
-        /// <summary>A ring is so many times the radius that it marks, so that it is seen beside it.</summary>
+        /// <summary>The radius of a ring as a multiple of the radius that it marks, so that both can be seen.</summary>
         private const double RingPerRadius = 3;
 
         private readonly List<Circle> _rings = new List<Circle>();

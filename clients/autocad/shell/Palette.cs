@@ -11,7 +11,7 @@ namespace Wedm.AutoCad
     /// <summary>The palette of RMIN: the radius list of the document in front, kept up to date, and rings round the faults.</summary>
     internal sealed class Palette
     {
-        /// <summary>What is shown round a segment that was chosen, drawing units beside it.</summary>
+        /// <summary>The margin that is shown round a chosen segment, drawing units.</summary>
         private const double ViewMargin = 5;
 
         private readonly PaletteSet _set;

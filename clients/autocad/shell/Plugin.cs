@@ -15,7 +15,7 @@ namespace Wedm.AutoCad
     /// <summary>What lives as long as AutoCAD: one session with the server, one watch for each document.</summary>
     public sealed class Plugin : IExtensionApplication
     {
-        /// <summary>How often what has come from the server is handed over, ms.</summary>
+        /// <summary>The interval at which the server's messages are handed over, ms.</summary>
         private const int PumpInterval = 100;
 
         private readonly Dictionary<Document, DocumentWatch> _watches = new Dictionary<Document, DocumentWatch>();

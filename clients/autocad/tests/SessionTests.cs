@@ -13,7 +13,7 @@ namespace Wedm.Tests
     [TestFixture]
     public class SessionTests
     {
-        /// <summary>Small sessions, whose talk with the server is written down for the protocol suite.</summary>
+        /// <summary>Small sessions, whose messages are recorded for the protocol suite.</summary>
         private const string Recorded = "Session";
 
         private readonly List<string> _messages = new List<string>();
@@ -274,7 +274,7 @@ namespace Wedm.Tests
             CollectionAssert.IsEmpty(Rules(drawing));
         }
 
-        /// <param name="told">Whether the CAD program tells of its undo: then the next version is on its way, else the plugin must see for itself.</param>
+        /// <param name="told">Whether the CAD program reports its undo; if not, the plugin must notice it by itself.</param>
         [TestCase(true)]
         [TestCase(false)]
         public void A_fix_is_refused_when_undo_has_gone_by_while_it_was_on_its_way(bool told)
@@ -329,7 +329,7 @@ namespace Wedm.Tests
             _session.Until(() => _session.State == SessionState.Running && _session.ServerId != first, "a new server");
             _session.UntilChecked(drawing);
             CollectionAssert.AreEqual(new[] { "small-radius" }, Rules(drawing));
-            // The other drawing is with the new server too: it has been told of it, and answers for it.
+            // The other drawing is with the new server too: it was opened there, and there are answers for it.
             _session.UntilChecked(other);
             IReadOnlyList<RadiusRow> rows = null;
             _session.ListRadii(other, list => rows = list, Assert.Fail);
@@ -486,7 +486,7 @@ sys.stdin.buffer.read()
                     var vertices = Enumerable.Range(0, 100000).Select(index => new Vertex(index, 0.123456789, 0)).ToArray();
                     var drawing = session.Open("cad:big", new MemoryDrawing(new PolylineEntity("1", "0", false, vertices)));
                     Assert.AreEqual(1, drawing.Version, "it is on its way, megabytes more than a pipe holds");
-                    // Nobody reads, so who waited for the pipe would wait until this server had ended.
+                    // This server never reads: whoever waited for the pipe would wait until it has ended.
                     session.Pump();
                     Assert.AreEqual(SessionState.Running, session.State);
                     Assert.IsFalse(Process.GetProcessById(session.ServerId.Value).HasExited, "the host waited for the server");

@@ -1,4 +1,4 @@
-# A notebook as a text: Jupyter (with jupytext), VS Code and Spyder show each part behind a %% as a cell.
+# A notebook as a text: Jupyter (with jupytext), VS Code and Spyder show each part after a %% as a cell.
 
 # %% A die opening, with a corner that the wire cannot follow
 from wedm_client import Polyline, Server

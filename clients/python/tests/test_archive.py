@@ -17,7 +17,7 @@ from .test_bad_days import nowhere as nowhere
 
 @pytest.fixture
 def archive(tmp_path: Path, data: Path) -> Path:
-    """Two folders of drawings, and what stands about in archives besides."""
+    """Two folders of drawings, and the other files that archives contain."""
     tight, clean = (data / "tight.dxf").read_bytes(), (data / "clean.dxf").read_bytes()
     for number in range(30):
         path = tmp_path / f"customer {number % 2}" / f"plate {number:02}.dxf"

@@ -1,4 +1,4 @@
-"""The package as it is handed out: typed, complete, and of one mind with the protocol's schema."""
+"""The package as it is handed out: typed, complete, and in agreement with the protocol's schema."""
 
 from __future__ import annotations
 

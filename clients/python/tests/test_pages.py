@@ -1,4 +1,4 @@
-"""The Python of the documentation runs as it stands, one stretch behind the other."""
+"""The Python of the documentation runs as it stands, one piece after the other."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-// Completes a wedm.toml: tables, keys and words, with what they mean.
+// Completes a wedm.toml: tables, keys and values, with what they mean.
 
 import * as vscode from "vscode";
 import { keysOf, offers, type Declared, type Offer } from "./tomlKeys";

@@ -1,6 +1,6 @@
-// Which language a text is in whose name does not say it. Knows nothing of VS Code; clients/languages.json holds it to the server.
+// The language of a text whose file name does not tell. Knows nothing of VS Code; clients/languages.json keeps it in step with the server.
 
-/** Lines that are looked at: behind the header of a program there are blocks soon. */
+/** Lines that are looked at: blocks follow soon after the header of a program. */
 const LINES = 400;
 /** Characters of a line that are looked at. */
 const WIDTH = 160;

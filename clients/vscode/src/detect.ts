@@ -1,12 +1,12 @@
 // Programs come as .txt, .cnc, .cmd and .eia, too: such a text is given its language once, when it is opened.
-// Who chooses another one keeps it.
+// If the user chooses another one, that stays.
 
 import * as vscode from "vscode";
 import { languageOf } from "./content";
 
 /** Endings under which programs come besides their own. */
 const ENDINGS = /\.(txt|cnc|cmd|eia|tap)$/i;
-/** What VS Code takes such files for. */
+/** The languages that VS Code takes such files for. */
 const TAKEN_FOR = ["plaintext", "bat"];
 /** Characters that are looked at. */
 const HEAD = 64 * 1024;

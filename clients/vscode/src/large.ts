@@ -1,4 +1,4 @@
-// Files that VS Code hands to no extension, because they are too large: said, with the way by path.
+// Files that VS Code hands to no extension, because they are too large: the user is told, and offered a check by path.
 
 import * as vscode from "vscode";
 import { t } from "./words";

@@ -4,7 +4,7 @@ import * as vscode from "vscode";
 import type { Located } from "./protocol";
 import type { Server } from "./server/server";
 
-/** What is written at a position; null where it is nothing with geometry, or nobody can say. */
+/** What is written at a position; null where it is nothing with geometry, or the server cannot answer. */
 export async function segmentAt(server: Server, uri: vscode.Uri, position: vscode.Position): Promise<Located | null> {
   try {
     const { line, character } = position;

@@ -6,7 +6,7 @@ import type { SettingsInForce } from "./protocol";
 import type { Server, State } from "./server/server";
 import { t } from "./words";
 
-/** Answers to a burst of edits come in a burst. */
+/** The wait, in ms, since edits come in bursts. */
 const CALM = 150;
 
 export class Status implements vscode.Disposable {
@@ -54,7 +54,7 @@ export class Status implements vscode.Disposable {
     try {
       this.#show(await this.server.request("wedm/settings", { uri: document.uri.toString() }));
     } catch {
-      // A server that has just died says so with its state.
+      // That a server has just died is shown by its state.
       this.#item.text = "wedm";
       this.#item.tooltip = t("Wire EDM: the correction in force is not known");
     }

@@ -1,4 +1,4 @@
-// Every sentence of the extension and of its page in the language of VS Code: English stands in the code, others in `l10n/`.
+// Every sentence of the extension and of its page in the language of VS Code: English is in the code, the others in `l10n/`.
 
 /** The sentence with `{0}`, `{1}` filled in. */
 type Translate = (sentence: string, ...what: (string | number)[]) => string;
@@ -14,7 +14,7 @@ export function t(sentence: string, ...what: (string | number)[]): string {
   return translate(sentence, ...what);
 }
 
-/** From now on sentences are made of these, by their English; of what is not among them the English stays. */
+/** Sets the translations, by the English sentence; a sentence without one stays English. */
 export function speak(sentences: Readonly<Record<string, string>>): void {
   translate = (sentence, ...what) => filled(sentences[sentence] ?? sentence, what);
 }

@@ -1,22 +1,22 @@
-// A drawing of many contours on a canvas: elements are batched by tile, and what many findings share is one mark with a count.
+// A drawing of many contours on a canvas: elements are batched by tile, and findings that lie close together become one mark with a count.
 
 import type { Box, Size } from "./frame";
 
-/** From so many elements on the page draws on the canvas instead of holding each in its tree. */
+/** From this many elements on the page draws on the canvas instead of holding each in its tree. */
 export const MANY = 2_000;
-/** The drawing is cut into so many tiles at each side. */
+/** The number of tiles along each side of the drawing. */
 const TILES = 32;
 /** A frame may take this long, ms: while somebody moves a drawing that takes longer, its last picture is moved. */
 const FRAME = 12;
-/** What has not been moved for so long is drawn sharp. */
+/** After this long without movement the drawing is drawn sharp, ms. */
 const REST = 90;
-/** Findings nearer than this on the screen are one mark. */
+/** Findings nearer than this on the screen are one mark, pixels. */
 const NEAR = 26;
 const SEVERITIES = ["error", "warning", "remark", "hint"] as const;
 
 interface Item {
   element: SVGGraphicsElement;
-  /** Of what is drawn to scale, in units of the sheet; else 0. */
+  /** The width of a line that is drawn to scale, in units of the sheet; else 0. */
   width: number;
   path: Path2D;
   box: Box;
@@ -39,7 +39,7 @@ export interface Cluster {
   items: Item[];
 }
 
-/** What is drawn below what. */
+/** The order of drawing, from the bottom up. */
 const ORDER = ["part", "lost", "void", "kerf", "aside", "contour", "jump", "wire", "lead", "hint", "remark", "warning", "error"] as const;
 
 export class Canvas {
@@ -222,7 +222,7 @@ export class Canvas {
     this.#drawClusters(context, pixel);
     context.setTransform(1, 0, 0, 1, 0, 0);
     this.#last.getContext("2d")?.drawImage(this.#canvas, 0, 0);
-    // What the browser has not painted yet counts: a pixel that is read waits for it.
+    // Time that the browser still needs to paint counts too: reading a pixel waits for it.
     context.getImageData(0, 0, 1, 1);
     this.#lastView = view;
     this.#cost = performance.now() - began;
@@ -350,7 +350,7 @@ function colour(name: string): string {
   if (known !== undefined) {
     return known;
   }
-  // What a variable is made of is worked out by the browser.
+  // The browser resolves the value of a variable.
   const probe = document.createElement("span");
   probe.style.color = `var(${name})`;
   document.body.append(probe);

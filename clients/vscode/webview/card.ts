@@ -1,11 +1,11 @@
-// What is picked, at close quarters: a finding with its reason and its repairs, or a contour with what may be said of it.
+// The card of what is picked: a finding with its reason and its repairs, or a contour with its settings.
 
 import type { Card, Contour, Fault, Said } from "../src/picture/messages";
 import type { Repair, Role } from "../src/protocol";
 import { element, host } from "./page";
 import { t } from "../src/words";
 
-/** What the next click in the picture is to say. */
+/** What the next click in the picture sets. */
 export interface Asking {
   key: "thread" | "entry";
   contour: Contour;
@@ -41,7 +41,7 @@ export class Cards {
     return this.#asking;
   }
 
-  /** Another picture: the card of a contour stays with what is said of it now, that of a finding goes. */
+  /** Another picture: the card of a contour stays, with its present settings; that of a finding goes. */
   refresh(contours: readonly Contour[], keeps: boolean): void {
     const name = this.#open?.handles[0];
     const contour = contours.find(({ handles }) => name !== undefined && handles.includes(name));

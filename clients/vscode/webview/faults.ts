@@ -11,7 +11,7 @@ const WORST: readonly Severity[] = ["error", "warning", "information", "hint"];
 export class Faults {
   #all: readonly Fault[] = [];
   #contours: readonly Contour[] = [];
-  /** The rule that is shown alone. */
+  /** The only rule that is shown, if one is chosen. */
   #only: string | null = null;
 
   constructor(private readonly chosen: (index: number) => void) {}
@@ -25,7 +25,7 @@ export class Faults {
     this.#show();
   }
 
-  /** Indices of the findings: the worst first, of those the smallest radius, of those as they came. */
+  /** Indices of the findings: the worst first, among those the smallest radius first, else as they came. */
   static sorted(faults: readonly Fault[]): number[] {
     const rank = ({ severity }: Fault): number => WORST.indexOf(severity);
     const radius = (fault: Fault): number => fault.radius ?? Number.POSITIVE_INFINITY;
@@ -91,7 +91,7 @@ export class Faults {
     return button;
   }
 
-  /** A contour by its number, what is in none by its handle, a block by its line. */
+  /** A contour by its number, an entity in none by its handle, a block by its line. */
   #placeOf({ handle, segment, line }: Fault): string {
     if (handle === undefined) {
       return t("line {0}", (line ?? 0) + 1);

@@ -21,7 +21,7 @@ export function unitsPerPixel(box: Box, size: Size): number {
   return Math.max(box.width / Math.max(size.width, 1), box.height / Math.max(size.height, 1));
 }
 
-/** `content` with a margin of so many pixels at each side, in the window's proportions. */
+/** `content` with a margin in pixels at each side, in the window's proportions. */
 export function fitted(content: Box, size: Size, margin: Size): Box {
   const free = { width: Math.max(size.width - 2 * margin.width, 1), height: Math.max(size.height - 2 * margin.height, 1) };
   const scale = unitsPerPixel(content, free) || 1;

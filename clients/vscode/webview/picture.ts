@@ -76,7 +76,7 @@ function pickSegment(sheet: Sheet, handle: string, segment: number | null, close
   }
 }
 
-/** Of a segment its finding is looked at, where it has one, else its contour. */
+/** For a segment its finding is shown, where it has one, else its contour. */
 function showCardOf(handle: string, segment: number | null): void {
   if (shown?.isEditor !== true) {
     return;

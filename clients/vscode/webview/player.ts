@@ -26,13 +26,13 @@ export class Player {
   #track = new Track([]);
   #blocks = new Map<number, SimulatedBlock>();
   #lines: readonly string[] = [];
-  /** What is cut, and what is jumped over, up to the end of each piece. */
+  /** The length that is cut up to the end of each piece, without jumps. */
   #cut: number[] = [];
   #mmPerUnit = 0;
   #distance = 0;
   #playing = false;
   #last = 0;
-  /** Index of the piece shown last, so that what lies between is coloured once. */
+  /** Index of the piece shown last, so that each piece since then is coloured once. */
   #shown = -1;
   #toldLine: number | null = null;
   #wire: SVGCircleElement | null = null;
@@ -67,7 +67,7 @@ export class Player {
     this.#track = new Track(lengths);
     let cut = 0;
     this.#cut = this.#pieces.map((piece, index) => (cut += isJump(piece) ? 0 : (lengths[index] ?? 0)));
-    // The sheet is drawn with few digits: what is cut is the server's figure, and the picture only shares it out.
+    // The sheet is drawn with few digits: the length that is cut is the server's, and the picture only gives the shares of the pieces.
     this.#mmPerUnit = cut > 0 && sheet.cut > 0 ? sheet.cut / cut : sheet.unitsPerMm > 0 ? 1 / sheet.unitsPerMm : 0;
     this.#section.hidden = this.#track.length === 0;
     this.#shown = -1;
@@ -104,7 +104,7 @@ export class Player {
     });
   }
 
-  /** Goes to the beginning of what stands in a line of the program. */
+  /** Goes to the beginning of the block in a line of the program. */
   toLine(line: number): void {
     const piece = this.#playing ? -1 : this.#pieces.findIndex((each) => Number(each.dataset["line"]) === line);
     if (piece >= 0) {
@@ -161,7 +161,7 @@ export class Player {
     this.#showFigures(spot);
   }
 
-  /** Pieces before the wire have been cut. */
+  /** Marks the pieces before the wire as cut. */
   #colour(piece: number): void {
     const [from, to] = [Math.min(this.#shown, piece), Math.max(this.#shown, piece)];
     for (let index = Math.max(from, 0); index <= to; index += 1) {
@@ -232,7 +232,7 @@ export class Player {
   }
 }
 
-/** The wire is not cutting there. */
+/** Whether the wire does not cut there. */
 function isJump(piece: SVGPathElement): boolean {
   return piece.classList.contains("jump");
 }

@@ -16,7 +16,7 @@ export class Sheet {
   readonly #bySegment = new Map<string, SVGElement[]>();
   readonly #byLine = new Map<number, SVGElement[]>();
   readonly #wire: SVGPathElement[];
-  /** Draws what is too much for the page's own tree. */
+  /** Draws what is too large for the page's own tree. */
   readonly canvas: Canvas | null;
   #selected: SVGElement[] = [];
   #ghost: SVGPathElement | null = null;
@@ -74,7 +74,7 @@ export class Sheet {
     }
   }
 
-  /** What is cut, mm, as the server counts it; 0 where there is no wire's path. */
+  /** The length that is cut, mm, by the server; 0 where there is no path of the wire. */
   get cut(): number {
     return Number(this.drawing?.dataset["cut"] ?? 0);
   }
@@ -86,7 +86,7 @@ export class Sheet {
     return {
       title: text(".heading") || (this.svg.querySelector("title")?.textContent ?? ""),
       note: text(".note"),
-      // The whole of what the sheet may have had to shorten.
+      // The full text, which the sheet may have had to shorten.
       alert: alert?.querySelector("title")?.textContent ?? "",
       severity: [...(alert?.classList ?? [])].find((name) => name !== "alert") ?? "",
     };
@@ -106,7 +106,7 @@ export class Sheet {
     }
     const path = document.createElementNS("http://www.w3.org/2000/svg", "path");
     path.classList.add("ghost");
-    // The neighbours of an arc that is replaced become shorter: that is no news.
+    // The neighbours of an arc that is replaced merely become shorter: they are not shown.
     const arcs = segments.filter(({ radius }) => radius !== undefined);
     path.setAttribute("d", (arcs.length > 0 ? arcs : segments).map((segment) => this.#dataOf(segment)).join(""));
     this.drawing.append(path);
@@ -168,7 +168,7 @@ export class Sheet {
     return best === null ? null : [(originX ?? 0) + best.x / scale, (originY ?? 0) + best.y / scale];
   }
 
-  /** The box about a point of the drawing that reaches so many mm to each side. */
+  /** The box about a point of the drawing that reaches this many mm to each side. */
   about([x, y]: readonly [number, number], mm: number): Box {
     const scale = Number(this.drawing?.dataset["scale"] ?? 1);
     const [originX, originY] = (this.drawing?.dataset["origin"] ?? "0 0").split(" ").map(Number);
@@ -279,7 +279,7 @@ export class Sheet {
     return { x: ((originX ?? 0) + local.x / Number(scale)) * toMm, y: ((originY ?? 0) + local.y / Number(scale)) * toMm };
   }
 
-  /** Units of the sheet in 1 mm; 0 where nobody knows. */
+  /** Units of the sheet in 1 mm; 0 where that is not known. */
   get unitsPerMm(): number {
     const { scale, unitMm } = this.drawing?.dataset ?? {};
     return scale === undefined ? 0 : Number(scale) / Number(unitMm ?? 1);

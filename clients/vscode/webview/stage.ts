@@ -10,7 +10,7 @@ const REACH = 6;
 const CLICK = 4;
 /** Pixels about what is drawn. */
 const MARGIN = { width: 24, height: 28 };
-/** Marks keep their size while the drawing grows into the room that they leave: a few looks settle that. */
+/** Marks keep their size while the drawing grows into the room that they leave: a few rounds settle that. */
 const LOOKS = 4;
 /** A part that is zoomed to fills this share of the window. */
 const SHARE = 0.22;
@@ -82,7 +82,7 @@ export class Stage {
     }
   }
 
-  /** Comes so close to a part that it can be judged. */
+  /** Zooms in on a part so far that it can be judged. */
   approach(box: Box | null): void {
     if (box === null) {
       return;

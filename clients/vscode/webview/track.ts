@@ -23,7 +23,7 @@ export class Track {
     return this.#ends.at(-1) ?? 0;
   }
 
-  /** Distances before the beginning and behind the end are those of the ends. Null for a way without pieces. */
+  /** Distances before the beginning or after the end count as the ends. Null for a way without pieces. */
   at(distance: number): Spot | null {
     if (this.#ends.length === 0) {
       return null;

@@ -69,7 +69,7 @@ impl Arguments {
         }
     }
 
-    /// True where only some rules are selected: `wedm fix` uses all of them.
+    /// True where only some rules are selected: `wedm fix` applies all of them.
     fn is_choosy(&self) -> bool {
         !self.select.is_empty() || !self.ignore.is_empty()
     }
@@ -237,20 +237,20 @@ fn survey(arguments: &Arguments) -> Survey {
     survey
 }
 
-/// The result for each file, in their order. The largest are begun first, one after the other over all cores: begun last, one of them alone would
-/// keep the others waiting.
+/// The result for each file, in their order. The largest are begun first, spread over all cores: if
+/// a large one began last, the other cores would wait for it.
 fn largest_first<T: Send>(files: &[PathBuf], of: impl Fn(&PathBuf) -> T + Sync) -> Vec<T> {
     let size = |file: &PathBuf| std::fs::metadata(file).map_or(0, |about| about.len());
     let mut order: Vec<usize> = (0..files.len()).collect();
     order.sort_by_cached_key(|&index| std::cmp::Reverse(size(&files[index])));
-    // In parts, as other lists are shared out, small files would be begun before large ones.
+    // Shared out in chunks, as other lists are, small files would be begun before large ones.
     let each = order.into_iter().par_bridge();
     let mut made: Vec<(usize, T)> = each.map(|index| (index, of(&files[index]))).collect();
     made.sort_unstable_by_key(|(index, _)| *index);
     made.into_iter().map(|(_, made)| made).collect()
 }
 
-/// The findings of a file; behind the last file the process ends.
+/// The findings of a file; after the last file the process ends.
 fn check(
     path: &Path,
     arguments: &Arguments,
@@ -297,7 +297,7 @@ fn check(
         };
         match checked(opened) {
             Some(checked) => Ok(checked),
-            // Somebody has written to the file meanwhile.
+            // The file has been written to meanwhile.
             None => Ok(checked(kept()?).unwrap_or_default()),
         }
     };

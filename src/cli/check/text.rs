@@ -57,7 +57,7 @@ pub(super) fn summary(survey: &Survey) -> String {
     let result = result + &suppressed;
     let files = say!(files, survey.files);
     let checked = match survey.files {
-        // Without any document there is nothing good to say.
+        // Without any document "nothing found" would be misleading.
         0 if survey.rows.is_empty() => say!(nothing_to_check, files),
         _ => say!(checked, files, result),
     };

@@ -1,5 +1,5 @@
 //! `wedm check --watch`: checks again whenever a file has changed. The files are polled a few times a second, which
-//! also works on network drives, where no system reports changes.
+//! also works on network drives, where the system reports no changes.
 
 use super::{Arguments, report};
 use crate::cli::{Failure, files, output};
@@ -26,7 +26,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<std::convert::Infallible, Fai
     }
 }
 
-/// Every file that is checked, and every file of settings beside or above one, with when it was written and how long it is.
+/// Every file that is checked, and every file of settings beside or above one, with its time of writing and its length.
 fn state(arguments: &Arguments) -> Vec<(PathBuf, Option<SystemTime>, u64)> {
     let mut paths = files::search(&arguments.paths, &arguments.search()).files;
     let folders: std::collections::BTreeSet<PathBuf> = paths

@@ -65,7 +65,7 @@ impl Client {
         Ok(self.last_id)
     }
 
-    /// The result of the request `id`. An error reply is a failure with the server's sentence.
+    /// The result of the request `id`. An error reply is a failure with the server's message.
     pub(crate) fn reply(&mut self, id: u64) -> Result<Value, Failure> {
         self.reply_or_error(id)?.map_err(|error| {
             Failure(say!(

@@ -50,7 +50,7 @@ impl Copy {
         let edits = drawn
             .text_edits(&DrawingEdit { changes })
             .map_err(Failure)?;
-        // From the last to the first, so that the places of the others stay true.
+        // From the last to the first, so that the places of the others stay right.
         let edits = edits.into_iter().rev();
         let changes = edits.map(|edit| self.replace(edit.range, &edit.text));
         let changes = changes.collect::<Result<_, _>>()?;
@@ -91,7 +91,7 @@ impl Copy {
             };
             placed.push((start..end, text));
         }
-        // From the last to the first, so that the places of the others stay true.
+        // From the last to the first, so that the places of the others stay right.
         placed.sort_by_key(|(range, _)| std::cmp::Reverse(range.start));
         let changes = placed
             .into_iter()

@@ -1,7 +1,7 @@
 //! `wedm demo`: a whole session with a real server, played by a small client that checks every answer.
 //!
-//! The client knows JSON-RPC and keeps its own copy of the text, as anybody's would. Only its proof of the result uses
-//! the library again.
+//! The client knows JSON-RPC and keeps its own copy of the text, as any other client would. Only
+//! its proof of the result uses the library again.
 
 mod client;
 mod copy;
@@ -66,7 +66,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     pair::session(&mut narrator, &mut client, correction)?;
     client.end()?;
 
-    // The levels of the session's settings, so that commands in this folder see the drawing as it did.
+    // The settings of the session, so that commands in this folder see the drawing as the session did.
     let settings = format!(
         "correction = {correction}\n\n[layers]\nDIE = \"opening\"\nHOLES = \"opening\"\nPLATE = \"ignore\"\n"
     );

@@ -73,7 +73,7 @@ impl Narrator {
         );
     }
 
-    /// Text in lines of at most 80 columns, the first behind `lead`, the others indented. Words are not broken; Chinese
+    /// Text in lines of at most 80 columns, the first after `lead`, the others indented. Words are not broken; Chinese
     /// is, between any two of its letters.
     fn print(&mut self, style: Style, indent: usize, lead: &str, text: &str) {
         for (index, line) in wrapped(text, COLUMNS - indent).into_iter().enumerate() {
@@ -112,7 +112,7 @@ fn wrapped(text: &str, width: usize) -> Vec<String> {
     lines
 }
 
-/// A word, cut where a line may end: beside each wide letter, but not before a closing mark or behind an opening one.
+/// A word, cut where a line may end: beside each wide letter, but not before a closing mark or after an opening one.
 fn pieces(word: &str) -> Vec<&str> {
     let is_wide = |letter: char| columns(letter.encode_utf8(&mut [0; 4])) > 1;
     let (mut found, mut from) = (Vec::new(), 0);

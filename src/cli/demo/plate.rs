@@ -64,7 +64,7 @@ impl Session<'_> {
         self.tell("textDocument/didOpen", json!({ "textDocument": item }))
     }
 
-    /// Squeezes a fillet, opens it again, squeezes another one.
+    /// Tightens a fillet, opens it again, tightens another one.
     fn design(&mut self, correction: f64) -> Result<(), Failure> {
         let (tight, wide) = (0.6 * correction, 2.0 * correction);
         self.narrator
@@ -102,8 +102,8 @@ impl Session<'_> {
             .any(|diagnostic| segment_of(diagnostic) == (DIE.to_string(), segment))
     }
 
-    /// Tells the server of a change, waits for the diagnostics of the new version, and prints which came and which
-    /// went.
+    /// Tells the server of a change, waits for the diagnostics of the new version, and prints which
+    /// have appeared and which have gone.
     fn tell(&mut self, method: &str, params: Value) -> Result<(), Failure> {
         let begun = Instant::now();
         self.client.notify(method, params)?;

@@ -8,7 +8,7 @@ use crate::message::readable;
 use crate::picture;
 use crate::protocol::{Fit, StartHole, Work};
 
-/// The most start holes and slugs on a page: whoever wants all asks for them.
+/// The most start holes and slugs on a page: other commands list them all.
 const MOST: usize = 500;
 
 /// The thread holes, in the order of the cuts.

@@ -15,7 +15,7 @@ use crate::protocol::{Contours, Fit, Inspection, Milling, SegmentKind, StartHole
 use crate::toolpath::{self, WirePath};
 use std::collections::BTreeMap;
 
-/// The most arcs of the radius list, and findings of one rule, on a page: whoever wants all asks for them.
+/// The most arcs of the radius list, and findings of one rule, on a page: other commands list them all.
 const MOST_ARCS: usize = 100;
 const MOST_OF_A_RULE: usize = 50;
 /// The same for milled contours.
@@ -241,7 +241,7 @@ impl Page {
         table(&heads, shown) + &more(self.arcs.len(), MOST_ARCS)
     }
 
-    /// The way of the wire, pass by pass.
+    /// The path of the wire, pass by pass.
     fn passes(&self) -> String {
         let mut passes: BTreeMap<(bool, usize), (f64, f64, usize)> = BTreeMap::new();
         for path in &self.paths {

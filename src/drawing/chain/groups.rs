@@ -64,7 +64,7 @@ impl Chains {
                     None => cells.push((own, key)),
                 }
                 for beside in about {
-                    // All others there are of its group.
+                    // All others there belong to its group.
                     let other = joints
                         .of_cell(beside)
                         .map(at)

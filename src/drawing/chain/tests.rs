@@ -240,7 +240,7 @@ fn a_double_does_not_spoil_an_outline_in_any_order() {
         &with(&[(0.0, 0.003, 10.0, 0.002, 0.0), (10.0, 10.0, 10.0, 0.0, 0.0)]),
         &["0 1 2 3"],
     );
-    // The one that lies off is left out.
+    // The one that lies off to the side is left out.
     check_in_every_order(
         &[
             (0.0, -0.004, 10.0, -0.004, 0.0),

@@ -36,7 +36,7 @@ impl Pen<'_> {
         self.set(tags, code, record::degrees(angle), DECIMALS)
     }
 
-    /// Replaces the number behind `code`, unless it is the same as written.
+    /// Replaces the number after `code`, unless it is the same as written.
     pub(super) fn set(
         &mut self,
         tags: &[Tag],
@@ -84,7 +84,7 @@ impl Pen<'_> {
     }
 }
 
-/// The tag that counts: the last one of its code.
+/// The tag that counts: the last one with the code.
 pub(super) fn last(tags: &[Tag], code: i16) -> Option<Tag> {
     tags.iter().rfind(|tag| tag.code == code).copied()
 }

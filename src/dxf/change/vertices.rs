@@ -14,7 +14,7 @@ use std::ops::Range;
 /// Decimals of bulges.
 const BULGE_DECIMALS: usize = 15;
 
-/// Bulges that differ by no more count as equal: they differ by less than a millionth of a µm over a chord of a metre.
+/// Bulges that differ by no more count as equal: over a chord of a metre that is less than a millionth of a µm.
 const SAME_BULGE: f64 = 1e-12;
 
 impl Document {
@@ -31,7 +31,7 @@ impl Document {
             return Err(say!(is_not_a_polyline, pen.name));
         };
         let end_of_head = of_entity.start + table.lines.first().map_or(2, |&line| line as usize);
-        // In a LWPOLYLINE the flags may also stand behind the vertices.
+        // In a LWPOLYLINE the flags may also stand after the vertices.
         let is_light = lines.trimmed(of_entity.start + 1) == b"LWPOLYLINE";
         let end = if is_light { of_entity.end } else { end_of_head };
         let flags = own_tags(lines, of_entity.start..end).filter(|tag| tag.code == 70);
@@ -134,7 +134,7 @@ fn set_vertex(pen: &mut Pen, range: Range<usize>, vertex: Vertex) -> Result<(), 
     pen.set_length(&tags, 10, vertex.point.x)?;
     pen.set_length(&tags, 20, vertex.point.y)?;
     if let Some(tag) = last(&tags, 42) {
-        // More digits than the writer of the file had do not make another arc.
+        // More digits than the file's writer used do not make a different arc.
         let present = number::number(pen.lines.content(tag.value_line()));
         if matches!(present, Number::Exact(present) if (present - vertex.bulge).abs() <= SAME_BULGE)
         {
@@ -156,7 +156,7 @@ fn set_vertex(pen: &mut Pen, range: Range<usize>, vertex: Vertex) -> Result<(), 
     Ok(())
 }
 
-/// A new vertex before the vertex `model`, or behind it, in its style.
+/// A new vertex before the vertex `model`, or after it, in its style.
 fn insert_vertex(
     pen: &mut Pen,
     model: Option<Range<usize>>,
@@ -190,7 +190,7 @@ fn insert_vertex(
             style.tag(0, b"VERTEX", &mut text);
             for tag in &tags {
                 match tag.code {
-                    // A handle belongs to one entity; the bulge comes behind the point.
+                    // A handle belongs to one entity; the bulge comes after the point.
                     5 | 20 | 42 => {}
                     10 => coordinates(&mut text),
                     code => style.tag(code, lines.content(tag.value_line()), &mut text),
@@ -202,7 +202,7 @@ fn insert_vertex(
         None => {
             coordinates(&mut text);
             bulge(&mut text);
-            // Behind the place of a bulge, where there is none yet: see `set_vertex`.
+            // After the place of a bulge, where there is none yet: see `set_vertex`.
             let of_vertex = tags
                 .iter()
                 .rfind(|tag| of_point(tag) || matches!(tag.code, 42 | 91));
@@ -217,7 +217,7 @@ fn remove_vertex(pen: &mut Pen, range: Range<usize>) {
     if let Some(end) = end_of_record(pen, &range) {
         return pen.remove(range.start..end);
     }
-    // Behind the last vertex there may be tags of the whole entity.
+    // After the last vertex there may be tags of the whole entity.
     let mut spans: Vec<Range<usize>> = Vec::new();
     for tag in
         vertex_tags(pen.lines, range).filter(|tag| matches!(tag.code, 10 | 20 | 40 | 41 | 42 | 91))

@@ -83,7 +83,7 @@ pub(super) fn text(
     Ok(Read { frames, ..read })
 }
 
-/// A POINT marks a start as a text "O" does. Its place is in world coordinates.
+/// A POINT marks a start just as the text "O" does. Its place is in world coordinates.
 pub(super) fn point(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Result<Read, Refused> {
     let mut numbers = Numbers::new([10, 20, 30]);
     let common = numbers.gather(lexer, |_, _| {});

@@ -15,7 +15,7 @@ use super::{curve, insert, plain};
 use crate::drawing::Kind;
 use crate::text::head;
 
-/// Reads the entity whose record begins at `start`; the lexer stands behind its name.
+/// Reads the entity whose record begins at `start`; the lexer stands after its name.
 pub(in crate::dxf) fn read(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Outcome {
     match plain::read(lexer.lines, start.line, layers) {
         Some((read, next)) => {

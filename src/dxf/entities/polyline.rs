@@ -22,7 +22,7 @@ struct Vertices {
     lacks_y: bool,
     /// The first vertex without y. Reported at the end: lines that are out of step may be the cause.
     without_y: Option<usize>,
-    /// The number of vertices before the first one behind which a tag stands that belongs to the whole.
+    /// The number of vertices before the first that is followed by a tag of the whole polyline.
     own: Option<usize>,
 }
 
@@ -62,12 +62,12 @@ impl Vertices {
         }
     }
 
-    /// A tag has come that belongs to the whole.
+    /// A tag of the whole polyline has come.
     fn end_own(&mut self) {
         self.own = self.own.or(self.vertices.len().checked_sub(1));
     }
 
-    /// A fault where a vertex, of which so many stand `before` these, has no y.
+    /// A fault where a vertex has no y; `before` is the number of vertices before these.
     fn lacks_none(&self, before: usize, start: usize, lexer: &mut Lexer) -> Result<(), Refused> {
         let Some(index) = self.without_y else {
             return Ok(());
@@ -122,7 +122,7 @@ pub(super) fn light_polyline(
     if let Some(tag) = count {
         compare_count(lexer, tag, read.vertices.len());
     }
-    // What is stated behind a vertex does not stay where it is when another one comes.
+    // What is stated after a vertex does not stay in its place when another vertex is added.
     let first = read.lines.first().copied().unwrap_or_default();
     let line = count.map_or(0, |tag| (tag.line - start.line) as u32);
     let own = match line < first {
@@ -142,7 +142,7 @@ pub(super) fn light_polyline(
     )
 }
 
-/// A finding where another number of vertices is stated by `tag` than was found.
+/// A finding where `tag` states another number of vertices than was found.
 fn compare_count(lexer: &mut Lexer, tag: Tag, found: usize) {
     if found > 1 && Common::whole(lexer, tag) != i64::try_from(found).ok() {
         let stated = quoted(lexer.lines.trimmed(tag.value_line()));
@@ -161,9 +161,9 @@ pub(in crate::dxf) struct ReadRun {
     pub(in crate::dxf) is_damaged: bool,
 }
 
-/// Reads vertices of the LWPOLYLINE that begins at the line `start`, from the one with the number `from` on, whose x
-/// stands at the line `at`, until `ends_at` holds of the line of the next tag. `None` where a tag of them belongs to the whole, and
-/// where they do not end there.
+/// Reads vertices of the LWPOLYLINE that begins at the line `start`, from the vertex with index
+/// `from` on, whose x stands at the line `at`, until `ends_at` is true of the line of the next tag.
+/// `None` where one of their tags belongs to the whole polyline, or where they do not end there.
 pub(in crate::dxf) fn read_run(
     lines: Lines,
     start: usize,
@@ -192,7 +192,7 @@ pub(in crate::dxf) fn read_run(
     })
 }
 
-/// The finding of a LWPOLYLINE that states another number of vertices, in the tag at this line, than it has.
+/// The finding of a LWPOLYLINE that states, in the tag at this line, another number of vertices than it has.
 pub(in crate::dxf) fn count_finding(lines: Lines, line: usize, found: usize) -> Vec<Finding> {
     let mut lexer = Lexer::new(lines, line);
     compare_count(&mut lexer, Tag { code: 90, line }, found);
@@ -325,7 +325,7 @@ pub(super) fn polyline(
         read.vertices.push(Vertex::new(x, y, bulge));
         read.lines.push((next.line - start.line) as u32);
     }
-    // The text ends within the name of the next record, which has the finding: that may have been a VERTEX.
+    // The text ends within the name of the next record, which has the finding; it may have been a VERTEX.
     let is_cut = !ended
         && lexer.lines.last_is_open()
         && lexer

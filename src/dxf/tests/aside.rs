@@ -143,7 +143,7 @@ fn what_is_drawn_to_be_read_is_not_cut_and_said_once() {
             cut_c,
             vec![format!("{open}40.000 mm apart")],
         ),
-        // A chain, and two ends that face each other, are an outline that has lost something.
+        // A chain, and two ends that face each other, are an outline with something missing.
         (
             line("5 C 8 DIE", "60 20 90 20") + &line("5 D 8 DIE", "90 20 90 40"),
             "",

@@ -23,7 +23,7 @@ fn distance(segments: &[Segment], point: Point) -> f64 {
         .fold(f64::INFINITY, f64::min)
 }
 
-/// A periodic spline has no clamped ends: it runs over the knots from number 3 on, and is closed because its first
+/// A periodic spline has no clamped ends: its curve runs from knot 3 on, and is closed because its first
 /// control points are its last ones. The weights of the cubic B-spline give the points it passes: 1 4 1 at a knot and 1
 /// 23 23 1 between two.
 #[test]

@@ -41,7 +41,7 @@ fn all_of(document: &Document) -> String {
     all
 }
 
-/// Makes one edit and holds the document against a fresh one; says what the edit touched.
+/// Makes one edit and compares the document with a fresh one; returns what the edit touched.
 fn edit(document: &mut Document, range: std::ops::Range<usize>, replacement: &str) -> Vec<Touched> {
     let before = document.drawing().clone();
     let text_before = document.text().as_str_lossy().into_owned();
@@ -133,7 +133,7 @@ proptest! {
         line_end in prop::sample::select(vec!["\n", "\r\n", "\r"]),
         edits in prop::collection::vec(any_edit(), 1..12),
     ) {
-        // The last one is longer than what a decision can reach.
+        // The last one is longer than any decision looks ahead.
         let long = || (0..60).map(|n| format!("0 LINE 5 A{n:02} 8 X 10 {n} 20 2 11 3 21 4 ")).collect::<String>();
         let text = match DRAWINGS.get(drawing) {
             Some(tags) => dxf(tags),
@@ -151,7 +151,7 @@ proptest! {
     }
 }
 
-/// Replaces the first `what` behind the first `after`.
+/// Replaces the first `what` after the first `after`.
 fn replace(document: &mut Document, after: &str, what: &str, by: &str) -> Vec<Touched> {
     let text = document.text().as_str_lossy().into_owned();
     let start = text.find(after).unwrap() + after.len();
@@ -159,7 +159,7 @@ fn replace(document: &mut Document, after: &str, what: &str, by: &str) -> Vec<To
     edit(document, start..start + what.len(), by)
 }
 
-/// A LWPOLYLINE of more vertices than a decision can reach, that states how many they are.
+/// A LWPOLYLINE with more vertices than any decision looks ahead, which states their number.
 fn long_polyline() -> String {
     let vertices = (0..60).map(|n| format!("10 {n}.5 20 {}.25 42 0.{n} ", n % 7));
     format!(

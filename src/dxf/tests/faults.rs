@@ -191,7 +191,7 @@ fn a_line_too_few_or_too_many_is_one_finding_and_costs_its_own_entity() {
     assert!(report.is_empty(), "{report}");
 }
 
-/// A bulge whose radius no number can tell is no line either.
+/// A bulge whose radius no number can express is not a line either.
 #[test]
 fn a_bulge_that_no_arc_has_damages_its_entity() {
     for entity in [

@@ -52,7 +52,7 @@ fn check(
     let document = Document::read(text.clone().into_bytes());
     assert_eq!(look(&document), expected, "{entities}");
     assert_eq!(findings(&document), expected_findings, "{entities}");
-    // A table may stand behind the entities that use it.
+    // A table may stand after the entities that use it.
     let (from, to) = (
         text.find("0\nSECTION\n2\nTABLES").unwrap(),
         text.find("0\nSECTION\n2\nBLOCKS").unwrap(),

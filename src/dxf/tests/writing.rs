@@ -362,7 +362,7 @@ fn a_polyline_in_space_takes_no_bulge() {
 
 #[test]
 fn lines_neither_come_nor_go_where_the_text_is_damaged() {
-    // The reader resumes behind the damage by the lines that the edit would remove.
+    // The reader resumes after the damage by the lines that the edit would remove.
     let damaged = dxf(
         "0 LINE 5 A 10 1 20 2 11 3 2INE 0 LINE 5 B 10 1 20 2 11 3 21 4 0 LINE 5 C 10 1 20 2 11 3 21 4",
     );

@@ -384,7 +384,7 @@ pub(super) fn codes_of(record: &str) -> Vec<Code> {
     let mut found: Vec<Code> = Vec::new();
     for code in own.iter().chain(entity).chain(COMMON).flat_map(codes_in) {
         let is_foreign = match record {
-            // Its handle stands behind 105: its 5 is the name of an arrow head.
+            // Its handle stands after 105: its 5 is the name of an arrow head.
             "DIMSTYLE" => code.0 == 5,
             "CIRCLE" => matches!(code.0, 50 | 51),
             _ => false,

@@ -20,7 +20,7 @@ type Offer = (String, Cow<'static, str>, CompletionKind);
 /// What can stand at a byte, the most likely first.
 pub(crate) fn completions(document: &Document, offset: usize) -> Vec<Completion> {
     let line = document.text().line_of(offset);
-    // Behind the last line end an editor has a line and the reader has none.
+    // After the last line end an editor has a line and the reader has none.
     let spot = spot(document, line).or_else(|| spot(document, line.checked_sub(1)?));
     let Some(spot) = spot else { return Vec::new() };
     let is_own = spot.line == line;
@@ -111,7 +111,7 @@ fn layers(document: &Document) -> BTreeSet<String> {
     let mut found: BTreeSet<String> = of_table.map(|entry| entry.name.to_string()).collect();
     let mut last: Option<&str> = None;
     for (_, entity) in document.drawing().entities() {
-        // Entities of one layer mostly stand together.
+        // Entities of one layer mostly come together.
         if last != Some(&*entity.layer) && found.len() < NAMES {
             found.insert(entity.layer.to_string());
             last = Some(&*entity.layer);

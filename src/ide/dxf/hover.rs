@@ -49,7 +49,7 @@ pub(crate) fn hover(document: &Document, offset: usize, unit: Unit) -> Option<Ho
     {
         text = say!(word_in_bold, name, about());
     } else if record == "SECTION" && tag.code != 2 {
-        // A header variable's value stands behind its name.
+        // A header variable's value stands after its name.
         if let Some((name, about)) = variable_of(&spot) {
             text = say!(word_in_bold, name, about());
         }
@@ -221,7 +221,7 @@ fn variable(name: &[u8]) -> Option<records::Named> {
 /// The header variable whose value the spot is.
 fn variable_of(spot: &Spot<'_>) -> Option<records::Named> {
     let tag = spot.tag?;
-    // A point has three tags behind the name.
+    // A point has three tags after the name.
     let before = (1..=3)
         .filter_map(|back| tag.line.checked_sub(2 * back))
         .find(|&line| spot.lines.trimmed(line) == b"9")?;

@@ -1,4 +1,5 @@
-//! Answers to an editor about DXF text: what a code means, what stands where, what names what.
+//! Answers to an editor about DXF text: what a code means, what is where, which name refers to
+//! what.
 //!
 //! Functions of a document or of its text, without a protocol: places are bytes. A function about one place reads the
 //! text from the beginning of its record; a function about the whole takes only a text, so that it can run beside the

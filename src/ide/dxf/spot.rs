@@ -20,7 +20,7 @@ pub(super) struct Spot<'a> {
     pub(crate) tag: Option<Tag>,
     /// The tag before that.
     pub(crate) before: Option<Tag>,
-    /// First line behind the last whole tag that ends before the line.
+    /// First line after the last whole tag that ends before the line.
     pub(crate) in_step: usize,
 }
 

@@ -118,7 +118,7 @@ fn contours_of(tree: &[Symbol], contours: &[ContourNote]) -> Vec<Symbol> {
     };
     let mut by_handle: HashMap<String, &Symbol> = HashMap::with_capacity(section.children.len());
     for (ordinal, node) in section.children.iter().enumerate() {
-        // Entities without a handle go by their number.
+        // Entities without a handle are named by their number.
         let handle = if node.name.is_empty() {
             format!("#{}", ordinal + 1)
         } else {

@@ -295,7 +295,7 @@ fn completions_are_what_makes_sense_at_the_place() {
         DIE layer of the drawing
         X layer of the drawing"#]],
     );
-    // Nobody means a block that a program generated.
+    // A block that a program generated is never meant.
     check_completions(
         "0|SECTION|2|BLOCKS|0|BLOCK|2|*Model_Space|0|ENDBLK|0|BLOCK|8|0|2|Slot|10|0|20|0|0|ENDBLK|0|BLOCK|2|HOLE|0|ENDBLK|0|ENDSEC|0|SECTION|2|ENTITIES|0|INSERT|2|$0X|10|0|20|0|0|ENDSEC",
         &expect![[r#"

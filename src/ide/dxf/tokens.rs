@@ -68,7 +68,8 @@ fn collect(
     let lines = Lines::new(text);
     let mut lexer = Lexer::new(lines, from);
     let mut is_style = record == b"DIMSTYLE";
-    // Where a line is missing the lexer takes a value for the next code, whose token has been given by then.
+    // Where a line is missing the lexer takes a value for the next code, whose token has already
+    // been handed out by then.
     let mut told = from;
     while let Some(tag) = lexer.next() {
         lexer.findings.clear();

@@ -1,4 +1,4 @@
-//! Behind each block, its end and its radius.
+//! After each block, its end and its radius.
 
 use super::words::{WordKind, words_of};
 use crate::geometry::Segment;
@@ -10,7 +10,8 @@ use std::ops::Range;
 
 /// Hints for the blocks that begin in a range of bytes, in the order of the text.
 ///
-/// An end point that the text states is not repeated, nor that of an ISO block under G90, whose words it is.
+/// An end point that the text states is not repeated, nor that of an ISO block under G90, whose
+/// words state it.
 pub(crate) fn hints(document: &Document, range: Range<usize>) -> Vec<Hint> {
     let text = document.text();
     let end = text

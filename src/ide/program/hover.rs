@@ -19,7 +19,7 @@ pub(crate) fn hover(document: &Document, offset: usize) -> Option<Hover> {
     let part = parts
         .iter()
         .find(|part| part.range.start <= offset && offset < part.range.end);
-    // Behind its last letter the cursor still means the word.
+    // A cursor right after the last letter still means the word.
     let part = part.or_else(|| parts.iter().rev().find(|part| part.range.end == offset))?;
     let steps = document.steps_in(text.line_range(line));
     let step = steps

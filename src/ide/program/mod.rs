@@ -1,7 +1,8 @@
-//! Answers to an editor about a program: the machine's way in words, contours, numbers, layouts.
+//! Answers to an editor about a program: the machine's path in words, contours, numbers, layouts.
 //!
-//! Functions of a document, without a protocol: places are bytes. Answers about the machine's way come from its trace
-//! and are the same for every language; the language itself tells the pieces of a line and their meanings.
+//! Functions of a document, without a protocol: places are bytes. Answers about the machine's path
+//! come from its trace and are the same for every language; the language itself supplies the pieces
+//! of a line and their meanings.
 
 mod folding;
 mod hints;
@@ -48,7 +49,7 @@ trait Language {
     /// The pieces of a line that begins at a byte; damaged lines are cut as far as possible.
     fn words(&self, line: &[u8], offset: usize) -> Vec<Part>;
 
-    /// The word at a byte and its counterpart, unless that depends on the machine's way.
+    /// The word at a byte and its counterpart, unless that depends on the machine's path.
     fn partner(&self, _: usize) -> Option<(Range<usize>, Range<usize>)> {
         None
     }

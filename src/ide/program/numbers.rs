@@ -17,9 +17,9 @@ pub(crate) fn number_at(document: &Document, offset: usize) -> Option<(Range<usi
     Some((digits, text.parse().ok()?))
 }
 
-/// The edits that give the block at a byte another number, `20` or `N20`, and change the calls of it.
+/// The edits that give the block at a byte another number, `20` or `N20`, and change the calls to it.
 ///
-/// Errors: no number there, a name that is no number, or one that another block has.
+/// Errors: no number there, a name that is not a number, or a number that another block has.
 pub(crate) fn renamed(
     document: &Document,
     offset: usize,

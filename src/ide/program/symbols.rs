@@ -45,13 +45,13 @@ pub(crate) fn symbols(document: &Document) -> Vec<Symbol> {
             }
         }
     }
-    // A subprogram runs elsewhere than where it stands.
+    // A subprogram is not run where it stands in the text.
     found.sort_by_key(|symbol| (symbol.range.start, std::cmp::Reverse(symbol.range.end)));
     found
 }
 
-/// For each cut the number of its contour, and which pass of it the cut is. A way in between belongs to what comes
-/// before it.
+/// For each cut the number of its contour, and which pass of it the cut is. A move between contours
+/// belongs to what comes before it.
 fn numbers(trace: &Trace, cuts: &[Cut]) -> Vec<(usize, usize)> {
     let mut numbers = Vec::new();
     let (mut now, mut before) = ((0, 1), None);

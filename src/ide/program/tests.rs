@@ -100,7 +100,7 @@ fn contours_are_found_with_their_ways_in_and_out() {
     check("", &[]);
 }
 
-/// Three passes of a square at 160, 125 and 95 µm, then another square behind a way.
+/// Three passes of a square at 160, 125 and 95 µm, then another square after a way.
 #[test]
 fn symbols_tell_passes_from_contours() {
     let square = |size: i64, at: i64| {

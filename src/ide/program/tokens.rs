@@ -44,7 +44,7 @@ pub(crate) fn tokens_in(document: &Document, lines: Range<usize>) -> Vec<Token> 
     found
 }
 
-/// Calls `take` for each token of the whole text, at most `limit`; each line stands for itself.
+/// Calls `take` for each token of the whole text, at most `limit`; each line is read by itself.
 pub(crate) fn tokens(
     document: &Document,
     limit: usize,
@@ -53,7 +53,7 @@ pub(crate) fn tokens(
 ) -> Result<(), Stopped> {
     let firsts: Vec<usize> = (0..document.text().line_count()).step_by(CHUNK).collect();
     let (mut left, mut take) = (limit, take);
-    // As many at once as may be needed.
+    // As many chunks at once as may be needed.
     for some in firsts.chunks(16) {
         let tokens = |&first: &usize| tokens_in(document, first..first + CHUNK);
         let chunks: Vec<Vec<Token>> = match some {

@@ -32,7 +32,7 @@ pub(crate) struct Part {
     pub(crate) range: Range<usize>,
 }
 
-/// The pieces of a line, one behind the other; damaged lines are cut as far as possible.
+/// The pieces of a line, one after the other; damaged lines are cut as far as possible.
 pub(crate) fn words_of(document: &Document, line: usize) -> Vec<Part> {
     let text = document.text();
     let range = text.line_range(line);

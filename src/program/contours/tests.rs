@@ -15,7 +15,7 @@ fn opening() -> impl Strategy<Value = Opening> {
     (0_u8..12, 1_usize..4, 8_i32..14)
 }
 
-/// Its way, from the origin on: passes to and fro up to the tab, a stop, and what is behind it.
+/// Its path from the origin on: passes to and fro up to the tab, a stop, and the cuts after it.
 fn way(&(kind, passes, size): &Opening) -> Vec<Step> {
     let pass = [[2, 0], [size, 0], [size, size], [2, size], [2, 3]];
     let mut way: Vec<Step> = pass.iter().copied().map(Some).collect();
@@ -189,7 +189,7 @@ fn an_edit_among_many_stops_looks_at_few_cuts() {
             let all = document.cuts_looked_at();
             assert!(all >= 400, "{language:?}: {all}");
             for (at, line) in text.match_indices('\n').skip(5).step_by(97) {
-                // Where the place is lost, it is for all steps behind.
+                // Where the position is lost, it is lost for all later steps.
                 for word in ["1", "\n", "x"]
                     .into_iter()
                     .take(3 - usize::from(is_relative))

@@ -39,7 +39,7 @@ pub(super) fn passes(cuts: &[CutPath]) -> Option<(Vec<Ring>, usize)> {
         let all = 0..runs.len();
         let with_tabs = all.filter_map(|run| with_tab(&runs, run, begin, near));
         let mut rings: Vec<Ring> = with_tabs.collect();
-        // An overlap past the start comes again in the next pass, and encloses nothing.
+        // An overlap past the start is repeated in the next pass, and encloses nothing.
         let largest = rings.iter().map(Ring::bounds);
         let largest = largest.max_by(|one, other| one.width().total_cmp(&other.width()))?;
         rings.retain(|ring| lie_beside(&largest, &ring.bounds()));
@@ -49,8 +49,9 @@ pub(super) fn passes(cuts: &[CutPath]) -> Option<(Vec<Ring>, usize)> {
     rings.or_else(|| first_passes(cuts))
 }
 
-/// The first of some cuts that lie beside each other, each with a way to it. Where the wire is taken to the next
-/// contour by hand, and no coordinates say so, that begins in the same place.
+/// The first of some cuts that lie beside each other, each with a way to it. If the wire is taken
+/// to the next contour by hand and no coordinates say so, that contour seems to begin in the same
+/// place.
 fn first_passes(cuts: &[CutPath]) -> Option<(Vec<Ring>, usize)> {
     let led = cuts.iter().take_while(|cut| cut.lead_in > 0);
     let mut rings: Vec<Ring> = Vec::new();

@@ -39,7 +39,7 @@ impl ChunkReader for Control {
         (pathless, after)
     }
 
-    /// How the moves lie relative to themselves does not depend on anything else.
+    /// How the moves of a part lie relative to each other depends on nothing else.
     fn finish(&self, _: &SourceText, pathless: Pathless, old: &[Stretch]) -> Stretch {
         pathless.with_paths(old)
     }

@@ -135,10 +135,10 @@ impl Document {
         cut.sum.whole && !self.goes_round(cut)
     }
 
-    /// What an edit has touched of the cuts.
+    /// Which cuts an edit has touched.
     pub(super) fn touched(&self, reread: &Reread) -> (Reread, [PartAt; 2]) {
         let Range { start, end } = reread.chunks;
-        // What was only moved lies as it did.
+        // Stretches that were only moved lie as they did.
         let last = (start..end)
             .rev()
             .find(|index| self.stretches()[*index].is_fresh);
@@ -147,7 +147,7 @@ impl Document {
             chunks: start..behind,
             before: reread.before - (end - behind),
         };
-        // The stops behind the last cut before may stand in what was read.
+        // The stops after the last cut before the edit may lie in the lines that were read again.
         let mut from = (start, 0);
         let before = self.stretches()[..start].iter().enumerate().rev();
         for (index, of) in before.filter(|(_, of)| of.part_count() > 0) {

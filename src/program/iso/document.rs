@@ -38,11 +38,12 @@ pub struct Document {
     order: Option<Order>,
     /// The stops within contours, before their tabs, and the contours that cross themselves.
     contours: Contours<JoinedCut>,
-    /// The contours of which there is something to say, and those with which such a one may belong together.
+    /// The contours with possible findings, and those that may belong together with one of them.
     doubtful: Vec<JoinedCut>,
-    /// What is said of those that depends on them alone, and of the contours that cross themselves.
+    /// The findings about those that depend on them alone, and those about contours that cross
+    /// themselves.
     told: Vec<OfCut>,
-    /// The cuts of which that was last asked.
+    /// The number of cuts that were judged last.
     #[cfg(test)]
     pub(in crate::program) judged: usize,
     /// The results of the search for crossings.
@@ -333,7 +334,7 @@ impl Document {
         self.look(reread.filter(|_| !is_run_again));
     }
 
-    /// Checks what depends on the program as a whole; what an edit has not `reread` stays.
+    /// Checks what depends on the program as a whole; what an edit has not `reread` is kept.
     fn look(&mut self, mut reread: Option<Reread>) {
         // The findings of a cut depend on its own lines, on the settings and on the control's table.
         let table = self.stated_table();
@@ -389,8 +390,8 @@ impl Document {
             is_run_again = true;
         }
         debug_assert_eq!(self.evidence, self.summed(&self.stretches));
-        // What an arc shows depends on the unit and the step, and these on neither: the evidence behind two runs leads to no
-        // other reading.
+        // The evidence of an arc depends on the unit and the step, but not the other way round:
+        // after two runs the evidence leads to no other reading.
         for _ in 0..2 {
             let reading = self.evidence.reading(self.limits.center);
             if reading == self.reading {

@@ -100,7 +100,7 @@ impl Arcs {
 
     /// The rule with the fewest misfits, then the fewest arcs far from their centre, then the fewest wide turns; on a
     /// tie `preferred`, then the first. Between the centre's own coordinates and the way from the centre to the start
-    /// turns tell nothing: the latter is rare.
+    /// turns decide nothing: the latter is rare.
     fn rule(&self, preferred: CenterRule, rules: &[CenterRule]) -> CenterRule {
         let against = |rule: CenterRule| {
             let rule = rule as usize;

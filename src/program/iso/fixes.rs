@@ -192,7 +192,7 @@ fn whole_line(document: &Document, line: usize) -> TextEdit {
     TextEdit::new(document.text().whole_line(line), "")
 }
 
-/// A way out and back goes, where it returns to its start.
+/// A spur is removed where it returns to its start.
 fn spur_fix(document: &Document, back: usize) -> Option<TextFix> {
     let moves = |line: usize| {
         let block = document.block(line);

@@ -21,8 +21,8 @@ impl Document {
         self.order()?.labels.get(&number).copied()
     }
 
-    /// The subprograms that a call may name, with their lines: those that are called, and in a program without calls
-    /// those behind its end, which nobody runs yet.
+    /// The subprograms that a call may name, with their lines: those that are called, and in a
+    /// program without calls those after its end, which are not run yet.
     pub(crate) fn subprograms(&self) -> BTreeMap<u32, usize> {
         if let Some(order) = self.order() {
             let called = order.called.iter();
@@ -54,7 +54,7 @@ impl Document {
         Document::last_numbers(line, |line| self.block(line).number)
     }
 
-    /// The same where the number of each line is told.
+    /// The same, with the numbers of the lines supplied.
     pub(super) fn last_numbers(
         line: usize,
         number_of: impl Fn(usize) -> Option<u32>,

@@ -54,7 +54,7 @@ pub(crate) enum Behind {
 pub(crate) struct Trail {
     /// The last cut and the one before, relative to their end.
     pub(crate) last: [Option<Move>; 2],
-    /// Tells whether a line repeats the last one with a move.
+    /// A mark by which a line that repeats the last move is recognised.
     pub(crate) said: u64,
 }
 
@@ -66,7 +66,7 @@ impl Trail {
     }
 }
 
-/// The same anywhere: under G91 no centre is absolute.
+/// The move so that it is the same anywhere: under G91 no centre is absolute.
 fn loose(mut made: Move) -> Move {
     if let (true, Bend::Center { absolute, .. }) = (made.incremental, &mut made.bend) {
         *absolute = [0, 0];
@@ -137,7 +137,7 @@ impl Machine {
             .map(|steered| steered.made(reading))
     }
 
-    /// The same; the move as its words say it, and where it begins.
+    /// The same; returns the move as its words say it, and where it begins.
     pub(crate) fn steer(&mut self, block: &Block, reading: &Reading) -> Option<Steered> {
         if let Some(inch) = block.inch {
             self.inch = inch;

@@ -108,11 +108,11 @@ pub(crate) fn write_milled(
     })
 }
 
-/// The way along a contour.
+/// The path along a contour.
 struct Way {
     /// Each piece in steps of the grid, and the distance of its start along the way, mm.
     pieces: Vec<(f64, Segment, Source)>,
-    /// mm, as many as pieces and one.
+    /// The distance at each end of a piece, mm: one more than there are pieces.
     ends: Vec<f64>,
 }
 

@@ -28,7 +28,8 @@ pub(super) fn numbered(document: &Document, step: u32) -> Result<Vec<TextEdit>, 
     // From old to new numbers, by the line that a call of them leads to.
     let labels = labels(text);
     let mut renamed: FxHashMap<u32, u32> = FxHashMap::default();
-    // A block with the number of a called program, or of one that stands elsewhere, would be called in its place.
+    // A block with the number of a called program, or of a block elsewhere that is called, would be
+    // called instead.
     let taken: Vec<u32> = called(text)
         .into_iter()
         .filter(|called| {

@@ -10,7 +10,7 @@ use std::ops::Range;
 /// Subprograms within each other; more than controls take.
 const DEEPEST: usize = 16;
 
-/// A program runs at most this many lines, and twice those it has.
+/// A program runs at most this many lines plus twice those it has.
 const MOST_LINES: usize = 100_000;
 
 /// A program calls subprograms at most this often.
@@ -83,7 +83,7 @@ struct Walk<'a> {
 }
 
 impl Walk<'_> {
-    /// Runs from a line to the end or to the return; false where nothing is to run behind it.
+    /// Runs from a line to the end or to the return; false where nothing is to run after it.
     fn run(&mut self, first: usize, depth: usize, number: Option<u32>) -> bool {
         let mut begun = first;
         let mut line = first;
@@ -150,7 +150,7 @@ impl Walk<'_> {
         }
     }
 
-    /// Lines that run one after another, in stretches: where they lie on themselves is searched stretch by stretch.
+    /// Lines that run one after another, in stretches: crossings are searched for stretch by stretch.
     fn push(&mut self, lines: Range<usize>) {
         let stretches = lines
             .clone()

@@ -170,7 +170,8 @@ impl Ways {
         self.0.push(step);
     }
 
-    /// How the part lies relative to itself, where it is known how those before it lie, and some that are gone.
+    /// How the part lies relative to itself; the lays of those before it, and of some that are
+    /// gone, may be reused.
     pub(crate) fn lay<'a>(
         self,
         reading: &Reading,

@@ -132,7 +132,7 @@ impl Stretch {
             Note::Length { pointed, range } => {
                 let [bare, with_point] = &mut *lengths;
                 let kept = if pointed { with_point } else { bare };
-                // Those of one stretch may be all that are told.
+                // The numbers of a single stretch may be all that are reported.
                 if kept.len() < FEW_BARE as usize {
                     kept.push(pair(range));
                 }
@@ -172,7 +172,8 @@ impl Stretch {
         let torn = self.after.torn;
         let behind = self.after.behind;
         let steered = self.after.steer(&block, &self.reading);
-        // A line that says where to go does so too where nothing is cut, since the place before it is unknown.
+        // A line that says where to go fixes the position even where it makes no move because the
+        // position before it is unknown.
         self.fixed |= !self.after.incremental && block.has_coordinates();
         let is_free = self.faults.len() == known_faults;
         if is_free && self.has_stray_center(&block) {
@@ -181,7 +182,8 @@ impl Stretch {
         }
         match steered {
             Some(steered) => {
-                // As it is said: whether there is a corner before it depends on the meaning of I and J.
+                // The move as its words say it: whether there is a corner before it depends on the
+                // meaning of I and J.
                 let said = steered.said;
                 if said.is_arc() && self.evidence.arc(&said, self.reading.tolerance) {
                     self.first_center.get_or_insert(range);
@@ -407,7 +409,7 @@ impl Stretch {
         0.0
     }
 
-    /// Whether the way turns back on itself at the beginning of a move.
+    /// Reports an odd joint, a spur or a reversed arc, at the beginning of a move.
     fn examine<'a>(&mut self, made: &Move, range: (u32, u32), ahead: &Ahead<'_, impl Lines<'a>>) {
         let reading = self.reading;
         let shape = |made: Move| Shape {

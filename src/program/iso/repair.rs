@@ -57,7 +57,7 @@ impl Document {
             .get_or_init(|| Arc::new(repairs(self, &troubles(self, &self.plain_findings(), &[]))))
     }
 
-    /// The same where the first bytes of the faults that a slip may explain are at hand.
+    /// The same, with the first bytes of the faults that a slip may explain given.
     pub(super) fn repairs_of(&self, troubles: &[usize]) -> &Repairs {
         self.repairs
             .get_or_init(|| Arc::new(repairs(self, troubles)))
@@ -92,7 +92,7 @@ fn repairs(document: &Document, troubles: &[usize]) -> Repairs {
             .map(|line| troubles.partition_point(|trouble| text.line_of(*trouble) < line));
         let own = troubles[first..behind].iter();
         let own: Vec<usize> = own.map(|trouble| text.line_of(*trouble)).collect();
-        // One slip does not cause so much.
+        // A single slip does not cause so many faults.
         let is_long = |line: usize| document.line_bytes(line).len() > LONGEST_LINE;
         if own.len() > MOST_TROUBLES || lines.clone().any(is_long) {
             found.push((lines, Vec::new()));
@@ -165,7 +165,7 @@ struct Suspect<'a> {
     pool: Pool,
     total: Against,
     order: Vec<usize>,
-    /// The block numbers of its lines and of those before it, where somebody has asked.
+    /// The block numbers of its lines and of those before it, once they were needed.
     numbers: Vec<OnceCell<Option<u32>>>,
     /// The cut before it has missed the place where this one should begin.
     begins_astray: bool,

@@ -34,7 +34,7 @@ const LEAST_TWICE_AREA: u128 = 2_000_000;
 /// A cut of fewer moves has no ways in and out of two blocks each.
 const LONGEST_LEADS: u32 = 6;
 
-/// Of further spurs it is not asked whether they are ways out and in again.
+/// Beyond this many spurs it is not checked whether they are ways out and in again.
 const MOST_SPURS: usize = 32;
 
 impl Document {
@@ -58,7 +58,7 @@ impl Document {
         report.finish()
     }
 
-    /// What there is to say beside what is told already.
+    /// The findings beside those that are kept.
     fn report(&self) -> Report<'_> {
         let mut report = Report::new(self);
         let mut last_words = None;
@@ -124,7 +124,8 @@ impl Document {
         report
     }
 
-    /// Of some stretches those whose cuts are sound: those that begin and end there have no fault as a whole.
+    /// Those of some stretches whose own cuts are sound: cuts that begin and end there have no
+    /// fault as a whole.
     pub(super) fn clean(&self, stretches: Range<usize>) -> Vec<usize> {
         let mut report = Report::new(self);
         let crossing = self.contours().crossing().iter();
@@ -141,7 +142,7 @@ impl Document {
         stretches.filter(|index| is_clean(index)).collect()
     }
 
-    /// Tells the cuts of which there is something to say, and those with which such a one may belong together.
+    /// A test for cuts with possible findings, and for those that may belong together with one of them.
     pub(super) fn doubts(&self) -> impl FnMut(&JoinedCut) -> bool + '_ {
         let mut report = Report::new(self);
         move |cut| {
@@ -301,12 +302,12 @@ impl<'a> Report<'a> {
         // Passes to and fro close by themselves, and may belong to the next or to the one before.
         let only = self.document.only_lay(cut);
         let may_be_tab = only.is_some_and(|lay| lay.closes && !lay.goes_round);
-        // So may what ends open.
+        // So may cuts that end open.
         let is_open = cut.sum.whole && !self.document.is_closed(cut);
         may_be_tab || is_open || self.may_lack_its_tab(&cut.sum)
     }
 
-    /// Whether there is something to say of a cut by itself.
+    /// Whether a cut by itself has a finding.
     fn says(&mut self, cut: &JoinedCut) -> bool {
         let known = self.findings.len();
         self.judge(cut, &[]);

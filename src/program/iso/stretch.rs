@@ -28,7 +28,7 @@ impl Pathless {
     }
 
     /// How each part lies relative to itself: this takes time, and depends only on the moves and on how numbers are
-    /// read. `old` stretches may know it of some.
+    /// read. `old` stretches may know it for some parts.
     pub(crate) fn with_paths(self, old: &[Stretch]) -> Stretch {
         let Pathless { mut stretch, ways } = self;
         stretch.parts.shrink_to_fit();
@@ -89,7 +89,7 @@ pub(crate) struct Stretch {
     pub(crate) bounds: Option<Bounds>,
     /// The parts that begin and end here are known to be sound as a whole.
     pub(crate) is_clean: bool,
-    /// Those of them that are not held any more: it has been enough to know that they are sound.
+    /// Those of them that are no longer held: knowing that they are sound is enough.
     pub(crate) gone: Range<usize>,
     /// Nothing is known yet about the cuts that run through it.
     pub(crate) is_fresh: bool,
@@ -99,8 +99,8 @@ pub(crate) struct Stretch {
     pub(crate) lengths: [Vec<(u32, u32)>; 2],
     /// How many lines behind its own decide how its last ones run.
     pub(crate) ahead: u32,
-    /// Before their first rapid or stop it matters whether the wire's place was lost since the last one: not only to
-    /// the part that goes on there.
+    /// Whether the wire's position was lost since the last rapid or stop matters before the first
+    /// one here, and not only to the part that goes on from before.
     pub(crate) heeds_loss: bool,
     /// There is a rapid or a stop.
     pub(crate) leaves_cut: bool,
@@ -162,8 +162,8 @@ impl Stretch {
         self.moved = added(self.moved, by);
     }
 
-    /// Takes it that the wire's place was lost since the last rapid or stop before, or was not; false where that is more
-    /// than whether the part that goes on there could be read.
+    /// Sets whether the wire's position was lost since the last rapid or stop before; false where
+    /// that changes more than whether the continued part could be read.
     pub(crate) fn tear(&mut self, torn: bool) -> bool {
         if torn != self.before.torn {
             if self.heeds_loss {
@@ -229,7 +229,7 @@ impl Stretch {
         first..(self.part_count() - open).max(first)
     }
 
-    /// Takes the parts that begin and end here for sound, and lets go of them.
+    /// Marks the parts that begin and end here as sound, and drops them.
     pub(crate) fn let_go(&mut self) {
         self.is_clean = true;
         if !self.gone.is_empty() {

@@ -434,7 +434,7 @@ fn beside(
     pieces
 }
 
-/// An arc without an upper one: it narrows to nothing on the way up.
+/// True for an arc that narrows to nothing on the way up.
 fn collapses(arc: &Arc, by: f64) -> bool {
     arc.radius <= by * arc.sweep.signum()
 }

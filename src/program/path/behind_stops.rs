@@ -12,7 +12,7 @@ const STOPS_WITHIN: usize = 16;
 /// Those of them behind which a tab is searched for.
 const TABS_WITHIN: usize = 4;
 
-/// Consecutive cuts with a stop between each two, from an open one on, as a language provides them.
+/// Consecutive cuts with a stop between them, from an open one on, as a language provides them.
 pub(crate) trait BehindStops {
     /// Takes the cut behind the next stop; `None` where none continues there.
     fn take_next(&mut self) -> Option<()>;
@@ -23,15 +23,15 @@ pub(crate) trait BehindStops {
     /// Some of them as one way.
     fn way(&self, cuts: Range<usize>) -> impl Way;
 
-    /// Of the last of them: equal ways, with the same stops, have equal marks.
+    /// The mark of the last of them: equal ways with the same stops have equal marks.
     fn last_mark(&self) -> u64;
 
     /// The last one is a contour of its own or the way to one: no cut behind it is a tab of those before.
     fn last_stands_alone(&self) -> bool;
 }
 
-/// Whether cuts up to a stop and the one behind it are a contour and its tab, by the marks of them all: what an edit
-/// leaves alone is not asked again.
+/// Whether cuts up to a stop and the one behind it are a contour and its tab, by the marks of them
+/// all: what an edit leaves alone is not worked out again.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct KnownTabs {
     found: FxHashMap<u64, Option<bool>>,
@@ -56,8 +56,8 @@ impl KnownTabs {
     }
 }
 
-/// Takes the continuation of the open cut; true where the last of it is a tab, else they return to the start together,
-/// in whatever order they are cut. `None` where there is none.
+/// Takes the continuation of the open cut; true where the last cut is a tab; false where the cuts
+/// together return to the start, in whatever order they are cut. `None` where there is none.
 pub(crate) fn goes_on(cuts: &mut impl BehindStops, known: &mut KnownTabs) -> Option<bool> {
     let mut may_be_tab = true;
     let mut mark = cuts.last_mark();

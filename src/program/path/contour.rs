@@ -18,7 +18,7 @@ const LONGEST_WAY_OUT: usize = 12;
 /// Within this many blocks behind a stop one must meet the open contour.
 const BEHIND_A_STOP: usize = 16;
 
-/// The ends of a way, which show for nearly all ways that they close.
+/// The ends of a way: for nearly all ways they alone show that it closes.
 pub(crate) struct Ends {
     /// Its start, and the ends of its first two blocks.
     pub(crate) begin: [Node; 3],
@@ -136,14 +136,15 @@ pub(crate) fn closing(way: &dyn Way) -> Option<Closing> {
     Some(meeting(way, tolerance)?.unwrap_or_default())
 }
 
-/// Blocks in and out of a way whose leads part on their way between the thread hole and the contour, behind the first
-/// `shared` blocks and before as many at the end: arcs that begin and end on the contour in its direction, a cut that
-/// goes on past the place where the contour closes, leads that are short beside it.
+/// Blocks in and out of a way whose leads part on their way between the thread hole and the
+/// contour, after the first `shared` blocks and before as many at the end: arcs that begin and end
+/// on the contour in its direction, a cut that goes on past the place where the contour closes,
+/// leads that are short beside it.
 fn forked(way: &dyn Way, shared: usize, tolerance: f64) -> Option<Option<[usize; 2]>> {
     let longest = 2 * LONGEST_FORK + LONGEST_OVERLAP;
     let count = way.count();
     let longest_here = longest.min(count.saturating_sub(2 * shared));
-    // What is asked of many pairs is found once: to find a node may take a walk to it.
+    // Nodes that many pairs need are found once: finding a node may take a walk to it.
     let begins = (0..longest_here).map(|own| way.node(shared + own));
     let ends = (0..longest_here).map(|own| way.node(count - shared - own));
     let (begins, ends): (Vec<_>, Vec<_>) = (begins.collect(), ends.collect());
@@ -172,7 +173,7 @@ const LONGEST_FORK: usize = 3;
 /// The most blocks of an overlap past the closing point.
 const LONGEST_OVERLAP: usize = 9;
 
-/// Two directions are one within this angle, rad, beside what the rounding of short blocks turns them by.
+/// Two directions are one within this angle, rad, apart from the turn that rounding gives short blocks.
 const TANGENT: f64 = 0.1;
 
 /// A contour this many times as long as what leads to it and away from it is the contour, however these lie.
@@ -247,7 +248,8 @@ fn are_leads(
     Some(length(lead_in..closes, enough)? > enough)
 }
 
-/// A way whose tab meets the part cut before its stop elsewhere than at the stop.
+/// The closing of a way whose tab meets the part that was cut before the stop elsewhere than at the
+/// stop.
 fn meeting(way: &dyn Way, tolerance: f64) -> Option<Option<Closing>> {
     let Some(before) = way
         .stop()

@@ -81,8 +81,8 @@ pub(super) fn most_looks(pieces: usize) -> usize {
     500_000 + 32 * pieces
 }
 
-/// Pairs of pieces that come near each other, without neighbours, in the order of the later one: as many as `most` and
-/// those of one more piece; and whether there are no more.
+/// Pairs of pieces that come near each other, without neighbours, in the order of the later one: up
+/// to `most`, completed by those of one more piece; and whether these are all.
 pub(super) fn near_each_other(
     pieces: impl Iterator<Item = Segment>,
     most: usize,
@@ -134,7 +134,8 @@ impl Tangle<'_> {
         self.steps.get() > MOST_STEPS
     }
 
-    /// The crossings of the way, and whether all of it was looked at: no more of it than is needed.
+    /// The crossings of the way, and whether all of it was looked at. No more of it is read than is
+    /// needed.
     pub(crate) fn all_crossings(&self) -> (Vec<Crossing>, bool) {
         let pieces = (0..self.count).map_while(|index| (self.piece)(index));
         let (near, is_all) = near_each_other(pieces, MOST_PAIRS);

@@ -19,7 +19,8 @@ const FRAGMENT: usize = 2;
 const LARGE: f64 = 2e6;
 
 /// A document that knows its cuts by their parts. A part lies within one stretch of lines, which an edit elsewhere
-/// leaves alone. The ends of a cut answer for nearly every cut, else the lay of a single part, else all its blocks.
+/// leaves alone. For nearly every cut its ends give the answer, else the lay of a single part, else
+/// all its blocks.
 pub(crate) trait HasCuts {
     type Cut;
 
@@ -41,7 +42,7 @@ pub(crate) trait HasCuts {
 
     fn part_count(&self, cut: &Self::Cut) -> usize;
 
-    /// It has a fault, so the way behind is not the intended one; or it cuts nothing.
+    /// It has a fault, so the way after it is not the intended one; or it cuts nothing.
     fn is_doubtful(&self, cut: &Self::Cut) -> bool;
 
     fn is_closed(&self, cut: &Self::Cut) -> bool {
@@ -66,7 +67,7 @@ pub(crate) trait HasCuts {
         })
     }
 
-    /// So short that it may well be meant to be open.
+    /// True for a cut so short that it may well be meant to be open.
     fn is_fragment(&self, cut: &Self::Cut) -> bool {
         self.ends(cut).blocks <= FRAGMENT
     }

@@ -1,4 +1,4 @@
-//! How consecutive blocks lie relative to themselves: an edit elsewhere does not change it.
+//! How consecutive blocks lie relative to each other, which an edit elsewhere does not change.
 
 use super::contour::{closing, goes_round};
 use super::crossing::near_each_other;
@@ -6,11 +6,11 @@ use super::passes::crosses_itself;
 use super::way::HeldWay;
 use crate::geometry::{Bounds, Segment};
 
-/// More pairs of a part that come near each other are sought when they are asked for: then a few such parts show all
-/// that counts.
+/// Further pairs in a part that come near each other are searched for only when they are needed:
+/// then a few such parts show all that counts.
 const KEPT: usize = 64;
 
-/// Holes of one shape follow each other: up to this many parts back, one is looked for that lies as the next.
+/// Holes of one shape follow each other: up to this many parts back, one with the same lay is looked for.
 const LOOKED_BACK: usize = 8;
 
 /// The properties of a part of a cut by itself.

@@ -176,8 +176,9 @@ struct Begun {
     bounds: Bounds,
 }
 
-/// Of the ways round that begin with one of the next pieces, the end of the one that first returns to its start, and its
-/// box, which is that of the first pass: the way in and out may return to their own start, behind all passes.
+/// Among the rounds that begin with one of the next pieces, the end of the one that returns to its
+/// start first, and its box, which is that of the first pass: the way in and out may return to
+/// their own start, behind all passes.
 fn round_from(
     way: &dyn Way,
     from: usize,

@@ -5,7 +5,8 @@
 //! B5000B0B10000GYNR1    →    B0B5000B10000GXNR2       G03 X0. Y5. I-5. J0.  →    G03 X-5. Y0. I0. J-5.     (a quarter turn)
 //! ```
 //!
-//! Every number stays as it is written; axes, quadrants, letters, signs change. So the path changes exactly.
+//! Every number stays as it is written; only axes, quadrants, letters and signs change. So the
+//! transformation is exact.
 
 use super::{Edits, Notation, Refactoring, Rewrite, Sheet, Transform};
 

@@ -1,4 +1,5 @@
-//! Refactorings of programs: the same part, written otherwise; or exactly mirrored, turned, scaled.
+//! Refactorings of programs: the same part written in another way, or exactly mirrored, rotated or
+//! scaled.
 //!
 //! One file a refactoring, the same for every language. Each says what replaces which move; the language, a
 //! [`Notation`], writes it; [`proof`] reads the new program and compares each of its moves with the intended one. A
@@ -31,7 +32,7 @@ pub struct Proposal {
     pub edits: Edits,
 }
 
-/// The edits, sorted and disjoint, or why it cannot be done: lower-case, no final dot.
+/// The edits, sorted and disjoint, or why it cannot be done: in lower case without a full stop.
 pub(in crate::program) type Edits = Result<Vec<TextEdit>, String>;
 
 /// One refactoring of a language.

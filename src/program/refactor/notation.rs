@@ -21,7 +21,7 @@ pub(in crate::program) enum Change {
     Scale,
 }
 
-/// A language whose programs can be rewritten. Errors are lower-case and have no final dot.
+/// A language whose programs can be rewritten. Errors are in lower case without a full stop.
 pub(in crate::program) trait Notation: Sized {
     type Document: Program;
     /// Everything known of a move except where it leads.
@@ -166,7 +166,8 @@ pub(in crate::program) struct Sheet<'a, N: Notation> {
 
 pub(in crate::program) struct Content<N: Notation> {
     pub(crate) rows: Vec<Row<N>>,
-    /// Their steps are rows, and their contours counted as a person does, without the ways between.
+    /// The contours of the program. Their steps are rows, and they are counted as a person does,
+    /// without the moves between.
     pub(crate) contours: Vec<Cut>,
     /// The rows before which the program pauses.
     pauses: Vec<usize>,

@@ -74,8 +74,8 @@ fn prove<N: Notation>(
     refuse_new_errors::<N>(sheet.document, after)
 }
 
-/// An error where a contour becomes longer or shorter than it should. The lengths are those of the moves as they are
-/// read, whatever places the refactoring has worked out for them.
+/// An error where a contour becomes longer or shorter than it should. The lengths are those of the
+/// moves as they are read, independent of the places that the refactoring has calculated.
 fn prove_lengths<N: Notation>(
     content: &Content<N>,
     rewrite: &Rewrite<N>,
@@ -118,7 +118,7 @@ fn refuse_new_errors<N: Notation>(before: &N::Document, after: &N::Document) -> 
     }
 }
 
-/// The edits, once the machine goes the same way behind them.
+/// The edits, if the machine takes the same path after them.
 pub(super) fn same_way<N: Notation>(sheet: &Sheet<'_, N>, edits: Vec<TextEdit>) -> Edits {
     let way = |trace: &Trace| {
         let steps = trace.steps.iter();

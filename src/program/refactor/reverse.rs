@@ -45,7 +45,8 @@ fn reversed<N: Notation>(sheet: &Sheet<'_, N>) -> Edits {
     rewrite.edits(sheet, content)
 }
 
-/// The rows of a contour with its leads, where these part and come back to one place; else without them.
+/// The rows of a contour, with its leads where these differ but come back to one place, else
+/// without them.
 fn with_leads<N: Notation>(content: &Content<N>, contour: &Cut, own: Range<usize>) -> Range<usize> {
     let (rows, all) = (&content.rows, contour.steps.clone());
     let [leads_in, leads_out] = [&rows[all.start..own.start], &rows[own.end..all.end]];

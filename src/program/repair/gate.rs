@@ -1,8 +1,9 @@
 //! The gate for repairs of a program: one test for every language.
 //!
-//! A repair is made unasked, or preferred, only where the program is no worse for it: no new finding, no full turn out
-//! of nothing, and a closed contour. A repair that only changes the writing and not the machine's way cannot spoil
-//! anything. Where a contour stays open, the fault itself must tell what was meant, and the gap may not grow.
+//! A repair is made by "fix all", or preferred, only where the program is no worse for it: no new
+//! finding, no full turn out of nothing, and a closed contour. A repair that only changes the
+//! writing and not the machine's way cannot spoil anything. Where a contour stays open, the fault
+//! itself must tell what was meant, and the gap may not grow.
 
 use super::keys::is_slip;
 use crate::finding::{Detail, Fault, Finding, FixKind, Rule, Severity, TextFix};
@@ -191,8 +192,8 @@ fn is_by_a_slip(program: &impl Tried, edits: &[TextEdit]) -> bool {
     matches!(edits, [edit] if is_slip(found(edit).unwrap_or_default(), edit.text.as_bytes()))
 }
 
-/// The repairs of a finding that remove it: those that pass the gate first; the others are neither preferred nor made
-/// unasked.
+/// The repairs of a finding that remove it: those that pass the gate first; the others are neither
+/// preferred nor made by "fix all".
 pub(in crate::program) fn gated(
     program: &impl Tried,
     finding: &Finding,

@@ -1,4 +1,4 @@
-//! Numbers that differ by one wrong key.
+//! Numbers that differ by one wrong keystroke.
 
 /// The mistake in a number that is undone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,8 +18,8 @@ pub(in crate::program) enum Key {
     Point,
 }
 
-/// The numbers that may have been meant, by one key. `pointed` says whether numbers have a point, if known. Nobody
-/// writes an additional leading zero.
+/// The numbers that may have been meant, each one keystroke away. `pointed` says whether numbers
+/// have a point, if known. Nobody writes an additional leading zero.
 pub(in crate::program) fn meant(text: &str, pointed: Option<bool>) -> Vec<(String, Key)> {
     let bytes = text.as_bytes();
     let digits: Vec<usize> = (0..bytes.len())
@@ -39,7 +39,7 @@ pub(in crate::program) fn meant(text: &str, pointed: Option<bool>) -> Vec<(Strin
             if digit != own {
                 put(at, at + 1, digit, Key::Digit);
             }
-            // Behind an equal digit it is the same.
+            // After an equal digit the result is the same.
             if !(is_behind && last == Some(digit)) {
                 put(at, at, digit, Key::Lost);
             }
@@ -94,7 +94,7 @@ fn zeros(text: &str) -> usize {
     (digits.len() - rest.len()).saturating_sub(usize::from(is_needed))
 }
 
-/// True where one key added, removed, replaced or swapped makes one text of the other.
+/// True where adding, removing, replacing or swapping one character turns one text into the other.
 pub(in crate::program) fn is_slip(found: &[u8], meant: &[u8]) -> bool {
     let head = found.iter().zip(meant).take_while(|(a, b)| a == b).count();
     let (a, b) = (&found[head..], &meant[head..]);

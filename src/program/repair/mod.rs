@@ -9,8 +9,8 @@ pub(super) mod search;
 use crate::finding::{FixKind, TextFix};
 use crate::text::TextEdit;
 
-/// Turns repairs found by trying into offers: the best one first, which is preferred, and made by "fix all" where it is
-/// sure. Those that cannot be written are left out.
+/// Turns repairs found by trying into offers: the best one first, which is preferred, and also made
+/// by "fix all" where it is sure. Those that cannot be written are left out.
 pub(super) fn offered(
     found: impl Iterator<Item = Option<(FixKind, Vec<TextEdit>, bool)>>,
 ) -> Vec<TextFix> {

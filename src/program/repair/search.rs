@@ -123,7 +123,7 @@ pub(in crate::program) trait Contour {
     /// True for two changes with the same result.
     fn is_alike(one: &Self::Lead, other: &Self::Lead) -> bool;
 
-    /// True for two changes with the same result, of which either may be meant.
+    /// True for two changes either of which may be meant, so that neither is sure.
     fn is_either(&self, _one: &Change<Self::Meant>, _other: &Change<Self::Meant>) -> bool {
         false
     }
@@ -139,7 +139,7 @@ pub(in crate::program) trait Contour {
     }
 }
 
-/// The repairs of a contour, the most likely one first. `left` limits the work.
+/// The repairs of a contour, the most likely one first. `left` is the work that may still be done.
 pub(in crate::program) fn search<C: Contour>(
     contour: &C,
     left: &mut usize,

@@ -89,11 +89,11 @@ pub(crate) struct JoinedCut {
 struct View {
     /// The machine's position before each stretch, µm.
     begins: Vec<Point>,
-    /// Where the wire was taken by hand behind a stop, as the coordinates say: the first block there, and how far, µm.
+    /// Where by the coordinates the wire was moved by hand at a stop: the first block after it, and how far, µm.
     taken: Vec<(At, Vector)>,
-    /// The cuts that reach over the end of a stretch, or begin or end the text, in their order. The others are parts of one stretch.
+    /// The cuts that extend over the end of a stretch, or begin or end the text, in order. The others are parts of one stretch.
     outer: Vec<JoinedCut>,
-    /// Those that are open, where they are not continued behind a stop, and those that cross themselves.
+    /// The contours that are open and not continued after a stop, and those that cross themselves.
     contours: Contours<JoinedCut>,
     /// The parts with an odd joint about the end of a stretch that is reported.
     odd: Vec<PartAt>,
@@ -101,7 +101,7 @@ struct View {
     end: Option<At>,
     last_block: Option<At>,
     numbers: Numbers,
-    /// What is said of single contours, and of all else, that in no order and with places in bytes of the text.
+    /// The findings about single contours, and all others; the latter in no order, at bytes of the text.
     told: Told,
     findings: Vec<Finding>,
 }
@@ -188,7 +188,8 @@ impl Document {
         })
     }
 
-    /// What an edit has not `reread` stays, where nothing depends on the whole.
+    /// Judges the program again; findings in lines that an edit has not `reread` are kept where
+    /// they depend on nothing else.
     fn judge_again(&mut self, reread: Option<Reread>) {
         let before = std::mem::take(&mut *self.view);
         self.view.end = self.end_word();

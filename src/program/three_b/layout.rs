@@ -78,7 +78,7 @@ pub(crate) fn push_fields(
     out.extend_from_slice(block.motion.name().as_bytes());
 }
 
-/// Appends the spaces behind a block in columns, so that the text behind lines and arcs stands in one column.
+/// Appends the spaces after an aligned block, so that the text after lines and arcs is in the same column.
 pub(crate) fn push_to_comment_column(out: &mut Vec<u8>, block: &Block) {
     out.extend_from_slice(if block.motion.is_line() { b"  " } else { b" " });
 }

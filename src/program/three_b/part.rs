@@ -22,16 +22,16 @@ const TANGENT: f64 = 1e-3;
 /// or two long, and run anywhere.
 const LEAST_STEP: f64 = 0.5;
 
-/// The largest step of the wire's path where an arc, as it is on the grid, leaves a side, µm.
+/// The largest step of the wire's path where an arc, rounded to the grid, leaves a side, µm.
 const LARGEST_STEP: f64 = 2.0;
 
-/// The step of the wire's path, µm, at a joint that turns by `turn` radians: the controller moves what comes before it
-/// and what comes behind by the correction, each across its own direction.
+/// The step of the wire's path, µm, at a joint that turns by `turn` radians: the controller moves
+/// the pieces before and after it by the correction, each across its own direction.
 pub(super) fn wire_step(turn: f64, correction: f64) -> f64 {
     2.0 * correction * (turn / 2.0).sin().abs()
 }
 
-/// The path of a part's contour, and behind it that of its tab, rounded as one.
+/// The path of a part's contour, followed by that of its tab, rounded as one.
 pub(super) fn rounded_with_tab(
     path: &WirePath,
     tab: Option<&WirePath>,
@@ -210,7 +210,7 @@ pub(super) fn is_concave(arc: &Arc, side: Side) -> bool {
 /// The least length of a piece between its transitions, µm.
 const LEAST_LEFT: f64 = 1.0;
 
-/// Transitions that one core holds against the grid at a time.
+/// Transitions that one core checks against the grid at a time.
 const AT_A_TIME: usize = 64;
 
 /// How much larger a transition may become so that it exceeds the correction on the grid, too, µm.
@@ -229,7 +229,7 @@ fn sizes(radius: f64, angle: f64) -> impl Iterator<Item = f64> {
     larger.chain(grown.take_while(move |own| own * angle.abs() <= LONG))
 }
 
-/// Transition arcs of `radius`, or of as little more as makes them sound on the grid, at the corners between lines and
+/// Transition arcs of `radius`, or just as much more as makes them sound on the grid, at the corners between lines and
 /// arcs alike. Each corner is made from the two pieces as they are drawn.
 fn with_transitions(
     contour: &[PathSegment],

@@ -26,9 +26,9 @@ pub(super) struct Proof {
 }
 
 impl Proof {
-    /// Takes a block, decoded from its own node, or another one for the same arc where a counting controller would else
-    /// drift further and further: equal arcs in a row miss their ends alike. No number is above `largest`; without it
-    /// there is no other one.
+    /// Takes a block, decoded from its own node, or another one for the same arc where a counting
+    /// controller would otherwise drift further and further: equal arcs in a row miss their ends by
+    /// the same amount. No number is above `largest`; without it there is no other one.
     pub(crate) fn taken(
         &mut self,
         encoded: Encoded,

@@ -47,7 +47,7 @@ pub(super) struct Part {
     pub(crate) has_blocks: bool,
     /// Between two pauses it is the way from one contour to the next, perhaps.
     pub(crate) may_be_jump: bool,
-    /// Of one that is sound by itself nothing is held: its blocks tell it.
+    /// `None` for a part that is sound by itself: it can be read again from its blocks.
     whole: Option<Box<Whole>>,
 }
 
@@ -143,8 +143,8 @@ impl Open {
         self.trail = [Some(next), made, before];
     }
 
-    /// The part up to an entry, with the word there, where it is known how some parts before it lie, and some that are
-    /// gone.
+    /// The part up to an entry, with the word there; the lays of some parts before it, and of some
+    /// that are gone, may be reused.
     fn closed<'a>(
         self,
         end: usize,
@@ -306,7 +306,7 @@ impl Stretch {
         Some(tally)
     }
 
-    /// Of parts that are sound by themselves nothing is held.
+    /// Drops the details of parts that are sound by themselves.
     pub(crate) fn let_go(&mut self) {
         let of_faults = self.faults.iter().map(|fault| fault.part);
         let told = of_faults.chain(self.open.iter().chain(&self.may_cross).copied());

@@ -11,7 +11,7 @@ pub(super) struct Sum {
     pub(crate) blocks: usize,
     pub(crate) arcs: usize,
     pub(crate) travel: Move,
-    /// All that its blocks go along each axis, µm, and all that they go from their starts to their ends, nm.
+    /// How far its blocks go along each axis in all, µm, and the sum of their displacements, nm.
     pub(crate) along: [i64; 2],
     pub(crate) length: i64,
     /// Twice the area between the way and its chord, µm²; only its sign is used.
@@ -128,7 +128,8 @@ const JUMP_BLOCKS: usize = 3;
 /// looks like that.
 const STAIR_BLOCKS: usize = 8;
 
-/// How much longer than straight a way is that leads straight on, for each of its blocks, nm: they end on whole µm.
+/// How much longer than a straight line a way that leads straight on may be, for each of its
+/// blocks, nm: they end on whole µm.
 const NOT_STRAIGHT: i64 = 10;
 
 /// True for the way between two pauses from one contour to the next. A way that returns to its start is not one: that

@@ -7,7 +7,7 @@ use crate::geometry::{Arc, Point, Segment, left_normal, positive_angle};
 use crate::rules::Limits;
 use std::collections::BTreeMap;
 
-/// The fate of one segment, in its entity's own direction.
+/// What becomes of one segment, in its entity's own direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Fate {
     Kept(Segment),
@@ -61,7 +61,7 @@ pub(crate) fn drawing_edit(
     Some(DrawingEdit { changes })
 }
 
-/// The edit that rounds the corner between the segments at `before` and behind it, which turns to the left, with the
+/// The edit that rounds the corner between the segments at `before` and after it, which turns to the left, with the
 /// fix radius. `None` where no such arc fits, or where an entity cannot take it.
 pub(crate) fn fillet(travel: &Travel, before: isize, limits: &Limits) -> Option<DrawingEdit> {
     let arc = corner_arc(travel, before, limits)?;
@@ -150,9 +150,9 @@ pub(crate) fn fillet(travel: &Travel, before: isize, limits: &Limits) -> Option<
     Some(DrawingEdit { changes })
 }
 
-/// The edit of the original "R minimum" tool: the arc's end points stay and its radius becomes the fix radius; and the
-/// angle (radians) by which the contour kinks at each end. `None` past a half turn, where it would remove a bulb, and
-/// where no single entity is the arc.
+/// The edit that keeps the arc's end points and gives it the fix radius, as the original "R
+/// minimum" tool did; and the angle (radians) by which the contour then kinks at each end. `None`
+/// past a half turn, where it would remove a bulb, and where no single entity is the arc.
 pub(crate) fn keep_end_points(
     drawing: &Drawing,
     segment: &ContourSegment,

@@ -1,18 +1,18 @@
-//! What the disc of a new arc meets of the contour.
+//! What parts of the contour the disc of a new arc meets.
 //!
-//! Where arcs crowd, thousands of discs are tried, and a few segments are in the way of nearly all: those that were in
-//! the way of the last discs are asked first.
+//! Where arcs crowd, thousands of discs are tried, and a few segments are in the way of nearly all:
+//! those that were in the way of the last discs are checked first.
 
 use super::Travel;
 use crate::geometry::{Arc, Bounds, Segment, Tolerances};
 
-/// Segments that are asked first.
+/// Segments that are checked first.
 const MOST: usize = 16;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Meets {
     Nothing,
-    /// Replaced segments, by no more than those of a rounded drawing may reach into it.
+    /// Only replaced segments, and those by no more than rounding of the drawing explains.
     Rounding,
     Something,
 }
@@ -24,7 +24,7 @@ pub(super) struct InTheWay {
 }
 
 impl InTheWay {
-    /// What the disc of an arc meets that replaces what lies between two positions.
+    /// What the disc of an arc meets, where the arc replaces what lies between two positions.
     pub(super) fn met_by(
         &mut self,
         arc: &Arc,

@@ -4,7 +4,8 @@
 //! radius: the control loses the arc or cuts into the part. `r = c` is the limit and passes.
 //!
 //! The fix replaces a run of such arcs by one arc of radius `R = c + margin`. From foot to foot the new outline is the
-//! boundary of the morphological opening of the wire's region by a disc of radius R; outside nothing changes.
+//! boundary of the morphological opening of the wire's region by a disc of radius R; elsewhere
+//! nothing changes.
 
 mod edit;
 mod in_the_way;
@@ -51,7 +52,7 @@ pub(crate) fn check(
         *arc
     };
     let detail = SmallRadius::of(&own, arc.radius, limits.correction, 1.0);
-    // Stock that a later pass takes away is no harm of this one.
+    // Stock that a later pass takes away does no harm in this one.
     let later = limits.correction - limits.last_correction;
     Some(SmallRadius {
         overcut: (detail.overcut - later).max(0.0),

@@ -93,7 +93,7 @@ pub(crate) fn made_tangent(
     found
 }
 
-/// The arc of radius `limits.fix_radius` that rounds the corner between the segments at `before` and behind it, which
+/// The arc of radius `limits.fix_radius` that rounds the corner between the segments at `before` and after it, which
 /// turns to the left. `None` where it does not fit: its feet must lie on the two and its disc keep clear of the
 /// contour.
 pub(crate) fn corner_arc(travel: &Travel, before: isize, limits: &Limits) -> Option<Arc> {
@@ -300,7 +300,8 @@ impl<'a> Search<'a> {
                 }
             }
         }
-        // Of solutions that agree within rounding the tangent one wins: a fillet with noise at its ends is no notch.
+        // Of solutions that agree within rounding the tangent one wins: a fillet with noise at its
+        // ends is not a notch.
         let noise = self.limits.tolerances.arc_fit;
         candidates.sort_by(|a, b| {
             if (a.0 - b.0).abs() <= noise {
@@ -399,7 +400,7 @@ impl<'a> Search<'a> {
         })
     }
 
-    /// True when the new arc leaves a neighbour too short to cut that was long enough.
+    /// True when the new arc leaves a neighbour too short to cut that was long enough before.
     fn is_crumb(&self, arc: &Arc, one: &Segment, other: &Segment) -> bool {
         let short = self.limits.tolerances.short;
         let left = |segment: &Segment, share: f64| {

@@ -14,7 +14,7 @@ const ROUNDED_KINK: f64 = 0.1;
 const ROUNDED_CENTER: f64 = 0.1;
 
 /// The run that holds the arc at `position`: the longest chain of arcs concave to the wire with r ≤ R, split at every
-/// vertex convex to the wire. `None` when that segment is no such arc.
+/// vertex convex to the wire. `None` when that segment is not such an arc.
 pub(crate) fn run_of(
     travel: &Travel,
     position: isize,
@@ -61,7 +61,7 @@ fn member(travel: &Travel, position: isize, limits: &Limits) -> Option<Arc> {
     }
 }
 
-/// True when the segments at `position` and behind it are in one run.
+/// True when the segments at `position` and after it are in one run.
 fn joins(travel: &Travel, position: isize, limits: &Limits, is_rounded: bool) -> bool {
     let (Some(one), Some(other)) = (
         member(travel, position, limits),

@@ -58,8 +58,8 @@ impl Travel<'_> {
         })
     }
 
-    /// The first segment that reaches into a disc, for which `reaches` holds of its place in the contour and itself.
-    /// Only those whose boxes touch the box of the disc are asked.
+    /// The first segment that reaches into a disc, that is, for whose index in the contour and
+    /// geometry `reaches` is true. Only those whose boxes touch the box of the disc are checked.
     pub(crate) fn first_within(
         &self,
         disc: &Bounds,

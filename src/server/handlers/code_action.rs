@@ -17,7 +17,7 @@ use tower_lsp::jsonrpc::Result;
 
 pub(in crate::server) const FIX_ALL: &str = "source.fixAll.wedm";
 
-/// More findings than this in one range get their fixes by "fix all" only: nobody picks from a longer list.
+/// More findings than this in one range get their fixes by "fix all" only: a longer list is of no use.
 const LISTED: usize = 100;
 
 /// Lines of a text, or entities of a drawing, beyond which repairs after other repairs are only tried on request: it
@@ -162,7 +162,8 @@ fn wants(context: &CodeActionContext, kind: &str) -> bool {
     })
 }
 
-/// The findings that the client means: those of its diagnostics where they say which, else those in the range.
+/// The findings that the request is about: those of its diagnostics where they say which, else
+/// those in the range.
 fn chosen(
     context: &RequestContext,
     document: &Document,

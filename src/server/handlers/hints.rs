@@ -1,4 +1,4 @@
-//! `textDocument/inlayHint`: radius and sweep beside each bulge; end point and radius behind each block.
+//! `textDocument/inlayHint`: radius and sweep beside each bulge; end point and radius after each block.
 
 use crate::ide;
 use crate::server::context::RequestContext;

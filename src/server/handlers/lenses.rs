@@ -46,7 +46,7 @@ pub(in crate::server) fn code_lens(
             lens(first.selection.clone(), title.into(), command, arguments)
         })
     });
-    // A command without a name is shown and does nothing.
+    // A lens whose command has no name is only shown.
     let of_contours = contours().take(LENSES).map(|symbol| {
         let title = say!(says, symbol.name, symbol.detail);
         lens(symbol.selection.clone(), title, "", None)

@@ -62,7 +62,7 @@ fn offers(encoding: Encoding, abilities: &Abilities) -> Value {
         "executeCommandProvider": {
             "commands": [method::APPLY_DRAWING_EDIT_COMMAND, method::SCALE_COMMAND],
         },
-        // A digit is no word: editors ask at these unprompted.
+        // A letter among digits begins no new word: editors ask there only at trigger characters.
         "completionProvider": { "triggerCharacters": ["B", "G", "M", "I", "J", "D", "H", "P"] },
         "signatureHelpProvider": {
             "triggerCharacters": ["B", "b", "X", "x", "I", "i", "D", "P"],

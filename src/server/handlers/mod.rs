@@ -39,9 +39,9 @@ use tower_lsp::jsonrpc::{Error, Result};
 
 /// A drawing for one request, under its own options, if any.
 struct Task {
-    /// As it is open: findings have their places here.
+    /// The document as it is open: findings have their places in it.
     subject: Arc<Document>,
-    /// Under the options.
+    /// The document under the request's options.
     document: Arc<Document>,
     snapshot: Snapshot,
 }

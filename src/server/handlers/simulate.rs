@@ -1,4 +1,4 @@
-//! `wedm/simulate`: the machine's way.
+//! `wedm/simulate`: the path of the machine.
 
 use crate::protocol::{Simulate, Simulation};
 use crate::server::context::RequestContext;

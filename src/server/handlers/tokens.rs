@@ -158,7 +158,7 @@ struct Encoder<'a> {
     begin: usize,
     /// Character of the last token.
     character: usize,
-    /// A byte of the line and its character, so that nothing is counted twice: a program may stand in one line.
+    /// A byte of the line and its character, so that nothing is counted twice: a whole program may be one line.
     known: usize,
     counted: usize,
     tokens: Packed,

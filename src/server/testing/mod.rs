@@ -10,7 +10,7 @@ use std::io::{Read, Write};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-/// Longer than anything in a test takes: an answer that has not come by then never will.
+/// Longer than anything in a test takes: an answer that has not come by then will never come.
 const PATIENCE: Duration = Duration::from_secs(20);
 
 /// Bytes that come at most `at_once` at a time, as from a pipe.

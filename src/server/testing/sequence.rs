@@ -53,7 +53,7 @@ const PHRASES: [&str; 30] = [
     "(",
 ];
 
-/// Noise between messages; a whole message behind it is read all the same.
+/// Noise between messages; a whole message after it is read all the same.
 const BROKEN: [&str; 16] = [
     "Content-Length: 5\r\nx\r\n",
     "Content-Length: 2\r\n{}",
@@ -180,7 +180,7 @@ impl<'a> Script<'a> {
     }
 }
 
-/// The session for `script`. It begins with the handshake, and has no end of its own.
+/// The session for `script`. It begins with the handshake, and does not end with `exit`.
 pub fn sequence(script: &[u8]) -> Sequence {
     let mut script = Script(script);
     let mut sequence = Sequence {
@@ -361,7 +361,8 @@ impl Sequence {
 /// Checks the server's output against the requests.
 ///
 /// # Panics
-/// Where a request is not answered just once, or with an internal error, or a message is not JSON-RPC.
+/// Where a request is not answered exactly once, or with an internal error, or a message is not
+/// JSON-RPC.
 pub fn check_answers(sequence: &Sequence, written: &[Vec<u8>]) {
     let mut answers = vec![0_usize; sequence.requests];
     for body in written {

@@ -125,8 +125,8 @@ impl<R: Read> Frames<R> {
 
     /// The length in the next header block; `None` at the end of the stream.
     ///
-    /// A faulty block is used up to behind the first byte of the faulty line: the rest of that line may hold the next
-    /// header.
+    /// A faulty block is used up to and with the first byte of the faulty line: the rest of that
+    /// line may hold the next header.
     fn header(&mut self) -> Result<Option<u64>, String> {
         let mut length = None;
         // Where the next line of the block begins.

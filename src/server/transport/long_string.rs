@@ -8,14 +8,14 @@ use std::ops::Range;
 
 /// Shorter strings are left to the parser.
 const LONG: usize = if cfg!(test) { 32 } else { 1024 * 1024 };
-/// The text stands among the first strings of a body.
+/// The text is among this many first strings of a body.
 const FIRST: usize = 64;
-/// The most that is left of such a body.
+/// The most bytes that may be left of such a body.
 const REST: usize = 64 * 1024;
 /// Bytes that are read in one piece.
 const PIECE: usize = if cfg!(test) { 8 } else { 1024 * 1024 };
 
-/// Stands in the place of the long string while the rest is read.
+/// Takes the place of the long string while the rest is read.
 const IN_ITS_PLACE: &str = "the-long-string";
 
 /// Reads a body with a long string; `None` where the parser had better read all of it.
@@ -82,7 +82,7 @@ fn unescaped(string: &[u8]) -> Option<String> {
     String::from_utf8(text).ok()
 }
 
-/// The same of a piece that begins and ends between two characters or escapes; in bytes.
+/// The same for a piece that begins and ends between two characters or escapes; in bytes.
 fn unescaped_piece(mut rest: &[u8]) -> Option<Vec<u8>> {
     // Words are written whole, also where only their beginning is plain.
     let mut out = vec![0; rest.len() + WORD];
@@ -136,7 +136,7 @@ fn plain_bytes(word: u64) -> usize {
     (found.trailing_zeros() / 8) as usize
 }
 
-/// Puts the text in the place that is kept for it. Returns how many such places there are: the first takes it.
+/// Puts the text in the first place that is kept for it. Returns the number of such places.
 fn put_in_place(value: &mut Value, text: &mut Option<String>) -> usize {
     match value {
         Value::String(string) if string == IN_ITS_PLACE => {

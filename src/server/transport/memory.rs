@@ -8,7 +8,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Duration;
 
-/// Messages that come to less than this together leave little behind.
+/// Messages of less than this together leave little behind.
 const LARGE: usize = 1024 * 1024;
 /// Long enough for the work that the message set off.
 const DELAY: Duration = Duration::from_millis(400);

@@ -139,7 +139,7 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
 
     fn dispatch(&mut self, request: Request) {
         let (id, method) = (request.id().cloned(), request.method().to_owned());
-        // None of the framework's own methods is a request, and it leaves such requests without an answer.
+        // None of the framework's own `$/` methods is a request, and it leaves such requests unanswered.
         if let Some(id) = id.clone().filter(|_| method.starts_with("$/")) {
             let message = say!(there_is_no_request, method).into();
             return self.send(Response::from_error(
@@ -165,7 +165,7 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
             }
         };
         drop(guard);
-        // `initialize` ends before the next message: a client that sends `didOpen` right behind it loses nothing.
+        // `initialize` ends before the next message: a client that sends `didOpen` right after it loses nothing.
         if inline {
             let outcome = self.runtime.block_on(answer);
             return self.finish(&reply, id, outcome);

@@ -26,14 +26,15 @@ pub(crate) fn pipes() -> io::Result<(File, File)> {
     }
 }
 
-/// All that a document has to tell goes into a pipe of this many bytes, and both ends need not take turns for it. What anybody may ask for.
+/// A pipe of this many bytes holds all diagnostics of a document, so that the two ends need not
+/// take turns. Any process may ask for this size.
 #[cfg(target_os = "linux")]
 const ROOM: libc::c_int = 1024 * 1024;
 
 #[cfg(target_os = "linux")]
 fn widen(pipe: &std::os::fd::OwnedFd) {
     use std::os::fd::AsRawFd;
-    // SAFETY: the descriptor is open. What is no pipe, or may not grow, stays as it is.
+    // SAFETY: the descriptor is open. Anything that is not a pipe, or may not grow, stays as it is.
     unsafe { libc::fcntl(pipe.as_raw_fd(), libc::F_SETPIPE_SZ, ROOM) };
 }
 
@@ -53,7 +54,7 @@ pub(super) fn is_hung_up() -> bool {
     ready > 0 && poll.revents & (libc::POLLHUP | libc::POLLERR | libc::POLLNVAL) != 0
 }
 
-/// Only the stream's own end tells here.
+/// On this system only the end of the stream shows it.
 #[cfg(not(unix))]
 pub(super) fn is_hung_up() -> bool {
     false

@@ -13,7 +13,7 @@ pub(super) const LIMIT: u64 = 16_000_000;
 
 /// True where the tree of `json` would take more than [`LIMIT`].
 pub(super) fn is_too_heavy(json: &[u8]) -> bool {
-    // No byte takes more than an object, and of a long text few bytes take anything, wherever they stand.
+    // No byte takes more than an object, and few bytes of a long text take anything.
     if (json.len() as u64).saturating_mul(OBJECT) <= LIMIT || weighing(json) * OBJECT <= LIMIT {
         return false;
     }
@@ -35,7 +35,8 @@ pub(super) fn is_too_heavy(json: &[u8]) -> bool {
     false
 }
 
-/// The number of bytes that take something where they are not in a string. Counted in bytes, of which a processor adds many at once.
+/// The number of bytes that take something where they are not in a string. The counters are bytes,
+/// of which a processor adds many at once.
 fn weighing(json: &[u8]) -> u64 {
     let weighs = |byte: &u8| u8::from(matches!(byte, b'[' | b'{' | b',' | b':'));
     let parts = json.chunks(u8::MAX.into());
@@ -44,7 +45,7 @@ fn weighing(json: &[u8]) -> u64 {
         .sum()
 }
 
-/// The text behind the end of a string; empty where it does not end.
+/// The text after the end of a string; empty where it does not end.
 fn behind_string(mut rest: &[u8]) -> &[u8] {
     while let Some(at) = memchr::memchr2(b'"', b'\\', rest) {
         let behind = rest.get(at..).unwrap_or_default();

@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 /// While more bytes than this wait, no more messages are taken from the client.
 const BACKLOG: usize = 32 * 1024 * 1024;
 
-/// Bodies up to this length, and diagnostics, are copied behind their header; longer ones are not held twice.
+/// Bodies up to this length, and diagnostics, are copied after their header; longer ones are not held twice.
 const ONE_WRITE: usize = 1024 * 1024;
 
 /// Params of `textDocument/publishDiagnostics`. The URI is the client's own spelling.
@@ -24,7 +24,7 @@ pub(crate) struct Publish {
     pub(crate) version: Option<i64>,
     /// An array.
     pub(crate) diagnostics: Written,
-    /// Not superseded: the one publish that must follow an opening or a closing.
+    /// Must not be superseded: the one publish that has to follow an opening or a closing.
     pub(crate) owed: bool,
 }
 
@@ -161,7 +161,7 @@ impl Writer {
         self.shared.queue().bytes > BACKLOG
     }
 
-    /// Waits until little enough waits, at most `limit`; true if so.
+    /// Waits at most `limit` until little enough is queued; true if so.
     pub(crate) fn wait_for_room(&self, limit: Duration) -> bool {
         self.wait(limit, |queue| queue.bytes <= BACKLOG)
     }
@@ -214,7 +214,7 @@ fn write_all(shared: &Shared, mut output: impl Write) -> std::io::Result<()> {
                     queue.bytes -= publish.size();
                     break Next::Publish(publish);
                 }
-                // A place in line whose diagnostics were superseded by owed ones is empty.
+                // A place in the queue whose diagnostics were superseded by owed ones is empty.
                 Some(Waiting::Slot(uri, ticket)) => {
                     if queue.slots.get(&uri).is_some_and(|(own, _)| *own == ticket)
                         && let Some((_, publish)) = queue.slots.remove(&uri)
@@ -255,7 +255,7 @@ fn header(length: usize) -> String {
     format!("Content-Length: {length}\r\n\r\n")
 }
 
-/// The parts of a body behind their header.
+/// The parts of a body after their header.
 fn framed(parts: &[&[u8]]) -> Vec<u8> {
     let length = parts.iter().map(|part| part.len()).sum();
     let header = header(length);

@@ -3,8 +3,8 @@
 local program = require('wedm.program')
 local restarts = require('wedm.restarts')
 
--- Neovim stops to follow a buffer that is edited while it has no client, and does not start again when it gets one. Until the server is
--- back, buffers have this one, which knows nothing.
+-- Neovim stops tracking a buffer that is edited while it has no client, and does not resume when it gets one. Until the server is
+-- back, buffers have this client, which does nothing.
 local function placeholder(dispatchers)
     local closing = false
     local function close()
@@ -54,7 +54,7 @@ local function again(client_id, code, signal)
     end, pause)
 end
 
--- Said once, when the first drawing is opened; the command may be set behind this file.
+-- Said once, when the first drawing is opened; the command may be set after this file.
 vim.schedule(function()
     local command = vim.lsp.config.wedm.cmd
     if type(command) == 'table' then
@@ -65,7 +65,7 @@ end)
 return {
     cmd = { program.find() },
     filetypes = { 'dxf', '3b', 'wire-iso' },
-    -- Neovim heeds the version that an edit was made for, and does not say so: without it a fix would be made in a text that has changed meanwhile.
+    -- Neovim heeds the version of an edit but does not announce it: without this a fix would be made in a text that has changed meanwhile.
     capabilities = { workspace = { workspaceEdit = { documentChanges = true } } },
     root_markers = { 'wedm.toml', '.git' },
     before_init = function(params, config)
@@ -74,7 +74,7 @@ return {
     end,
     on_init = function(client) restarts.answered(client.id) end,
     on_exit = function(code, signal, client_id)
-        -- The server ends with 0 where it was asked to, and only there.
+        -- The server exits with 0 only where it was asked to end.
         if code ~= 0 or signal ~= 0 then
             vim.schedule(function() again(client_id, code, signal) end)
         end

@@ -10,7 +10,7 @@ namespace wedm {
 
 namespace {
 
-/// So much of the end of the log is kept for the message about the process's end.
+/// Bytes of the end of the log that are kept for the message about the process's end.
 constexpr int LAST_WORDS = 2000;
 
 QByteArray idText(const QJsonValue &id)

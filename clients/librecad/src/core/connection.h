@@ -47,7 +47,7 @@ signals:
     void started();
     void notified(const QString &method, const QJsonObject &params);
     void requested(const QJsonValue &id, const QString &method, const QJsonObject &params);
-    /// The process could not be started, has ended, or has sent what is no message. `hasRun` is false for the first of these.
+    /// The process could not be started, has ended, or has sent something that is no message. `hasRun` is false for the first of these.
     void ended(const QString &reason, bool hasRun);
 
 private:

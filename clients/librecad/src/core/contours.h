@@ -11,7 +11,7 @@
 
 namespace wedm {
 
-/// How near a point lies to a contour that it names, in drawing units.
+/// The farthest that a point may lie from the contour that it names, in drawing units.
 constexpr double ON_CONTOUR = 0.01;
 
 /// A hole that the wire is threaded through; `radius` in drawing units.
@@ -37,11 +37,11 @@ Toolpath toolpathFromJson(const QJsonObject &result);
 /// The index of the contour nearest to a point in the result of `wedm/contours`; −1 where there is none.
 int nearestContour(const QJsonArray &contours, const QPointF &point);
 
-/// The name by which a contour is kept: that of `kept`, names as the settings have them, which lies on it, else the middle of its
+/// The name by which a contour is kept: the one among `kept`, names from the settings, that lies on it, else the middle of its
 /// longest segment, which stays on it when corners beside it are repaired.
 QString nameOfContour(const QJsonObject &contour, const QStringList &kept);
 
-/// A point as numbers with a comma between, without digits beyond a nanometre.
+/// A point as two numbers with `between` between them, without digits beyond a nanometre.
 QString pointText(const QPointF &point, const char *between);
 
 } // namespace wedm

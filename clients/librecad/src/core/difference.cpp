@@ -56,7 +56,7 @@ int likeness(const Entity &old, const Entity &fresh)
     return 0;
 }
 
-/// The change that makes `fresh` of `old`. Of a polyline, what is the same but for noise is kept as it was in `fresh` too:
+/// The change that makes `fresh` of `old`. Vertices of a polyline that are the same but for noise get their old numbers in `fresh` too:
 /// the server has the old numbers, and noise that is never sent must not add up.
 Change changeOf(const Entity &old, Entity &fresh)
 {

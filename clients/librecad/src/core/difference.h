@@ -33,7 +33,7 @@ private:
 
 /// Compares `seen`, entities as the host lists them, with `known`.
 ///
-/// - An entity with the host's number of a known one is that one.
+/// - An entity with the host number of a known one is that one.
 /// - An entity that is new while another of its kind on its layer is gone, and shares vertices with it, takes its handle.
 /// - A polyline of which a stretch of vertices differs is sent as a splice, everything else as a whole entity.
 Difference difference(const QVector<Entity> &known, const QVector<Entity> &seen, HandleGiver &handles);

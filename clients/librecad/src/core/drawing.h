@@ -37,8 +37,8 @@ struct Entity {
 
 };
 
-/// Coordinates and bulges that differ by less are the same: a host that keeps an arc by centre and angles gives its ends and its
-/// bulge back with such a noise. Absolute, in drawing units, and relative to the number.
+/// Coordinates and bulges that differ by less are the same: a host that keeps an arc by centre and angles returns its ends and its
+/// bulge with noise of this size. Absolute, in drawing units, and relative to the number.
 constexpr double NOISE_ABSOLUTE = 1e-10;
 constexpr double NOISE_RELATIVE = 4e-14;
 
@@ -64,7 +64,7 @@ struct Change {
 
     What what = What::Splice;
     QString handle;
-    /// Splice: `deleteCount` vertices from `start` on give way to `insert`.
+    /// Splice: `deleteCount` vertices from `start` on are replaced by `insert`.
     int start = 0;
     int deleteCount = 0;
     QVector<Vertex> insert;

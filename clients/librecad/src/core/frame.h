@@ -10,16 +10,16 @@ namespace wedm {
 /// The bytes that carry `body`.
 QByteArray frame(const QByteArray &body);
 
-/// Cuts a stream of bytes into bodies. Memory grows with what has arrived, never with a number that stands in it.
+/// Cuts a stream of bytes into bodies. Memory grows with what has arrived, never with a number that it contains.
 class FrameReader {
 public:
-    /// Bodies above this are no messages of a sound server.
+    /// The largest body that a sound server sends, in bytes.
     static constexpr qint64 LARGEST_BODY = 256ll * 1024 * 1024;
-    /// A header block longer than this is none.
+    /// The longest header block, in bytes.
     static constexpr int LARGEST_HEADER = 8192;
 
     /// Takes what has arrived and returns the bodies that are complete now.
-    /// After damage nothing more is returned: where the next message begins is not known.
+    /// After damage nothing more is returned: it is not known where the next message begins.
     QList<QByteArray> feed(const QByteArray &bytes);
 
     /// Empty while the stream is sound, else what is wrong with it.

@@ -20,7 +20,7 @@ QByteArray quoted(const QString &name)
     return '"' + inner.toUtf8() + '"';
 }
 
-/// Empty where it is done.
+/// The error; empty where it was written.
 QString write(const QString &path, const QByteArray &text)
 {
     QSaveFile file(path);

@@ -116,7 +116,7 @@ void write(QByteArray &out, const Change &change)
     out += '}';
 }
 
-/// A number, or not finite where there is none: nothing that is missing becomes 0.
+/// A number, or NaN where there is none: a missing one must not become 0.
 double toNumber(const QJsonValue &value)
 {
     return value.isDouble() ? value.toDouble() : std::nan("");
@@ -197,7 +197,7 @@ Entity toEntity(const QJsonObject &object, bool *sound)
 
 QByteArray toJson(const QString &text)
 {
-    // Of a document that holds an array of one string, what is between the brackets is the string.
+    // Qt writes only whole documents: an array of the one string, without its brackets.
     const QByteArray array = QJsonDocument(QJsonArray{text}).toJson(QJsonDocument::Compact);
     return array.mid(1, array.size() - 2);
 }

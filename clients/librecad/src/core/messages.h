@@ -19,7 +19,7 @@ QByteArray toJson(const QString &uri, int version, const QVector<Change> &change
 /// A string as JSON, with its quotes.
 QByteArray toJson(const QString &text);
 
-/// Changes as a fix holds them. On anything that is not such a list, `failure` says what, and the result is empty.
+/// Changes as a fix holds them. If it is no such list, `failure` says why, and the result is empty.
 QVector<Change> changesFromJson(const QJsonArray &changes, QString *failure);
 
 enum class Severity { Error = 1, Warning = 2, Information = 3, Hint = 4 };
@@ -32,7 +32,7 @@ struct Finding {
     /// Empty where the finding is about the whole drawing.
     QString handle;
     int segment = -1;
-    /// Whether the ends of the segment are known, and they, in drawing units.
+    /// Whether the ends of the segment are known, and these ends, in drawing units.
     bool placed = false;
     QPointF start;
     QPointF end;

@@ -17,7 +17,7 @@ const char NAME[] = "wedm.exe";
 const char NAME[] = "wedm";
 #endif
 
-/// LibreCAD takes every file beside a plugin for a plugin and complains about the others, but not on Windows; a folder it passes over.
+/// Except on Windows, LibreCAD takes every file beside a plugin for a plugin, and complains if it is none; it ignores folders.
 const char FOLDER[] = "wedm-server";
 
 const char HOW_TO_GET_IT[] = QT_TRANSLATE_NOOP("wedm::ProgramSearch",
@@ -30,7 +30,7 @@ bool runs(const QString &path)
     return file.isFile() && file.isExecutable();
 }
 
-/// The folders of PATH. A relative one leads wherever LibreCAD was started, as in the folder of a drawing: it is passed over.
+/// The folders of PATH. A relative one depends on where LibreCAD was started, such as the folder of a drawing: it is skipped.
 QStringList foldersOfPath()
 {
     QStringList folders;
@@ -62,7 +62,7 @@ QString findProgram(const ProgramSearch &search, QString *message)
     const QString onPath = folders.isEmpty() ? QString() : QStandardPaths::findExecutable(NAME, folders);
     if (!onPath.isEmpty())
         return onPath;
-    // A desktop starts programs without the PATH of the user's shell, so cargo's folder is asked by name.
+    // A desktop starts programs without the PATH of the user's shell, so cargo's folder is searched as well.
     const QString ofCargo = QDir::home().filePath(QStringLiteral(".cargo/bin/") + NAME);
     if (runs(ofCargo))
         return ofCargo;

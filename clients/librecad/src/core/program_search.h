@@ -7,7 +7,7 @@
 namespace wedm {
 
 struct ProgramSearch {
-    /// What somebody has set; empty: nothing.
+    /// The path that the user has set; empty: none.
     QString setting;
     /// The folder in which the plugin lies.
     QString pluginFolder;

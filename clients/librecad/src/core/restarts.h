@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// How often a server that ends is started again, and how long it is left alone before: "When the server ends" in docs/protocol.md.
+// How often a server that ends is started again, and after what pause: "When the server ends" in docs/protocol.md.
 #pragma once
 
 #include <QtGlobal>
@@ -22,7 +22,7 @@ public:
             return std::nullopt;
         return PAUSES[m_ends++];
     }
-    /// The user wants another start: what was before does not count.
+    /// The user wants another start: earlier ends no longer count.
     void reset() { m_ends = 0; }
 
 private:

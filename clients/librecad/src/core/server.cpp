@@ -160,7 +160,7 @@ void Server::drop()
 {
     if (!m_connection)
         return;
-    // It may be one of its own signals that has led here.
+    // This may have been called from one of its own signals.
     disconnect(m_connection, nullptr, this, nullptr);
     m_connection->deleteLater();
     m_connection = nullptr;

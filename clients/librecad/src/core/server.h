@@ -31,7 +31,7 @@ public:
     void stop();
     State state() const { return m_state; }
     bool isReady() const { return m_state == State::Ready; }
-    /// The way to a server that is ready.
+    /// The connection to a server that is ready.
     Connection &connection() { return *m_connection; }
 
 signals:

@@ -15,7 +15,7 @@ namespace {
 
 /// When more entities than this change at once, and most of the drawing, it is sent whole.
 constexpr int MANY_CHANGES = 1000;
-/// A list of radii is asked for again after a rest of so many times what the last one took, so that long lists do not
+/// The pause before a list of radii is asked for again, as a multiple of the time for the last one, so that long lists do not
 /// keep the server busy.
 constexpr int REST = 3;
 constexpr int SHORTEST_REST = 30;
@@ -237,7 +237,7 @@ void Session::confirmHole(const QString &uri, const QString &contour, const QPoi
             emit holeConfirmed(uri, thread.size() == 2 && pointText(kept, ",") == pointText(hole, ","));
         });
     };
-    // Where nobody can be asked, nobody has refused it.
+    // Without a server there is nobody who has refused it.
     withServer(uri, ask, [=] { emit holeConfirmed(uri, true); });
 }
 
@@ -260,7 +260,7 @@ void Session::serverChanged(Server::State state, const QString &text)
         each.value()->inspecting = false;
         each.value()->inspectedVersion = -1;
     }
-    // A server that is ready hears of the drawings first, then of what has waited.
+    // A server that is ready gets the drawings first, then the requests that have waited.
     if (state == Server::State::Ready) {
         sendSettings();
         for (auto each = m_documents.begin(); each != m_documents.end(); ++each)
@@ -294,7 +294,7 @@ void Session::take(const QString &method, const QJsonObject &params)
     const QString uri = params.value("uri").toString();
     const QSharedPointer<Document> document = m_documents.value(uri);
     const int version = params.value("version").toInt(-1);
-    // What is said of an older version would be shown at the wrong segments.
+    // Findings of an older version would be shown at the wrong segments.
     if (!document || version != document->drawing.version)
         return;
     document->findings.clear();
@@ -307,7 +307,7 @@ void Session::take(const QString &method, const QJsonObject &params)
         inspect(uri);
 }
 
-/// A change of settings, in wedm.toml too, is followed by new findings: so they are asked for with these.
+/// A change of settings, also in wedm.toml, is followed by new findings, so the settings are asked for with each of these.
 void Session::askSettings(const QString &uri)
 {
     m_server.connection().request("wedm/settings", uriOnly(uri), [this, uri](const Answer &answer) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The talk with the server: keeps its picture of every drawing up to date, and asks for lists, repairs and programs. Lives in a thread
+// The session with the server: keeps its copy of every drawing up to date, and asks for lists, repairs and programs. Lives in a thread
 // of its own, so that no list however long holds up the host. Knows nothing of LibreCAD.
 #pragma once
 
@@ -21,7 +21,7 @@ struct Repair {
     QVector<Entity> after;
 };
 
-/// What a program came to: `cut` and `jumps` in mm, what is cut and the ways between contours.
+/// The figures of a program: `cut` and `jumps` in mm, the length that is cut and that of the ways between contours.
 struct Program {
     QString path;
     /// "3b", "4b", "iso" or "milling".
@@ -32,7 +32,7 @@ struct Program {
     double deviation = 0;
     double closureX = 0;
     double closureY = 0;
-    /// Of an electrode, in mm: the floor where it is highest and deepest, and by how much it is shorter in the end.
+    /// For an electrode, in mm: the highest and deepest place of the floor, and by how much the electrode is shorter at the end.
     int layers = 0;
     double floorLeast = 0;
     double floorMost = 0;
@@ -40,7 +40,7 @@ struct Program {
     QStringList warnings;
 };
 
-/// What the server takes for the correction, and where it has it from.
+/// The correction that the server uses, and where it comes from.
 struct InForce {
     double correction = 0;
     /// "default", "client" or "file".
@@ -78,7 +78,7 @@ public slots:
     void generate(const QString &uri, const QString &format, const QString &path, bool force);
     /// Asks for the path of the wire.
     void requestToolpath(const QString &uri);
-    /// Asks for the contour nearest to a thread hole, to keep it by.
+    /// Asks for the contour nearest to a thread hole, by which the hole is kept.
     void requestContour(const QString &uri, const QPointF &hole);
     /// Asks whether the settings hold the thread hole for the contour of that name, once they have been read again.
     void confirmHole(const QString &uri, const QString &contour, const QPointF &hole);

@@ -20,17 +20,17 @@ namespace wedm {
 
 namespace {
 
-/// How often it is looked whether LibreCAD has started, in ms.
+/// The interval at which the plugin checks whether LibreCAD has started, in ms.
 constexpr int SETTLING = 50;
-/// How often it is looked whether the drawing is still the one that was checked, in ms.
+/// The interval at which the plugin checks whether the drawing is still the one that was checked, in ms.
 constexpr int COMPARISON = 150;
-/// How long a host may need to quit for the server's sake.
+/// How long LibreCAD may wait for the server when it quits, in ms.
 constexpr int PATIENCE_AT_QUIT = 2000;
-/// What is seen of the neighbourhood, as a multiple of the segment's size, and at least, in drawing units.
+/// The part of the drawing that is shown round a segment, as a multiple of its size, and at least, in drawing units.
 constexpr double NEIGHBOURHOOD = 4;
 constexpr double LEAST_NEIGHBOURHOOD = 0.05;
 
-/// The automation's way in: a command that is run once the host has loaded its drawing.
+/// For automation: a command that is run once the host has loaded its drawing.
 QString firstCommand()
 {
     return qEnvironmentVariable("WEDM_LIBRECAD_ACTION");
@@ -99,7 +99,7 @@ void Controller::quit()
 
 void Controller::settle()
 {
-    // While LibreCAD starts, it lets events through before its windows stand and its files are open.
+    // While LibreCAD starts, it processes events before its windows are up and its files are open.
     if (QThread::currentThread()->loopLevel() == 0) {
         QTimer::singleShot(SETTLING, this, &Controller::settle);
         return;
@@ -118,7 +118,7 @@ void Controller::settle()
             showCurrent();
             m_looks.live().wake();
         });
-    // No plugin is told of an undo, but this action comes to life with it, however it was asked for.
+    // No plugin is told of an undo, but this action is enabled by it, however it was triggered.
     for (const char *name : {"EditUndo", "EditRedo"}) {
         if (QAction *action = host::action(name)) {
             connect(action, &QAction::triggered, this, &Controller::undone);
@@ -210,7 +210,7 @@ void Controller::run(const QString &command, Document_Interface &drawing)
         else if (command == QLatin1String(command::HOLE))
             pickHole(drawing, uri);
     }
-    // LibreCAD closes its step of undo behind this call. What the command has drawn is no change of what was looked at; while a point is
+    // LibreCAD closes its undo step after this call. What the command has drawn does not make the last look outdated; while a point is
     // picked, the user can draw.
     m_settling = command != QLatin1String(command::HOLE);
     if (m_settling)
@@ -328,7 +328,7 @@ void Controller::connectPanel()
         const OpenDrawing *open = m_drawings.current();
         if (!open)
             return;
-        // The drawing is looked at first, so that the repair is made for what stands there now.
+        // The drawing is looked at first, so that the repair is made for its present state.
         trigger(command::CHECK);
         const QString uri = open->uri;
         post([uri, handle, segment](Session &session) { session.requestRepair(uri, handle, segment); });
@@ -360,7 +360,7 @@ void Controller::becomesStale(Stale why)
         return;
     open->stale = why;
     if (m_panel) {
-        // What was said of a repair or a path was said of the drawing before.
+        // The message about a repair or a path was about the drawing before the change.
         m_panel->setMessage(QString(), Panel::Tone::Plain);
         m_panel->setStale(open->staleness());
     }
@@ -485,7 +485,7 @@ void Controller::zoom(const QPointF &middle, double size)
     QMdiSubWindow *window = host::currentWindow();
     if (!host::versionFault().isEmpty() || !zoomTo(window, middle, qMax(size * NEIGHBOURHOOD, LEAST_NEIGHBOURHOOD)))
         return;
-    // The click must meet what is seen, so it waits for the paint.
+    // The click must hit what is shown, so it waits until that is painted.
     QTimer::singleShot(0, this, [window] {
         if (window == host::currentWindow())
             selectInMiddle(window);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What happens on each command: takes the drawing to the session, and what the session says to the dock and back to the drawing.
+// What happens on each command: takes the drawing to the session, and the session's answers to the dock and back to the drawing.
 #pragma once
 
 #include "commands.h"
@@ -32,7 +32,7 @@ private:
     void settle();
     void quit();
     void undone();
-    /// Sees whether the drawing in front is still as it was looked at.
+    /// Checks whether the drawing in front has changed since it was looked at.
     void compare();
     void becomesStale(Stale why);
     /// The drawing in front as it is now is the one that was looked at.
@@ -61,7 +61,7 @@ private:
     void keepHole(const QString &uri, const QString &contour, const QPointF &hole);
     /// Says that the hole is kept, or why it is not.
     void holeKept(const QString &failure);
-    /// Calls `write` with the drawing as soon as nothing is in the way.
+    /// Calls `write` with the drawing as soon as the user is in the middle of nothing.
     using Write = std::function<void(Document_Interface &)>;
     void writeInto(const QString &uri, const Write &write);
     void mark(Document_Interface &drawing);

@@ -42,7 +42,7 @@ void Controller::writeInto(const QString &uri, const Write &write)
         m_panel->setMessage(tr("Another drawing has come to the front while the answer was on its way; nothing was changed."), Panel::Tone::Bad);
         return;
     }
-    // LibreCAD drops what could be done again when a plugin is called: after an undo not even a look is taken.
+    // LibreCAD drops its list of redos when a plugin is called: after an undo the drawing is not even looked at.
     if (host::redoIsPossible()) {
         m_panel->setMessage(tr("The drawing was changed by Undo while the answer was on its way; nothing was changed. Ask for it again."),
                             Panel::Tone::Bad);

@@ -16,7 +16,7 @@ namespace dialogs {
 
 namespace {
 
-/// So many findings are named; the dock has all of them.
+/// The number of findings that are named; the dock has all of them.
 constexpr int NAMED = 8;
 
 QString tr(const char *text)
@@ -68,7 +68,7 @@ void serverProgram(const QString &now, std::function<void(const QString &)> chos
 void writeAllTheSame(const QString &reason, const QStringList &findings, std::function<void()> forced)
 {
     QMessageBox *asked = box(QMessageBox::Warning, "wedm_refused", reason);
-    // The informative text takes what looks like mark-up for it, whatever the format of the other.
+    // The informative text renders whatever looks like mark-up, whatever the format of the main text.
     asked->setInformativeText(Qt::convertFromPlainText(findings.mid(0, NAMED).join(QLatin1Char('\n'))));
     QPushButton *force = asked->addButton(tr("Write it all the same"), QMessageBox::DestructiveRole);
     asked->setDefaultButton(asked->addButton(QMessageBox::Close));

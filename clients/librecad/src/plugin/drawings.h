@@ -9,7 +9,7 @@
 
 namespace wedm {
 
-/// Why what is shown of a drawing does not hold any more.
+/// Why what is shown of a drawing is outdated.
 enum class Stale { No, Changed, Undone };
 
 /// A drawing that has been looked at, and what is known of it.
@@ -19,9 +19,9 @@ struct OpenDrawing {
     QString folder;
     /// Changed since it was looked at, by Undo or Redo or otherwise.
     Stale stale = Stale::No;
-    /// What LibreCAD counts of its changes, as it was at the last look.
+    /// LibreCAD's count of its changes at the last look.
     ChangeCount changes;
-    /// Looks whose differences the session has not found yet, the version that the last of them came to, and that of the findings.
+    /// The number of looks that the session has not compared yet, the version that the last compared one became, and that of the findings.
     int looking = 0;
     int looked = -1;
     int version = -1;
@@ -30,7 +30,7 @@ struct OpenDrawing {
     QString unchecked;
     InForce settings;
 
-    /// Whether what was found is of the drawing as it is.
+    /// Whether the findings are those of the drawing as it is now.
     Stale staleness() const { return stale == Stale::No && looking == 0 && looked != version ? Stale::Changed : stale; }
 };
 
@@ -39,13 +39,13 @@ class Drawings : public QObject {
 public:
     using QObject::QObject;
 
-    /// That of the window; it begins here when there is none yet.
+    /// The drawing of the window; it is added when there is none yet.
     OpenDrawing &of(QMdiSubWindow *window);
     /// Null when no drawing has that name; else `window`, where given, becomes its window.
     OpenDrawing *find(const QString &uri, QMdiSubWindow **window = nullptr);
-    /// That of the window in front, if it has been looked at.
+    /// The drawing of the window in front, if it has been looked at.
     OpenDrawing *current();
-    /// Hears of no window any more.
+    /// No longer listens to any window.
     void forgetWindows();
 
 signals:

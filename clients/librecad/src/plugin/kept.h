@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the plugin keeps from one start of LibreCAD to the next.
+// The settings that the plugin keeps from one start of LibreCAD to the next.
 #pragma once
 
 #include <QSettings>

@@ -10,18 +10,18 @@ namespace wedm {
 
 namespace {
 
-/// ms between two looks at the clock.
+/// The interval of the timer, in ms.
 constexpr int TICK = 150;
-/// A look is followed by a rest of so many times what it took, so that it never takes more than a tenth of the time.
+/// The pause after a look as a multiple of its time, so that looks never take more than a tenth of the time.
 constexpr int REST = 9;
 /// A look that costs more than this, in ms, waits for a moment in which the user does nothing.
 constexpr qint64 NOTICEABLE = 80;
-/// That moment: so many times what a look costs, but no longer than this, in ms.
+/// The length of that moment, as a multiple of the cost of a look, and at most, in ms.
 constexpr qint64 QUIET_PER_COST = 3;
 constexpr qint64 LONGEST_QUIET = 2000;
 /// ms after which a look is taken even though nobody has touched anything: another plugin may have drawn.
 constexpr qint64 LONGEST_SLEEP = 5000;
-/// As much as this per ms of cost, for large drawings.
+/// The same per ms that a look costs, for large drawings.
 constexpr qint64 SLEEP_PER_COST = 100;
 
 } // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Says when the drawing should be looked at again. LibreCAD tells plugins of no change, so this goes by what the user does:
-// nothing changes without a key or a button. Knows nothing of what a look is.
+// nothing changes without a key or a mouse button. Knows nothing of what a look is.
 #pragma once
 
 #include <QElapsedTimer>
@@ -16,13 +16,13 @@ public:
 
     void setOn(bool on);
     bool isOn() const { return m_timer.isActive(); }
-    /// How long the last look has kept LibreCAD busy, its repainting included. The next one comes the later.
+    /// How long the last look has kept LibreCAD busy, its repainting included. The longer it took, the later the next one comes.
     void looked(qint64 milliseconds);
-    /// The look that was due did not come to its end. Another one is due when the user has come to rest.
+    /// The look that was due was not finished. Another one is due when the user pauses.
     void broken();
     /// Looks soon even if the user does nothing.
     void wake() { m_touched = true; }
-    /// Whether a look that was begun may go on: nobody has touched anything since, and nothing is in its way.
+    /// Whether a look that was begun may go on: nobody has touched anything since, and nothing prevents it.
     bool mayGoOn() const;
 
 signals:

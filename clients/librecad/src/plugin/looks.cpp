@@ -10,9 +10,9 @@ namespace wedm {
 
 namespace {
 
-/// A look of the live check at a large drawing is taken in slices of this, in ms, beside what LibreCAD needs for each to list it.
+/// The live check looks at a large drawing in slices of this many ms, plus what LibreCAD needs to list the entities for each.
 constexpr qint64 SLICE = 40;
-/// LibreCAD's time between two of them.
+/// The time for LibreCAD between two slices, in ms.
 constexpr int BETWEEN_SLICES = 15;
 
 } // namespace
@@ -63,7 +63,7 @@ void Looks::nextSlice()
             m_slices.drop();
             m_live.broken();
         } else if (m_slices.isComplete()) {
-            // LibreCAD has painted now: comparing the drawing with the last one would have taken a processor from it.
+            // LibreCAD has painted now: comparing the drawing with the last one any earlier would have taken a core from it.
             deliver(m_slices.take(), m_spent + clock.elapsed());
         } else {
             nextSlice();
@@ -76,7 +76,7 @@ void Looks::slice(Document_Interface &drawing)
     QElapsedTimer clock;
     clock.start();
     m_slices.read(drawing, SLICE);
-    // The one painting that the look costs.
+    // The only repaint that the look costs.
     if (m_slices.isComplete() && m_held)
         m_held->release();
     m_spent += clock.elapsed();
@@ -92,7 +92,7 @@ void Looks::deliver(const Snapshot &snapshot, qint64 spent)
     clock.start();
     emit taken(snapshot);
     parent()->setProperty("looks", parent()->property("looks").toInt() + 1);
-    // LibreCAD paints the drawing again after a call of a plugin; that belongs to the cost of a look.
+    // LibreCAD paints the drawing again after a call of a plugin; that is part of the cost of a look.
     QTimer::singleShot(0, this, [this, clock, spent] { m_live.looked(spent + clock.elapsed()); });
 }
 

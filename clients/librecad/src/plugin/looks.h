@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Looks at the drawing in front: at once, or for the live check in slices, between which LibreCAD goes on. What a look costs stands
+// Looks at the drawing in front: at once, or for the live check in slices, between which LibreCAD goes on. The cost of a look is
 // in the properties lookMilliseconds, slices, sliceMilliseconds and looks of the parent, for tests.
 #pragma once
 

@@ -7,7 +7,7 @@ namespace wedm {
 
 namespace {
 
-/// Marks are as large as that share of the drawing.
+/// The size of a mark as a share of the drawing's.
 constexpr double SHARE = 0.015;
 
 /// The longer side of the box round all that can be cut.

@@ -31,7 +31,7 @@ constexpr int WIDTH = 400;
 constexpr double LARGEST_CORRECTION = 5.0;
 constexpr int CORRECTION_DECIMALS = 4;
 constexpr double CORRECTION_STEP = 0.005;
-/// So many findings are listed, errors first: the layout of wrapped lines holds LibreCAD up.
+/// The number of findings that are listed, errors first: laying out wrapped lines blocks LibreCAD.
 constexpr int MOST_LISTED = 100;
 
 const char *severityName(Severity severity)
@@ -49,7 +49,7 @@ const char *severityName(Severity severity)
     return "";
 }
 
-/// Shows what it is given letter by letter: names out of drawings are no mark-up.
+/// Shows its text literally: names out of drawings are no mark-up.
 QLabel *plain(const char *name)
 {
     QLabel *label = new QLabel;
@@ -140,7 +140,7 @@ Panel::Panel(QWidget *parent)
     m_view->setEditTriggers(QAbstractItemView::NoEditTriggers);
     m_view->setWordWrap(false);
     m_view->verticalHeader()->hide();
-    // With a fixed height LibreCAD is not held up by measuring 200,000 rows.
+    // With a fixed height LibreCAD is not blocked by measuring 200,000 rows.
     m_view->verticalHeader()->setSectionResizeMode(QHeaderView::Fixed);
     m_view->verticalHeader()->setDefaultSectionSize(m_view->fontMetrics().height() + 5);
     m_view->horizontalHeader()->setStretchLastSection(true);
@@ -324,7 +324,7 @@ void Panel::colourList()
     }
 }
 
-/// Green is said of what was looked at, and of nothing that has changed since.
+/// Green holds only for a drawing that was looked at and has not changed since.
 void Panel::showCount()
 {
     if (!m_isChecked) {

@@ -25,16 +25,16 @@ public:
 
     /// What the server is doing; shown until the next.
     void setServer(Server::State state, const QString &text);
-    /// The correction that radii are held against, and where it comes from.
+    /// The correction that radii are checked against, and where it comes from.
     void setInForce(const InForce &settings);
-    /// What the last command came to.
+    /// The outcome of the last command.
     void setMessage(const QString &text, Tone tone);
     void setLive(const QString &text);
     void setFindings(const QVector<Finding> &findings);
     void setInspection(const QSharedPointer<Inspection> &inspection);
-    /// Whether the drawing has changed since what is shown was found, and how: then it is grey, and said to be old.
+    /// Whether the drawing has changed since what is shown was found, and how: then it is grey, and marked as outdated.
     void setStale(Stale stale);
-    /// What of the drawing is not looked at; empty for nothing.
+    /// What in the drawing is not checked; empty where everything is.
     void setUnchecked(const QString &text);
     /// Everything that belongs to a drawing goes.
     void clear();

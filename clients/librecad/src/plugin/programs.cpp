@@ -11,7 +11,7 @@ namespace programs {
 
 namespace {
 
-/// So many findings are named in one message.
+/// The number of findings that are named in one message.
 constexpr int NAMED = 5;
 
 QString tr(const char *text)
@@ -35,7 +35,7 @@ QString written(const Program &program)
                        .arg(program.cut, 0, 'f', 3)
                        .arg(program.jumps, 0, 'f', 3)
                        .arg(program.deviation, 0, 'f', 2);
-    // ISO programs, those of an electrode among them, write where a block ends: nothing is counted.
+    // ISO programs, those of an electrode included, state the end point of a block: there is no drift of counted lengths.
     if (program.format == QLatin1String("milling"))
         text += QLatin1Char(' ') + tr("%1 layers; simulated: the floor %2 to %3 mm deep, the electrode %4 mm shorter.")
                                        .arg(program.layers)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What is said of a program that was written, or was not.
+// The message about a program that was written, or was not.
 #pragma once
 
 #include "core/session.h"

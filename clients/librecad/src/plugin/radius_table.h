@@ -37,7 +37,7 @@ public:
 private:
     void choose();
     QString unit() const;
-    /// The worst of what was found on a segment. Of more findings than are sent, a verdict counts as its rule does elsewhere.
+    /// The worst of what was found on a segment. Of findings that are not sent, the severity is that of their rule elsewhere.
     bool severityOf(const Row &row, Severity *severity) const;
     void recolour();
 

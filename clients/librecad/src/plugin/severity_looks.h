@@ -28,7 +28,7 @@ inline Look lookOf(Severity severity)
     return {QColor(70, 70, 70), QColor(236, 236, 236)};
 }
 
-/// Of what was found before the drawing changed: no colour says anything of it.
+/// For findings from before the drawing changed: no colour of a severity.
 inline Look staleLook()
 {
     return {QColor(130, 130, 130), QColor(244, 244, 244)};

@@ -23,20 +23,20 @@ using Data = QHash<int, QVariant>;
 /// The colours of marks and of the wire's path, 24 bits.
 constexpr int MARK_COLOUR = 0xff00ff;
 constexpr int PATH_COLOUR = 0x00a0ff;
-/// Starting points are marked by the letter O: longer texts are none.
+/// Start holes are marked by the letter O; a longer text is no mark.
 constexpr int LONGEST_START_MARK = 64;
-/// Adding one vertex to a polyline makes LibreCAD 2.2.0 look at all before it, so a polyline takes the square of its size:
-/// so many ns for each pair. Measured, see the README.
+/// Adding one vertex to a polyline makes LibreCAD 2.2.0 look at all before it, so the cost of a polyline grows with the square of its size:
+/// ns for each pair of vertices. Measured, see the README.
 constexpr double NS_PER_PAIR = 80;
-/// What is read back may differ by so much from what was written, in drawing units and degrees.
+/// What is read back may differ by this much from what was written, in drawing units and degrees.
 constexpr double ARRIVED = 1e-8;
-/// So many entities are read between two looks at the clock.
+/// The number of entities that are read between two looks at the clock.
 constexpr int AT_ONCE = 256;
 /// Values of $INSUNITS.
 constexpr int INSUNITS_INCH = 1;
 constexpr int INSUNITS_MM = 4;
 
-/// The wrappers that the host hands out belong to whoever asked for them.
+/// The wrappers that the host returns belong to the caller.
 class Entities {
 public:
     explicit Entities(Document_Interface &drawing) { drawing.getAllEntities(&m_list, true); }
@@ -263,7 +263,7 @@ void addCircle(Document_Interface &drawing, const QPointF &centre, double radius
     add(drawing, circle, look);
 }
 
-/// Whether `found` is `meant` within what passes through LibreCAD's angles and centres.
+/// Whether `found` is `meant` within the rounding of LibreCAD's angles and centres.
 bool arrived(const Entity &meant, const Entity &found)
 {
     const auto close = [](double one, double other) { return std::abs(one - other) <= ARRIVED + NOISE_RELATIVE * std::abs(one); };
@@ -291,7 +291,7 @@ Snapshot takeSnapshot(Document_Interface &drawing)
 
 void SlicedSnapshot::read(Document_Interface &drawing, qint64 milliseconds)
 {
-    // The wrappers live as long as the call.
+    // The wrappers live until the end of the call.
     const Entities entities(drawing);
     QElapsedTimer clock;
     clock.start();
@@ -356,7 +356,7 @@ bool applyRepair(Document_Interface &drawing, const Repair &repair, QString *fai
     for (const Entity &entity : qAsConst(changed))
         touched.insert(repair.before.at(before.value(entity.handle)).identity);
 
-    // Everything is known to fit before anything is touched.
+    // Everything is checked before anything is changed.
     const Entities entities(drawing);
     QHash<quint64, Plug_Entity *> wrappers;
     QHash<quint64, Data> looks;
@@ -413,7 +413,7 @@ bool applyRepair(Document_Interface &drawing, const Repair &repair, QString *fai
     if (changed.isEmpty() && fresh.isEmpty())
         return true;
 
-    // What LibreCAD has made of it is read again and held against what was meant.
+    // What LibreCAD has made of it is read back and compared with what was meant.
     const Entities result(drawing);
     QVector<bool> there(changed.size() + fresh.size(), false);
     const QVector<Entity> meant = changed + fresh;
@@ -454,7 +454,7 @@ qint64 rebuildTime(const Repair &repair)
 
 void drawMarks(Document_Interface &drawing, const QVector<QPointF> &places, double radius)
 {
-    // No layer for nothing.
+    // No layer is made where nothing is drawn.
     if (places.isEmpty())
         return;
     const Data look = ownLook(drawing, MARK_LAYER, MARK_COLOUR, "SolidLine");

@@ -28,7 +28,7 @@ struct Snapshot {
 /// Everything visible that can be cut. Entities on layers that are off cannot be told from deleted ones and are left out.
 Snapshot takeSnapshot(Document_Interface &drawing);
 
-/// The same, taken in several calls of the plugin, between which the host goes on. It is for the caller to see that the drawing stays
+/// The same, taken in several calls of the plugin, between which the host goes on. The caller must see to it that the drawing stays
 /// as it is meanwhile; only a drawing that has grown or shrunk is noticed here, and read from its beginning.
 class SlicedSnapshot {
 public:

@@ -44,7 +44,7 @@ bool commandIsRunning()
     return !prompt || prompt->text() != QCoreApplication::translate("QG_CommandWidget", idle);
 }
 
-/// The constructors of RS_Vector are not to be had from outside of LibreCAD.
+/// The constructors of RS_Vector are not exported by LibreCAD.
 RS_Vector vector(double x, double y)
 {
     RS_Vector result;
@@ -54,7 +54,7 @@ RS_Vector vector(double x, double y)
     return result;
 }
 
-/// The function that hands it out is not to be had from outside of LibreCAD.
+/// The function that returns it is not exported by LibreCAD.
 struct Viewed : RS_GraphicView {
     static RS_EntityContainer *of(RS_GraphicView &view) { return view.*&Viewed::container; }
 };

@@ -10,14 +10,14 @@ class QWidget;
 
 namespace wedm {
 
-/// How many changes of a drawing can be undone and done again: another count is another drawing.
+/// The numbers of changes that can be undone and redone: where they differ, the drawing has changed.
 struct ChangeCount {
     int undo = -1;
     int redo = -1;
     bool operator==(const ChangeCount &other) const { return undo == other.undo && redo == other.redo; }
 };
 
-/// That of the drawing in `window`; −1 and −1 where it is not known.
+/// The counts of the drawing in `window`; both −1 where they are not known.
 ChangeCount changesOf(QMdiSubWindow *window);
 
 /// Zooms `window` so that `half` drawing units are seen to each side of `centre`.
@@ -27,8 +27,8 @@ bool zoomTo(QMdiSubWindow *window, const QPointF &centre, double half);
 /// Does nothing while a command of LibreCAD is running, which would take the click for its own.
 void selectInMiddle(QMdiSubWindow *window);
 
-/// Keeps LibreCAD from painting the drawing of `window` again, which it wants after each call of a plugin; at the end all is as it was.
-/// What it wants is remembered by LibreCAD and done with the next painting.
+/// Keeps LibreCAD from repainting the drawing of `window`, which it does after each call of a plugin; ends with the object.
+/// LibreCAD remembers the request and does it with the next repaint.
 class HeldPainting {
 public:
     explicit HeldPainting(QMdiSubWindow *window);

@@ -277,7 +277,7 @@ QString Driver::checked()
     QProcess server;
     server.start(qEnvironmentVariable("WEDM"), {"check", "--side", "opening", "--output", "concise", m_file});
     server.waitForFinished(PATIENCE);
-    // That something on the layer of the path is not cut is said, and no finding on the drawing.
+    // The note that something on the layer of the path is not cut is no finding about the drawing.
     QStringList lines = QString::fromUtf8(server.readAllStandardOutput()).split('\n');
     lines.erase(std::remove_if(lines.begin(), lines.end(), [](const QString &line) { return line.contains("WEDM_PATH") || line.contains("checked:"); }), lines.end());
     return lines.join('\n');

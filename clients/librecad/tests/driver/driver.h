@@ -12,7 +12,7 @@
 
 class QAction;
 
-/// Longer than anything takes here, also on a busy machine with a server that is not optimised, in ms: what is waited for goes on when it is there.
+/// Longer than anything takes here, also on a busy machine with a server that is not optimised, in ms: a wait ends as soon as its condition holds.
 constexpr int PATIENCE = 90000;
 
 class Driver : public QObject {
@@ -54,7 +54,7 @@ private:
     void choose(const QString &menuEntry);
     void press(const QString &hostAction);
     void type(const QString &line);
-    /// Acts once the message in the dock holds these words; for commands that ask in a loop of their own.
+    /// Acts once the message in the dock contains these words; for commands that run an event loop of their own.
     void whenAsked(const QString &words, std::function<void()> act);
     /// Takes the message away that stands in the dock, so that the next one is seen to come.
     void forgetMessage();
@@ -99,7 +99,7 @@ public:
     explicit Blocks(QObject *parent);
     qint64 longest() const { return m_longest; }
     qint64 painting() const { return m_painting; }
-    /// The longest single thing that was no painting of the drawing.
+    /// The longest single event that was no painting of the drawing.
     qint64 other() const { return m_other; }
     void restart();
 

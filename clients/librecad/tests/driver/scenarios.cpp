@@ -599,7 +599,7 @@ void Driver::large()
         expect("a look is broken off when somebody types", number("looks") == looks, QString::number(number("slices")));
         expectSoon("and taken when they rest", [&] { return number("looks") > looks; }, {}, LONG);
     }
-    // A server that does not answer at all holds nothing up: were anything waited for, this would never end.
+    // A server that does not answer at all blocks nothing: if anything waited for it, this would never end.
     const pid_t server = pid_t(controller()->property("serverProcessId").toLongLong());
     ::kill(server, SIGSTOP);
     blocks.restart();
@@ -641,7 +641,7 @@ void Driver::zoom()
     expect("nothing but the deletion is to undo", !action("EditUndo")->isEnabled());
 }
 
-/// Somebody else has the mouse: only says, again and again, what can be clicked where and what can be read.
+/// Somebody else has the mouse: only reports, again and again, what can be clicked where and what can be read.
 void Driver::watch()
 {
     const QString folder = qEnvironmentVariable("WEDM_TEST_FOLDER");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The core apart from LibreCAD: framing, differences, messages, the search for the server, and the talk with the real one.
+// The core apart from LibreCAD: framing, differences, messages, the search for the server, and sessions with the real one.
 #include "core/connection.h"
 #include "core/difference.h"
 #include "core/kept_hole.h"
@@ -93,7 +93,7 @@ QStringList described(const QVector<Change> &changes)
     return result;
 }
 
-/// A session with what it has said.
+/// A session with the signals that it has sent.
 struct Talk {
     Session session;
     QSignalSpy states{&session, &Session::stateChanged};
@@ -338,7 +338,7 @@ private slots:
             return found.isEmpty() ? message : found;
         };
         const QString nowhere = look("");
-        // A relative folder of PATH leads wherever LibreCAD was started.
+        // A relative folder of PATH depends on where LibreCAD was started.
         const QString workedIn = QDir::currentPath();
         QDir::setCurrent(path.path());
         QDir(path.path()).mkpath("bin");

@@ -78,7 +78,7 @@ from .shown import Rows
 
 __version__ = "0.1.0"
 
-# Python passes over warnings of forgotten things unless it is told otherwise; a repair that is lost is worth a line.
+# Python ignores resource warnings by default; a repair that is lost is worth a line.
 if not sys.warnoptions:
     warnings.simplefilter("default", NotSaved)
 

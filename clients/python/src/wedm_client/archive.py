@@ -1,7 +1,7 @@
 """Whole archives: files checked by as many workers as an executor has, here or on a cluster.
 
 A worker runs ``wedm check`` over a handful of files at a time. That keeps nothing alive between them: a worker may be a thread, a
-process or another machine, and one that dies takes only its own handful along. How many run at once is for the executor to say,
+process or another machine, and one that dies loses only its own handful. How many run at once is up to the executor,
 so each ``wedm`` uses one thread.
 """
 
@@ -31,7 +31,7 @@ _SUFFIXES = frozenset({".dxf", ".dxb", ".3b", ".4b", ".iso", ".nc"})
 
 @dataclass(frozen=True)
 class Checked(Value):
-    """What was found in one file; ``error`` says why it could not be looked at."""
+    """What was found in one file; ``error`` says why it could not be checked."""
 
     path: str
     diagnostics: Findings = field(default_factory=Findings)
@@ -39,16 +39,16 @@ class Checked(Value):
 
     @property
     def errors(self) -> list[Diagnostic]:
-        """What spoils the part: no program is made while it stands."""
+        """The errors, which spoil the part: no program is made while there is one."""
         return self.diagnostics.errors
 
     @property
     def warnings(self) -> list[Diagnostic]:
-        """What to look at before it is cut."""
+        """The warnings, to be looked at before the part is cut."""
         return self.diagnostics.warnings
 
     def row(self) -> dict[str, Any]:
-        """What a table shows of it."""
+        """The row of a table for it."""
         first = self.error or (str((self.errors or self.diagnostics)[0]) if self.diagnostics else None)
         return {"file": self.path, "ok": self.ok, "errors": len(self.errors), "warnings": len(self.warnings), "first": first}
 
@@ -82,12 +82,12 @@ def check_many(
     :param paths: files and folders; of a folder all drawings and programs below it.
     :param executor: any executor of :mod:`concurrent.futures`: processes, or a Dask or Ray cluster. Without one, a thread for
         each core. Workers on other machines must see the files under the same paths.
-    :param correction: mm, over all other settings.
-    :param side: where the wire runs, over all other settings.
-    :param config: a settings file, over the ``wedm.toml`` above each file.
+    :param correction: mm; overrides all other settings.
+    :param side: where the wire runs; overrides all other settings.
+    :param config: a settings file, which overrides the ``wedm.toml`` above each file.
     :param command: the program; without it each worker looks for it by itself, as :func:`wedm_client.find` does.
     :param chunk: how many files a worker takes at a time.
-    :param timeout: seconds for one file; a handful has as many times more.
+    :param timeout: seconds for one file; a handful has that for each of its files.
     :param progress: called with the number of files done and of all files, on the calling thread.
     :raises ServerNotFound: there is no program (without ``executor``; a worker of an executor says so in ``Checked.error``).
     """

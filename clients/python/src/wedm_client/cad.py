@@ -21,7 +21,7 @@ def entities_from(source: Iterable[Any] | Any) -> tuple[list[Entity], dict[str, 
     """The entities of a list, and those of them that came from ezdxf, by handle.
 
     The list holds entities of this package, dictionaries of the protocol's form, lists of vertices (closed polylines) and entities
-    of ezdxf, in any mixture; a single list of vertices is one closed polyline. Who has no handle gets one: its number in the list.
+    of ezdxf, in any mixture; a single list of vertices is one closed polyline. An entity without a handle gets one: its number in the list.
     """
     items = list(source)
     if items and _is_vertex(items[0]):
@@ -43,7 +43,7 @@ _UNITS: dict[int, Units | None] = {0: None, 1: "inch", 4: "mm"}
 
 
 def units_of(sources: Iterable[Any]) -> Units | None:
-    """The units of the documents that the entities of ezdxf belong to; None where none says any.
+    """The units of the documents that the entities of ezdxf belong to; None where none of them states any.
 
     :raises UnsupportedUnits: they are neither millimetres nor inches, or not the same for all.
     """
@@ -84,7 +84,7 @@ def _from_ezdxf(entity: Any) -> Entity:
     kind = entity.dxftype()
     handle = str(entity.dxf.handle or "")
     layer = str(entity.dxf.layer)
-    # A mirror about the y axis lies between the plane of an entity that is seen from below and the drawing's.
+    # The plane of an entity that is seen from below is that of the drawing mirrored about the y axis.
     mirrored = kind != "LINE" and _is_seen_from_below(entity, kind, handle)
     sign = -1.0 if mirrored else 1.0
 

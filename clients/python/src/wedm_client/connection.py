@@ -1,4 +1,4 @@
-"""One process of the server, and the talk with it over its pipes. What is open in it is not known here."""
+"""One process of the server, and the messages over its pipes. It does not know which documents are open."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class Died(Exception):
 
 
 # Messages whose params or results stay as JSON gives them: the name space wedm/, and what is turned into own types.
-# No key has a default: the converter leaves out what equals one.
+# No key has a default: the converter would leave out a value that equals it.
 @attrs.define
 class _Request:
     id: int | str
@@ -231,11 +231,11 @@ class Connection:
             self._check_settings(timeout)
 
     def _check_settings(self, timeout: float) -> None:
-        """What the server has to say of the settings it shows before it answers the next request."""
+        """The server reports what is wrong with the settings before it answers the next request."""
         try:
             self.request("wedm/settings", {"uri": "wedm-client:settings"}, timeout)
         except RequestFailed:
-            # There is no such document, and the answer is not what is wanted.
+            # There is no such document; the answer does not matter.
             pass
         if self._shown:
             raise WrongSettings("\n".join(self._shown))
@@ -275,7 +275,7 @@ class Connection:
         self._loop.soon(send)
         try:
             answer = sent.result(timeout)
-            # The end may have come between the look at it and the sending.
+            # The process may have ended between the check and the sending.
             if self.ended and not answer.done():
                 raise Died
             return answer.result(timeout)
@@ -288,7 +288,7 @@ class Connection:
             raise Died from None
 
     def notify(self, method: str, params: Any) -> None:
-        """Sends a notification. One that does not arrive shows in the end of the process."""
+        """Sends a notification. If it does not arrive, the process has ended, which is noticed elsewhere."""
 
         def send() -> None:
             if not self.ended:
@@ -306,7 +306,7 @@ class Connection:
             self._loop.soon(_kill, process)
 
     def close(self) -> None:
-        """Ends the process as the protocol wants, and by force when it does not listen."""
+        """Ends the process as the protocol wants, and by force when it does not react."""
         try:
             if not self.ended and self._client._server is not None:
                 self.request(types.SHUTDOWN, None, 5)

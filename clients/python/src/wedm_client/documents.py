@@ -1,4 +1,4 @@
-"""Open documents: what the server was told, held so that it can be told again. Nothing here speaks to a server."""
+"""Open documents: what the server was sent, kept so that it can be sent again. Nothing here speaks to a server."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _CODE_PAGE = re.compile(rb"\$DWGCODEPAGE\s+3\s+(\S+)")
 
 
 class Asked(Protocol):
-    """What a document asks of the server that it is open in."""
+    """What a document needs of the server that it is open in."""
 
     def diagnostics(self, document: Document) -> Findings: ...
     def fix(self, document: Document, diagnostic: Diagnostic | None = None) -> Fixed: ...
@@ -138,7 +138,7 @@ class Document:
         self._server.close_document(self)
 
     def _forgotten(self) -> str | None:
-        """What was forgotten about a document that is closed now."""
+        """The warning about a document that was closed with repairs that nobody has saved."""
         return None
 
     def _repr_svg_(self) -> str | None:
@@ -201,7 +201,7 @@ class Drawing(Document):
 
 
 def write_back(drawing: Drawing) -> int:
-    """Gives the entities of ezdxf that the drawing was opened from the geometry that it has now.
+    """Updates the entities of ezdxf that the drawing was opened from to its present geometry.
 
     Those that a repair has deleted are destroyed. Handles, layers, colours and all else stay. Returns how many were changed.
     """
@@ -259,7 +259,7 @@ class TextDocument(Document):
 
     @property
     def text(self) -> str:
-        """The text as it is now, repairs included. Who takes it has it: closing the document no longer warns that it was not saved."""
+        """The text as it is now, repairs included. Reading it counts as saving: closing the document no longer warns."""
         self._repaired = False
         return self._told()
 

@@ -29,7 +29,7 @@ class WrongSettings(WedmError, ValueError):
 
 
 class ServerDied(WedmError):
-    """The server ended again and again; its last words are in the message."""
+    """The server ended again and again; the end of its log is in the message."""
 
 
 class NoAnswer(WedmError, TimeoutError):
@@ -54,7 +54,7 @@ class RequestFailed(WedmError):
 
 
 class Refused(RequestFailed):
-    """The drawing does not allow what was asked for (-32803); ``diagnostics`` says why where findings are the reason."""
+    """The drawing does not allow what was asked for (-32803); ``diagnostics`` holds the findings that are the reason, if they are."""
 
     def __init__(self, message: str, code: int, data: Any, diagnostics: list[Diagnostic]) -> None:
         super().__init__(message, code, data)
@@ -62,4 +62,4 @@ class Refused(RequestFailed):
 
 
 class Outdated(RequestFailed):
-    """The document has moved on since the request or the repair was made (-32801); nothing was changed."""
+    """The document has changed since the request or the repair was made (-32801); nothing was changed."""

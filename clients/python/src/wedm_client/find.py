@@ -24,7 +24,8 @@ def find(command: str | os.PathLike[str] | Sequence[str | os.PathLike[str]] | No
     """The command that starts the server.
 
     ``command`` is a path, the name of a program on the PATH, or a program with its arguments. Without it the environment
-    variable ``WEDM`` is asked, then the folder of this Python's programs, then the PATH, then ``~/.cargo/bin``, which notebooks and services often have not on theirs.
+    variable ``WEDM`` names it; else it is looked for in the folder of this Python's programs, on the PATH, and in ``~/.cargo/bin``,
+    which is often not on the PATH of notebooks and services.
 
     :raises ServerNotFound: there is none; the message says where it was looked for and how to get it.
     """
@@ -60,6 +61,6 @@ def _program(named: str, by: str) -> str:
 
 
 def _on_path(name: str) -> str | None:
-    """A program in a folder of the PATH. One that is relative leads wherever somebody works: it is passed over."""
+    """A program in a folder of the PATH. A relative one depends on the current folder: it is skipped."""
     folders = [folder for folder in os.environ.get("PATH", "").split(os.pathsep) if os.path.isabs(folder)]
     return next((found for folder in folders if (found := shutil.which(os.path.join(folder, name))) is not None), None)

@@ -1,4 +1,4 @@
-"""How often a server that ends is started again, and how long it is left alone before.
+"""How often a server that ends is started again, and after what pause.
 
 "When the server ends" in docs/protocol.md is the same for every client.
 """
@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 _PAUSES = (0.0, 0.5, 1.0, 2.0, 4.0)
-# Seconds. A server that has lived so long is not blamed for what came before.
+# Seconds. After a server that has lived this long, the count of ends in a row begins anew.
 _SOUND_LIFE = 60.0
 
 #: Ends in a row after which it is not started again.
@@ -32,5 +32,5 @@ class Restarts:
         return _PAUSES[self._ends - 1]
 
     def reset(self) -> None:
-        """Another start is wanted: what was before does not count."""
+        """Another start is wanted: earlier ends no longer count."""
         self._ends = 0

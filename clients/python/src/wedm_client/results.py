@@ -36,8 +36,8 @@ T = TypeVar("T")
 class Diagnostic(Value):
     """A finding: the rule, its numbers, and the place.
 
-    ``line`` and ``column`` count from 1 and are there for text documents; in a drawing ``handle`` and ``segment`` say the place.
-    ``data`` holds everything that the protocol says of the finding.
+    ``line`` and ``column`` count from 1 and are there for text documents; in a drawing ``handle`` and ``segment`` give the place.
+    ``data`` holds all data of the finding in the protocol.
     """
 
     rule: str
@@ -52,7 +52,7 @@ class Diagnostic(Value):
 
     @property
     def handle(self) -> str | None:
-        """The entity's handle, of a finding on a segment."""
+        """The entity's handle, for a finding on a segment."""
         handle = self.data.get("handle")
         return handle if isinstance(handle, str) else None
 
@@ -77,7 +77,7 @@ class Diagnostic(Value):
         return float(value) if isinstance(value, (int, float)) else None
 
     def row(self) -> dict[str, Any]:
-        """What a table shows of it."""
+        """The row of a table for it."""
         named = {"severity": self.severity, "rule": self.rule, "line": self.line, "handle": self.handle, "segment": self.segment}
         return {**named, "radius": self.radius, "required": self.required, "message": self.message}
 
@@ -96,12 +96,12 @@ class Findings(Rows[Diagnostic]):
 
     @property
     def errors(self) -> list[Diagnostic]:
-        """Those that spoil the part: no program is made while they stand."""
+        """The errors, which spoil the part: no program is made while there is one."""
         return [one for one in self if one.severity == "error"]
 
     @property
     def warnings(self) -> list[Diagnostic]:
-        """Those to look at before it is cut."""
+        """The warnings, to be looked at before the part is cut."""
         return [one for one in self if one.severity == "warning"]
 
     def __str__(self) -> str:
@@ -168,7 +168,7 @@ class Inspection(Tabled):
 
 @dataclass(frozen=True)
 class ContourPiece(Value):
-    """A segment as the contour travels it; ``reversed`` is against its entity's own direction."""
+    """A segment in the direction of the contour; ``reversed`` if that is against its entity's own direction."""
 
     handle: str
     segment: int
@@ -185,7 +185,7 @@ class ContourPiece(Value):
 
 @dataclass(frozen=True)
 class Gap(Value):
-    """Two ends that lay apart and were taken as one, behind the segment with index ``after``."""
+    """Two ends that lay apart and were joined, after the segment with index ``after``."""
 
     after: int
     distance: float
@@ -265,7 +265,7 @@ class WirePath(Value):
     segments: list[PathPiece]
     # `pass` in the protocol.
     pass_number: int = 1
-    # Of a closed contour.
+    # For a closed contour.
     direction: Direction | None = None
 
     @property
@@ -274,7 +274,7 @@ class WirePath(Value):
         return any(piece.source == "cut-off" for piece in self.segments)
 
     def row(self) -> dict[str, Any]:
-        """What a table shows of it."""
+        """The row of a table for it."""
         return {
             "contour": self.contour,
             "pass": self.pass_number,
@@ -299,7 +299,7 @@ class StartHole(Value):
 
 @dataclass(frozen=True)
 class WorkCut(Value):
-    """One pass along a contour: mm, leads included, and what it takes."""
+    """One pass along a contour: its length in mm, leads included, and how long it takes."""
 
     contour: str
     length: float
@@ -311,7 +311,7 @@ class WorkCut(Value):
 
 @dataclass(frozen=True)
 class Slug(Value):
-    """What drops out of an opening: ``mass`` is g of steel."""
+    """The slug that drops out of an opening: ``mass`` in g of steel."""
 
     contour: str
     mass: float
@@ -319,7 +319,7 @@ class Slug(Value):
 
 @dataclass(frozen=True)
 class LargestWire(Value):
-    """The thickest wire that still cuts every arc, mm, and the arc that says so."""
+    """The thickest wire that still cuts every arc, mm, and the arc that limits it."""
 
     diameter: float
     radius: float
@@ -329,7 +329,7 @@ class LargestWire(Value):
 
 @dataclass(frozen=True)
 class Work(Value):
-    """What cuts come to on the machine. Keys of the settings that are not set, and that the rest would need, are ``missing``."""
+    """The figures of cutting on the machine. ``missing`` lists the keys of the settings that the absent figures need."""
 
     cuts: list[WorkCut]
     length: float
@@ -368,7 +368,7 @@ class Closure(Value):
 
 @dataclass(frozen=True)
 class FinishedPart(Value):
-    """What all passes leave of a drawing's contours: mm that stay beyond them at most, and where, and mm cut beyond them."""
+    """What all passes leave along a drawing's contours: how much material stays at most, mm, and where, and how much is cut too deep, mm."""
 
     uncut: float
     at: Point
@@ -385,11 +385,11 @@ class Floor(Value):
 
 @dataclass(frozen=True)
 class MilledContour(Value):
-    """What milling one contour comes to, mm: ``depth`` (the mean), ``floor`` and ``worn`` are simulated."""
+    """The figures of milling one contour, mm: ``depth`` (the mean), ``floor`` and ``worn`` are simulated."""
 
     contour: str
     length: float
-    #: By how much the electrode gets shorter in a layer, as a share of its height.
+    #: By how much the electrode gets shorter in a layer, as a share of the layer's height.
     wear_of_layer: float
     feed: float
     last_feed: float
@@ -397,13 +397,13 @@ class MilledContour(Value):
     depth: float
     floor: Floor
     worn: float
-    #: On each mm of the way, where the wear is compensated linearly.
+    #: Per mm of the path, where the wear is compensated linearly.
     feed_along: float | None = None
 
 
 @dataclass(frozen=True)
 class Milling(Value):
-    """The layers of an electrode, mm, and what comes of them."""
+    """The layers of an electrode, mm, and the depth that they reach."""
 
     correction: float
     layers: int
@@ -415,7 +415,7 @@ class Milling(Value):
 
 @dataclass(frozen=True)
 class Program(Value):
-    """A program for the machine, decoded again by the server before it was handed out. ``length`` is mm, ``deviation`` µm."""
+    """A program for the machine, decoded again by the server before it was returned. ``length`` is mm, ``deviation`` µm."""
 
     text: str
     blocks: int
@@ -424,7 +424,7 @@ class Program(Value):
     deviation: float = 0.0
     #: Where the wire is threaded first, drawing units; an electrode that mills is threaded nowhere.
     thread_hole: Point | None = None
-    #: Of the ways without a cut between contours, mm; ``length`` is without them.
+    #: The length of the ways without a cut between contours, mm; ``length`` excludes them.
     jumps: float = 0.0
     finished: FinishedPart | None = None
     milling: Milling | None = None
@@ -438,7 +438,7 @@ class Program(Value):
         write_beside(Path(path), self.text.encode("utf-8"))
 
     def row(self) -> dict[str, Any]:
-        """What a table shows of it."""
+        """The row of a table for it."""
         shown = {"blocks": self.blocks, "length": self.length, "deviation µm": self.deviation, "warnings": len(self.warnings)}
         left = {"uncut": self.finished.uncut, "overcut": self.finished.overcut} if self.finished is not None else {}
         return {**shown, **left}
@@ -509,13 +509,13 @@ class PairProgram(Program):
     """The program of one part of a pair: ``punch``, ``plate``, ``stripper``, ``holder``, or the name of a workpiece."""
 
     part: str = ""
-    # Of each pass, mm.
+    # One for each pass, mm.
     corrections: list[float] = field(default_factory=list)
     # The wire runs on the other side of what is drawn.
     other_side: bool = False
 
     def row(self) -> dict[str, Any]:
-        """What a table shows of it."""
+        """The row of a table for it."""
         return {"part": self.part, "corrections": self.corrections, "other side": self.other_side, **super().row()}
 
     def __repr__(self) -> str:
@@ -531,8 +531,8 @@ class PairPrograms(Value):
 class SimulatedBlock(Value):
     """A block or word of a program and where it takes the machine; points and deviation are µm, ``line`` counts from 1.
 
-    ``kind`` is ``line``, ``arc``, ``rapid``, ``pause`` or ``end``. ``end`` is where the machine stops, ``ideal_end`` where the line or
-    arc ends that the block means, ``deviation`` the way from one to the other.
+    ``kind`` is ``line``, ``arc``, ``rapid``, ``pause`` or ``end``. ``end`` is where the machine gets to, ``ideal_end`` where the line or
+    arc ends that the block means, ``deviation`` the distance between the two.
     """
 
     line: int
@@ -546,7 +546,7 @@ class SimulatedBlock(Value):
     center: Point | None = None
     radius: float | None = None
     sweep: float | None = None
-    # Of the wire where it leans.
+    # For an inclined wire.
     upper_end: Point | None = None
 
 
@@ -565,9 +565,9 @@ class Simulation(Tabled):
     blocks: list[SimulatedBlock]
     closure: Closure
     length: float
-    #: What is cut, mm.
+    #: The length that is cut, mm.
     cut: float = 0.0
-    #: The ways without a cut, mm.
+    #: The length of the ways without a cut, mm.
     jumps: float = 0.0
     deviation: float = 0.0
     start_is_known: bool = False
@@ -615,7 +615,7 @@ class SegmentShape(Value):
 class Repair(Value):
     """What a repair would bring: the segments that were not there before."""
 
-    #: That of its code action.
+    #: The title of its code action.
     title: str
     segments: list[SegmentShape]
 
@@ -627,17 +627,17 @@ class Repairs(Value):
 
 @dataclass(frozen=True)
 class SettingsInForce(Value):
-    """The correction that radii of a document are held against, mm, and which level of settings it comes from."""
+    """The correction that radii of a document are checked against, mm, and which level of settings it comes from."""
 
     correction: float
-    #: That of each pass.
+    #: The correction of each pass.
     corrections: list[float]
     #: ``default``, ``client`` or ``file``.
     correction_from: CorrectionSource
     side: Side
     #: URI of the ``wedm.toml`` that holds, if there is one.
     file: str | None = None
-    #: What is said of single contours of this drawing, by the handle of an entity or by a point.
+    #: Settings for single contours of this drawing, by the handle of an entity or by a point.
     contours: dict[str, dict[str, Any]] = field(default_factory=dict)
 
 
@@ -660,13 +660,13 @@ class Picture(Value):
 
 @dataclass(frozen=True)
 class Fixed(Tabled):
-    """What stood in the document before and after the repairs."""
+    """The findings of the document before and after the repairs."""
 
     before: Findings
     after: Findings
 
     def rows(self) -> list[dict[str, Any]]:
-        """A row for each finding, those that are left behind those that are gone."""
+        """A row for each finding, those that are left after those that are gone."""
         gone = [one for one in self.before if one not in self.after]
         return [{"is": "repaired", **one.row()} for one in gone] + [{"is": "left", **one.row()} for one in self.after]
 
@@ -679,7 +679,7 @@ class Fixed(Tabled):
 
 
 def write_beside(path: Path, content: bytes) -> None:
-    """Writes the content to a new file beside ``path`` and renames it: nobody ever sees half a file.
+    """Writes the content to a new file beside ``path`` and renames it: nobody ever reads half a file.
 
     Owner and rights of a file that stands there are kept, and a link stays a link.
 
@@ -732,7 +732,7 @@ def _converter() -> cattrs.Converter:
 
     converter.register_structure_hook_factory(is_dataclass, structure)
     converter.register_structure_hook(Point, lambda value, _: Point(float(value[0]), float(value[1])))
-    # A word that a newer server knows is handed on.
+    # A word that only a newer server knows is passed on.
     converter.register_structure_hook_func(_is_literal, lambda value, _: value)
     converter.register_structure_hook(Diagnostic, lambda value, _: diagnostic_from_json(value, None))
     return converter

@@ -60,7 +60,7 @@ Source = Union[str, "os.PathLike[str]", Iterable[Any], Any]
 
 # A repair may make room for the next one; no drawing has needed more than a few rounds.
 _MOST_ROUNDS = 50
-# A repair that the document has overtaken is asked for again so often.
+# How often a repair is asked for again because the document has changed meanwhile.
 _MOST_TRIES = 5
 
 
@@ -87,7 +87,7 @@ class Server:
     :param command: the program, or the program with its arguments; without it see :func:`wedm_client.find`.
     :param settings: settings for all documents; a ``wedm.toml`` above a file wins over them. What is wrong in one is a warning of
         the logger ``wedm_client``.
-    :param folder: where ``wedm.toml`` is looked for on behalf of drawings that are no files; the current folder by default.
+    :param folder: where the ``wedm.toml`` for drawings that are no files is looked for; the current folder by default.
     :param timeout: seconds that an answer may take.
     :raises ServerNotFound: there is no program.
     :raises WrongProtocol: the program is another version.
@@ -125,7 +125,7 @@ class Server:
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
-        # Who was stopped by an exception has not forgotten.
+        # A block that an exception has left needs no warning.
         self._close(warns=error is None)
 
     def __repr__(self) -> str:
@@ -135,7 +135,7 @@ class Server:
 
     @property
     def version(self) -> str:
-        """The version that the server gives itself."""
+        """The version that the server states."""
         return self._live().server_version
 
     @property
@@ -144,7 +144,7 @@ class Server:
         return self._live().pid
 
     def close(self) -> None:
-        """Ends the server. Documents are no longer open; what they hold stays readable. Repairs that nobody has saved are warned of."""
+        """Ends the server. Documents are no longer open; what they hold stays readable. Warns of repairs that nobody has saved."""
         self._close(warns=True)
 
     def _close(self, warns: bool) -> None:
@@ -179,9 +179,9 @@ class Server:
 
         :param source: the path of a DXF, 3B or ISO file; or a list of entities (of this package, dictionaries of the protocol's form,
             lists of vertices, entities of ezdxf) in machining order; or one list of vertices; or a document of ezdxf as a whole.
-        :param units: of a list; without it those of the ezdxf document that the entities belong to, else those of the settings hold.
+        :param units: of a list; by default those of the ezdxf document that the entities belong to, else those of the settings.
         :raises UnsupportedUnits: the ezdxf document is drawn in neither millimetres nor inches, or the entities come from documents of
-            different units; say ``units``, or open the document as a whole.
+            different units; state ``units``, or open the document as a whole.
         :raises OSError: the file cannot be read.
         """
         if isinstance(source, (str, os.PathLike)):
@@ -213,14 +213,14 @@ class Server:
         with self._state:
             if document.uri in self._documents:
                 raise ValueError(f"{document.uri} is open already")
-            # What was published for another document of this name may still be on its way.
+            # Findings for an earlier document of this name may still be on their way.
             document.version = self._closed_at.pop(document.uri, 0) + 1
             self._documents[document.uri] = document
             self._send_open(connection, document)
         return document
 
     def close_document(self, document: Document) -> None:
-        """Closes the document in the server. Repairs that nobody has saved are warned of."""
+        """Closes the document in the server. Warns of repairs that nobody has saved."""
         with self._state:
             if self._documents.pop(document.uri, None) is None:
                 return
@@ -308,7 +308,7 @@ class Server:
         return base64.b64decode(answer["data"])
 
     def repairs(self, document: Document, rule: str, handle: str, segment: int | None = None) -> list[Repair]:
-        """What each repair of a finding in a drawing would bring, the preferred one first; none where the finding is not there any more."""
+        """The outcome of each repair of a finding in a drawing, the preferred one first; empty where the finding is gone."""
         place = {"rule": rule, "handle": handle, **({"segment": segment} if segment is not None else {})}
         return from_json(self._ask(document, "wedm/repairs", {**self._with(document, None), **place}), Repairs).repairs
 
@@ -326,10 +326,10 @@ class Server:
 
         :param format: its language; ``"milling"`` for an electrode, which takes the settings ``milling``.
         :param handles: only the contours that hold one of these entities.
-        :param layers: only the contours that have an entity on one of these layers; beside ``handles`` those of both.
+        :param layers: only the contours that have an entity on one of these layers; together with ``handles``, the contours of either.
         :param options: settings for this request only.
         :param force: also with errors in the drawing.
-        :raises Refused: errors stand in the drawing (its ``diagnostics``), or no path can be made.
+        :raises Refused: the drawing has errors (``diagnostics``), or no path can be made.
         """
         params = self._wanted(document, format, handles, layers, options, force)
         return from_json(self._ask(document, "wedm/generate", params), Program)
@@ -372,7 +372,7 @@ class Server:
     ) -> Rows[PairProgram]:
         """The programs of all parts of a pair, such as punch and plate; as :meth:`generate`.
 
-        :raises Refused: the parts do not fit (its ``diagnostics``), a key is missing, or no path can be made.
+        :raises Refused: the parts do not fit (``diagnostics``), a key is missing, or no path can be made.
         """
         params = self._wanted(document, format, handles, layers, options, force)
         return Rows(from_json(self._ask(document, "wedm/pair", params), PairPrograms).programs)
@@ -436,7 +436,7 @@ class Server:
         The settings file of the document holds, and ``options``: of these the correction, the side, and ``program`` with places for
         one contour.
 
-        :param force: although it has errors; blocks that lead nowhere are left out.
+        :param force: also with errors; blocks that lead nowhere are left out.
         :raises Refused: it has errors, or cannot be converted; the message says why.
         """
         return converted(self.command, program, self.settings(program).file, to, options or {}, force, self.timeout)
@@ -505,7 +505,7 @@ class Server:
         self._send_text_changes(document, changes)
 
     def format(self, program: TextDocument) -> bool:
-        """Brings a program into the layout that is set, else into that of most of its blocks. False where it stands so already."""
+        """Brings a program into the layout of the settings, else into that of most of its blocks. False where it has it already."""
         version = program.version
         options = types.FormattingOptions(tab_size=4, insert_spaces=True)
         params = types.DocumentFormattingParams(types.TextDocumentIdentifier(program.uri), options)
@@ -518,14 +518,14 @@ class Server:
         return True
 
     def scale(self, program: TextDocument, factor: float) -> None:
-        """Multiplies every length of a 3B program by the factor; contours close again.
+        """Multiplies every length of a 3B program by the factor; contours still close.
 
         :raises Refused: the program cannot be scaled, or the factor is out of range; the message says why.
         :raises Outdated: the program has changed meanwhile; nothing was changed.
         """
         params = types.ExecuteCommandParams("wedm.scale", [{"uri": program.uri, "factor": factor}])
         version = program.version
-        # A server that ends between the edit that it asks for and its answer must not have it made twice.
+        # If the server ends between its request for the edit and its answer, the edit must not be made twice.
         answer = self._ask(program, types.WORKSPACE_EXECUTE_COMMAND, params, lambda: program.version != version) or {"applied": True}
         if not answer.get("applied"):
             raise Outdated(str(answer.get("failureReason")), CONTENT_MODIFIED)
@@ -658,13 +658,13 @@ class Server:
                 return started
 
     def _pause_after(self, connection: Connection) -> None:
-        """Waits as long as a server that has ended is left alone.
+        """Waits for the pause before a server that has ended is started again.
 
         :raises ServerDied: it is not to be started again.
         """
         pause = self._restarts.after_life_of(connection.life)
         if pause is None:
-            # Another call tries anew.
+            # The next call tries again.
             self._restarts.reset()
             said = "".join(f"\n  {line}" for line in connection.said)
             raise ServerDied(
@@ -681,11 +681,11 @@ class Server:
             item = types.TextDocumentItem(document.uri, document.language, document.version, document._told())
             connection.notify(types.TEXT_DOCUMENT_DID_OPEN, types.DidOpenTextDocumentParams(item))
 
-    # Called on the thread that reads messages; only `_state` may be taken there.
+    # Called on the thread that reads messages; only the lock `_state` may be taken there.
 
     def _publish(self, connection: Connection, params: Mapping[str, Any]) -> None:
         with self._state:
-            # What a server that has died still had in its pipe is about documents that were opened anew since.
+            # Messages that are left in the pipe of a server that has died are about documents that have been opened again since.
             if params["uri"] not in self._documents:
                 self._warn_of(params)
             elif connection is self._connection:
@@ -729,7 +729,7 @@ class Server:
 def _warn_of_forgotten(document: Document) -> None:
     forgotten = document._forgotten()
     if forgotten is not None:
-        # The line of whoever closes is outside this package, however many calls away.
+        # The warning points to the line outside this package that has closed it, however many calls away.
         depth, frame = 1, sys._getframe()
         while frame.f_back is not None and frame.f_globals.get("__package__") == __package__:
             depth, frame = depth + 1, frame.f_back

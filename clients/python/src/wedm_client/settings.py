@@ -10,7 +10,7 @@ Side = Literal["both", "auto", "opening", "punch", "left", "right"]
 Units = Literal["mm", "inch"]
 RuleSeverity = Literal["error", "warning", "information", "hint", "off"]
 Place = Union[Sequence[float], Mapping[str, Sequence[float]]]
-"""A point (x, y) in drawing units, or one for each contour by the handle of one of its entities."""
+"""A point (x, y) in drawing units, or a table of points by the handle of an entity of each contour."""
 
 
 class Passes(TypedDict, total=False):
@@ -103,7 +103,7 @@ class Profile(TypedDict, total=False):
 
 
 class ContourSettings(TypedDict, total=False):
-    """What is said of one contour of one drawing."""
+    """Settings for one contour of one drawing."""
 
     side: Place
     thread: Place
@@ -112,7 +112,7 @@ class ContourSettings(TypedDict, total=False):
 
 
 class DrawingSettings(TypedDict, total=False):
-    """What is said of one drawing."""
+    """Settings for one drawing."""
 
     suppress: Mapping[str, Mapping[str, str]]
     contours: Mapping[str, ContourSettings]

@@ -28,7 +28,7 @@ class Value:
     """What every result can do beside holding its values."""
 
     def to_dict(self) -> dict[str, Any]:
-        """The values by the names of their fields, through and through: for JSON, or for a table of pandas."""
+        """The values by the names of their fields, nested ones too: for JSON, or for a table of pandas."""
         written: dict[str, Any] = plain(self)
         return written
 
@@ -45,7 +45,7 @@ class Tabled(Value):
 
 
 class Rows(list[T]):
-    """A list that a notebook shows as a table; in all else it is a list."""
+    """A list that a notebook shows as a table; otherwise it is a list."""
 
     def rows(self) -> list[dict[str, Any]]:
         """A row for each entry, by the names of the columns."""
@@ -60,14 +60,14 @@ class Rows(list[T]):
 
 
 def row(value: Any) -> dict[str, Any]:
-    """The row that stands for a value: its own where it has one, else its fields."""
+    """The row for a value: its own where it has one, else its fields."""
     own = getattr(value, "row", None)
     written: dict[str, Any] = own() if own is not None else plain(value)
     return written
 
 
 def table(rows: Sequence[Mapping[str, Any]]) -> str:
-    """The rows as a table of HTML. Columns in which nothing stands are left out; numbers stand right."""
+    """The rows as a table of HTML. Empty columns are left out; numbers are aligned right."""
     names = list(dict.fromkeys(name for one in rows for name, value in one.items() if value not in (None, "")))
     if not names:
         return "<p>nothing</p>"
@@ -103,5 +103,5 @@ def counted(number: int, name: str, names: str | None = None) -> str:
 
 
 def listed(parts: Iterable[str]) -> str:
-    """The parts that say something, with commas."""
+    """The parts that are not empty, with commas."""
     return ", ".join(part for part in parts if part)

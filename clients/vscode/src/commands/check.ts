@@ -60,7 +60,7 @@ export class PathCheck implements vscode.Disposable {
     await this.#say(target, list, outcome.errors);
   }
 
-  /** What VS Code has set, where no `wedm.toml` says otherwise: on the command line it would win over the file. */
+  /** The correction set in VS Code, unless a `wedm.toml` sets it: on the command line it would override the file. */
   async #settings(target: vscode.Uri): Promise<string[]> {
     try {
       const isFolder = ((await vscode.workspace.fs.stat(target)).type & vscode.FileType.Directory) !== 0;

@@ -1,4 +1,4 @@
-// Saves where the wire is threaded as the list for the drill, or as a drawing with the holes on a layer of their own.
+// Saves the start holes as a list for the drill, or as a drawing with the holes on a layer of their own.
 
 import * as vscode from "vscode";
 import type { Front } from "../front";

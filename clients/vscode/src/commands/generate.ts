@@ -16,17 +16,17 @@ import { t } from "../words";
 
 export type Format = "3b" | "4b" | "iso" | "milling";
 
-/** What milling is called is said when it is asked: the language is not chosen yet when this is read. */
+/** Functions, since the language is not chosen yet when this is read. */
 const TITLES: Record<Format, () => string> = { "3b": () => "3B", "4b": () => "4B", iso: () => "ISO", milling: () => t("Milling") };
 /** The endings of its files; the first is proposed. */
 const ENDINGS: Record<Format, readonly [string, ...string[]]> = { "3b": ["3b"], "4b": ["4b"], iso: ["iso", "nc"], milling: ["iso", "nc"] };
 
-/** So many slugs are named. */
+/** The number of slugs that are named. */
 const SLUGS = 4;
 
 interface How {
   options?: { program?: { profile: string } };
-  /** What the user has said of contours that nothing says it of. */
+  /** The user's answers for contours that no setting covers. */
   sides?: Sides;
   force?: boolean;
 }
@@ -151,7 +151,7 @@ function told(generated: Program, format: Format): string {
   return t("{0}, {1}{2}.", blocks, path, drift + minutes + milled + drops) + warnings;
 }
 
-/** Of several contours the floor is that of all of them, and the electrode is as short as after the last one. */
+/** With several contours the floor is that of all of them, and the wear of the electrode that after the last one. */
 function toldOfMilling({ layers, layer, contours }: Milling): string {
   const floors = contours.map(({ floor }) => floor);
   const [least, most] = [Math.min(...floors.map(({ least }) => least)), Math.max(...floors.map(({ most }) => most))];

@@ -1,4 +1,4 @@
-// Writes what the user has said of contours into the text of a wedm.toml. Knows nothing of VS Code.
+// Writes the user's answers about contours into the text of a wedm.toml. Knows nothing of VS Code.
 
 import type { Said } from "../picture/messages";
 import type { Role } from "../protocol";
@@ -6,7 +6,7 @@ import type { Role } from "../protocol";
 /** By nesting, or what each contour or layer is. */
 export type Sides = { side: "auto" } | { contours: Record<string, Role> } | { layers: Record<string, Role> };
 
-/** The text with the answer in it: a key that stands already gets the new value, every other line stays as it is. */
+/** The text with the answer in it: an existing key gets the new value, every other line stays as it is. */
 export function keep(text: string, sides: Sides): string {
   if ("side" in sides) {
     return withKey(text, null, "side", JSON.stringify(sides.side));
@@ -15,13 +15,13 @@ export function keep(text: string, sides: Sides): string {
   return Object.entries(roles).reduce((kept, [name, role]) => withKey(kept, table, JSON.stringify(name), JSON.stringify(role)), text);
 }
 
-/** The text with what is said of one contour of a drawing, by the name of its file and a handle. */
+/** The text with the settings of one contour of a drawing, by the name of its file and a handle. */
 export function keepContour(text: string, drawing: string, handle: string, said: Said): string {
   const table = `drawings.${JSON.stringify(drawing)}.contours.${/^[\w-]+$/.test(handle) ? handle : JSON.stringify(handle)}`;
   return Object.entries(said).reduce((kept, [key, value]) => withKey(kept, table, key, written(value)), text);
 }
 
-/** As TOML has it; null where nothing is said. */
+/** As TOML; null where there is no value. */
 function written(value: Said[keyof Said]): string | null {
   if (value === null || value === undefined) {
     return null;
@@ -46,7 +46,7 @@ function withKey(text: string, table: string | null, key: string, value: string 
     const stands = lines.findIndex((line, index) => index > head && index < next && names.includes(line.split("=")[0]?.trim() ?? ""));
     if (value === null) {
       lines.splice(Math.max(stands, 0), stands >= 0 ? 1 : 0);
-      // A head that nothing stands below any more goes, with the line that kept it apart.
+      // The head of a table that has become empty goes, with the blank line before it.
       const rest = lines.slice(head + 1, stands >= 0 ? next - 1 : next);
       if (head >= 0 && rest.every((line) => line.trim() === "")) {
         const apart = head > 0 && (lines[head - 1] ?? "").trim() === "" ? 1 : 0;
@@ -56,7 +56,7 @@ function withKey(text: string, table: string | null, key: string, value: string 
       const remark = /\s*#.*$/.exec(lines[stands]?.replace(/"(?:[^"\\]|\\.)*"|'[^']*'/g, (quoted) => "x".repeat(quoted.length)) ?? "")?.[0] ?? "";
       lines[stands] = entry + (remark === "" ? "" : (lines[stands]?.slice(-remark.length) ?? ""));
     } else {
-      // Behind the last line of its table that says something.
+      // After the last line of its table that is not blank.
       let at = next;
       while (at > head + 1 && (lines[at - 1] ?? "").trim() === "") {
         at -= 1;
@@ -67,7 +67,7 @@ function withKey(text: string, table: string | null, key: string, value: string 
   return lines.length === 0 ? "" : lines.join(end) + end;
 }
 
-/** Whether a line is the head of a table, with a remark behind it or not. */
+/** Whether a line is the head of a table, with or without a comment after it. */
 function isHead(line: string, table: string): boolean {
   const head = `[${table}]`;
   return line.trim().startsWith(head) && /^\s*(#.*)?$/.test(line.trim().slice(head.length));

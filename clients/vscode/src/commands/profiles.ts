@@ -17,7 +17,7 @@ const SHIPPED: readonly (readonly [name: string, meant: string])[] = [
   ["robofil", "Charmilles Robofil: G90 from the thread hole, I and J are the centre"],
 ];
 
-/** What the settings say comes first, then what ships, then the user's own. */
+/** The profile of the settings comes first, then the built-in ones, then the user's own. */
 export function choices(set: string | null, own: readonly string[]): Choice[] {
   const others = own.filter((name) => SHIPPED.every(([shipped]) => shipped !== name));
   return [

@@ -10,7 +10,7 @@ export interface Outcome {
   errors: string;
 }
 
-/** More than this is no list that anybody reads. */
+/** The most output that is read: nobody reads a longer list. */
 const LONGEST = 256 * 1024 * 1024;
 
 /** Rejects when the program cannot be started, or writes without end. */

@@ -9,7 +9,7 @@ export async function settingsFile(server: Server, uri: vscode.Uri): Promise<vsc
   return settings.file === undefined ? vscode.Uri.joinPath(uri, "..", "wedm.toml") : vscode.Uri.parse(settings.file);
 }
 
-/** Makes the file where it is not there, changes its text and saves it; what is undone in it is undone there. */
+/** Makes the file where it is not there, changes its text and saves it; undo works in that file. */
 export async function rewrite(target: vscode.Uri, change: (text: string) => string): Promise<void> {
   const make = new vscode.WorkspaceEdit();
   make.createFile(target, { ignoreIfExists: true });

@@ -1,4 +1,4 @@
-// Asks what the contours of a drawing are where nothing says it, each marked in the picture, and keeps the answer if the user wants.
+// Asks what the contours of a drawing are where no setting says so, each marked in the picture, and keeps the answer if the user wants.
 
 import * as vscode from "vscode";
 import type { Pictures } from "../picture/pictures";
@@ -17,7 +17,7 @@ interface Answer extends vscode.QuickPickItem {
   role: Role;
 }
 
-// Made when they are asked: the language is not chosen yet when this is read.
+// Functions, since the language is not chosen yet when this is read.
 const opening = (mills: boolean): Answer =>
   mills
     ? { label: t("Opening: Electrode Inside"), detail: t("It mills along the wall of a pocket"), role: "opening" }
@@ -28,7 +28,7 @@ const punch = (mills: boolean): Answer =>
     : { label: t("Punch: Wire Outside"), detail: t("What falls out is the part"), role: "punch" };
 const notCut = (): Answer => ({ label: t("Not Cut"), detail: t("A frame, a construction line"), role: "ignore" });
 
-/** What the contours of unknown side are, for a wire or an electrode that `mills`; undefined where the user gives up. */
+/** The answers for contours of unknown side, for a wire or an electrode that `mills`; undefined where the user gives up. */
 export async function askSides(server: Server, pictures: Pictures, uri: vscode.Uri, mills: boolean): Promise<Sides | undefined> {
   const { contours, unitsToMm } = await server.request("wedm/contours", { uri: uri.toString() });
   const unknown = contours.filter(({ closed, role }) => closed && role === "both");
@@ -82,7 +82,7 @@ function rolesOf(contours: readonly ContoursContour[], roles: readonly Role[]): 
   return Object.fromEntries(
     contours.flatMap((contour, index) => {
       const role = roles[index];
-      // Of what is not cut every entity must be told.
+      // To leave a contour uncut, every entity of it must be named.
       const handles = role === "ignore" ? handlesOf([contour]) : handlesOf([contour]).slice(0, 1);
       return role === undefined ? [] : handles.map((handle): [string, Role] => [handle, role]);
     }),

@@ -6,7 +6,7 @@ import type { Front } from "../front";
 import type { Server } from "../server/server";
 import { Picture } from "./panel";
 
-/** The kind of editor, as the manifest has it. */
+/** The type of the editor in the manifest. */
 export const EDITOR = "wedm.drawing";
 
 export class DrawingEditor implements vscode.CustomTextEditorProvider, vscode.Disposable {

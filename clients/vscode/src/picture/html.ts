@@ -9,7 +9,7 @@ export interface Around {
   nonce: string;
   /** The address of a file of the page. */
   file: (name: string) => string;
-  /** Sentences by their English, which its script speaks. */
+  /** The translations that its script uses, by the English sentence. */
   words: Readonly<Record<string, string>>;
 }
 
@@ -57,7 +57,7 @@ export function html({ language, policy, nonce, file, words }: Around): string {
 </html>`;
 }
 
-/** A sentence as it may stand in an attribute. */
+/** A sentence, escaped for an attribute. */
 function text(sentence: string): string {
   return escaped(t(sentence));
 }

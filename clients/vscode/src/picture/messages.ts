@@ -12,18 +12,18 @@ export interface Fault {
   /** In a drawing. */
   handle?: string;
   segment?: number;
-  /** mm, of an arc that is too tight. */
+  /** The radius of an arc that is too tight, mm. */
   radius?: number;
-  /** Of a place of a fit, in words: what is left there. */
+  /** For a place of a fit: the clearance that is left there, in words. */
   left?: string;
-  /** Where that is, drawing units, and how much about it is worth seeing, mm. */
+  /** Where that is, drawing units, and how much round it to show, mm. */
   at?: [number, number];
   reach?: number;
-  /** In a program; counts from 0. */
+  /** The line in a program; counts from 0. */
   line?: number;
 }
 
-/** A contour of a drawing as the page speaks of it. */
+/** A contour of a drawing as the page knows it. */
 export interface Contour {
   /** From 1: its place among the cuts where it has one. */
   number: number;
@@ -33,7 +33,7 @@ export interface Contour {
   role: Role;
   /** mm. */
   length: number;
-  /** What is said of it in wedm.toml. */
+  /** Its settings in wedm.toml. */
   said: ContourSettings;
 }
 
@@ -48,7 +48,7 @@ export interface Shown {
   type: "picture";
   uri: string;
   name: string;
-  /** Of a fit there is no wire to be played, and nothing to be saved. */
+  /** With a fit there is no wire to play, and nothing to save. */
   kind: "drawing" | "program" | "fit";
   svg: string;
   faults: Fault[];
@@ -58,7 +58,7 @@ export interface Shown {
   lines: string[];
   /** It is the editor of the drawing, where findings and contours are acted upon. */
   isEditor: boolean;
-  /** Settings can be kept in a file beside it. */
+  /** Settings can be saved in a file beside it. */
   keeps: boolean;
 }
 
@@ -79,27 +79,27 @@ export type FromPage =
   | { type: "ready" }
   | { type: "segment"; handle: string; segment: number | null }
   | { type: "line"; line: number }
-  /** The finding of an index is looked at. */
+  /** The user looks at the finding with this index. */
   | { type: "fault"; fault: number }
-  /** Its repair of an index is made. */
+  /** The user makes its repair with this index. */
   | { type: "fix"; fault: number; repair: number }
-  /** The page of a rule is read. */
+  /** The user opens the page of a rule. */
   | { type: "explain"; rule: string }
-  /** What is said of the contour of a handle; null takes back what was said. */
+  /** Sets keys of the contour with this handle; null removes a key. */
   | { type: "say"; handles: string[]; said: Said }
   | { type: "text" }
   | { type: "export" }
   /** The block on which the wire is while it plays; null when it has stopped. */
   | { type: "playing"; line: number | null };
 
-/** Keys of a contour's settings with what they are to be. */
+/** Keys of a contour's settings with their new values. */
 export type Said = { [Key in keyof ContourSettings]?: ContourSettings[Key] | null };
 
 const isIndex = (value: unknown): value is number => Number.isInteger(value) && Number(value) >= 0;
 const isPoint = (value: unknown): value is [number, number] => Array.isArray(value) && value.length === 2 && value.every(Number.isFinite);
 const ROLES: unknown[] = ["opening", "punch", "both", "left", "right", "ignore"];
 
-/** The page is ours, and its messages are looked at all the same. */
+/** The page is ours, but its messages are checked all the same. */
 export function fromPage(message: unknown): FromPage | null {
   if (typeof message !== "object" || message === null) {
     return null;
@@ -132,7 +132,7 @@ export function fromPage(message: unknown): FromPage | null {
   }
 }
 
-/** Null where a value is none that can be said. */
+/** Null where a value is not allowed. */
 function saidOf(value: unknown): Said | null {
   if (typeof value !== "object" || value === null) {
     return null;

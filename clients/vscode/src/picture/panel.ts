@@ -1,4 +1,4 @@
-// The live picture: made anew after each edit, and at one with the cursor in both directions.
+// The live picture: made anew after each edit, and in step with the cursor in both directions.
 
 import * as vscode from "vscode";
 import { LSPErrorCodes, ResponseError } from "vscode-languageclient/node";
@@ -22,7 +22,7 @@ const LONGEST_CALM = 5_000;
 const SEVERITIES: readonly Severity[] = ["error", "warning", "information", "hint"];
 
 export interface Role {
-  /** It is the editor of one document; else it stands beside the text, and follows whatever is in front. */
+  /** True for the editor of one document; else it is beside the text, and follows whatever is in front. */
   isEditor?: boolean;
   /** It shows whether punch and plate fit, in place of the drawing. */
   isFit?: boolean;
@@ -204,7 +204,7 @@ export class Picture implements vscode.Disposable {
     await this.#tell({ type: "picture", uri: uri.toString(), name, kind: "fit", svg, faults, ...nothing });
   }
 
-  /** The contours with what is said of them. */
+  /** The contours with their settings. */
   async #contours(uri: vscode.Uri): Promise<{ contours: Contour[]; toMm: number; keeps: boolean }> {
     const [listed, settings] = await Promise.all([
       this.server.request("wedm/contours", { uri: uri.toString() }),
@@ -257,16 +257,16 @@ export class Picture implements vscode.Disposable {
     }
   }
 
-  /** Keeps what is said of a contour in wedm.toml, under the name of the drawing. */
+  /** Saves the settings of a contour in wedm.toml, under the name of the drawing. */
   async #say(handles: readonly string[], said: Said): Promise<void> {
     const name = this.#uri.path.split("/").pop() ?? "";
-    // Of what is not cut every entity must be told.
+    // To leave a contour uncut, every entity of it must be named.
     const told = said.side === "ignore" ? handles : handles.slice(0, 1);
     const target = await settingsFile(this.server, this.#uri);
     await rewrite(target, (text) => told.reduce((kept, handle) => keepContour(kept, name, handle, said), text));
   }
 
-  /** Without them the wire can be played all the same; its figures are missing then. */
+  /** The blocks of the program. Without them the wire can still be played; only its figures are missing. */
   async #blocks(uri: vscode.Uri): Promise<SimulatedBlock[]> {
     try {
       return (await this.server.request("wedm/simulate", { uri: uri.toString() })).blocks;
@@ -303,7 +303,7 @@ export class Picture implements vscode.Disposable {
         this.#soon();
         break;
       case "segment":
-        // The editor of a drawing leaves its text closed where it is.
+        // If the text of a drawing is closed, the drawing's editor does not open it.
         if (this.role.isEditor !== true || this.#hasText()) {
           await reveal(this.server, this.#uri, message.handle, message.segment ?? undefined, false);
         }

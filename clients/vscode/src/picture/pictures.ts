@@ -8,7 +8,7 @@ import type { Server } from "../server/server";
 import { Picture, VIEW_TYPE } from "./panel";
 import { t } from "../words";
 
-/** Not restored after a reload of the window: it is asked for again. */
+/** Not restored after a reload of the window: the user asks for it again. */
 const FIT_TYPE = "wedm.fit";
 
 export class Pictures implements vscode.WebviewPanelSerializer, vscode.Disposable {
@@ -68,7 +68,7 @@ export class Pictures implements vscode.WebviewPanelSerializer, vscode.Disposabl
     this.#picture?.mark(handles);
   }
 
-  /** After a reload of the window. What is in front now counts more than what was when the picture was drawn last. */
+  /** After a reload of the window. The document that is in front now takes precedence over the one of the last picture. */
   async deserializeWebviewPanel(panel: vscode.WebviewPanel, state: unknown): Promise<void> {
     const kept = typeof state === "object" && state !== null ? (state as { uri?: unknown }).uri : undefined;
     const uri = this.front.document?.uri ?? (typeof kept === "string" ? uriOf(kept) : undefined);

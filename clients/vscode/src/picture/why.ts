@@ -1,6 +1,6 @@
-// What the page of a rule says first. Knows nothing of VS Code.
+// The beginning of the page of a rule. Knows nothing of VS Code.
 
-/** How severe a rule is stands in the picture: the card says what it finds. */
+/** The severity is in the picture already: the card says what the rule finds. */
 const SEVERITY = /^(Default severity|默认级别)/;
 
 /** The first paragraph of a page that says something of the rule, as plain text. */

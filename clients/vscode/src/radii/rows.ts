@@ -15,7 +15,7 @@ export interface SegmentRow {
 /** A contour, or an entity that is in none. */
 export interface EntityRow {
   kind: "entity";
-  /** Its first, by which it is named. */
+  /** The handle of its first entity, by which it is named. */
   handle: string;
   handles: string[];
   label: string;
@@ -26,7 +26,7 @@ export interface EntityRow {
 
 export type Row = EntityRow | SegmentRow;
 
-/** Contours in the order in which they are cut. With `onlyFaults`, what is sound is left out. */
+/** Contours in the order in which they are cut. With `onlyFaults`, those without a fault are left out. */
 export function rows(inspection: Inspection, onlyFaults: boolean, contours: readonly ContoursContour[] = []): EntityRow[] {
   const toMm = inspection.unitsToMm;
   const entities = new Map(inspection.entities.map((entity) => [entity.handle, entity]));

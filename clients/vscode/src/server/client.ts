@@ -1,4 +1,4 @@
-// The language client, without notices of its own about starts and ends of the server: these are told in one place, with what can be done.
+// The language client, without notices of its own about starts and ends of the server: notices.ts shows these, with what can be done.
 
 import { LanguageClient } from "vscode-languageclient/node";
 

@@ -18,7 +18,7 @@ export type Found = { program: string; from: "setting" | "extension" | "path" | 
 
 const NAME = "wedm";
 
-/** A setting that leads nowhere is said, and nothing else is taken in its place: it would be another version in silence. */
+/** A setting that names no program is an error, and nothing else is taken in its place: that might silently be another version. */
 export async function findServer(places: Places, isProgram: (path: string) => Promise<boolean>): Promise<Found> {
   const setting = places.setting?.trim() ?? "";
   if (setting !== "") {
@@ -32,7 +32,7 @@ export async function findServer(places: Places, isProgram: (path: string) => Pr
   if (onPath !== null) {
     return { program: onPath, from: "path" };
   }
-  // VS Code's PATH is that of a login shell, which need not know of cargo.
+  // VS Code's PATH is that of a login shell, which need not contain cargo's folder.
   const cargo = join(places.home, ".cargo", "bin", NAME + places.suffix);
   return (await isProgram(cargo))
     ? { program: cargo, from: "cargo" }

@@ -3,7 +3,7 @@
 import { PROTOCOL } from "../protocol";
 import { t } from "../words";
 
-/** What of the answer to `initialize` is looked at; whatever answered may have sent anything. */
+/** The parts of the answer to `initialize` that are checked; an unknown program may have sent anything. */
 export interface Answer {
   serverInfo?: { name?: unknown; version?: unknown } | undefined;
   capabilities?: { experimental?: unknown } | undefined;

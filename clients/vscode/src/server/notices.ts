@@ -6,7 +6,7 @@ import { t } from "../words";
 
 const HOW = vscode.Uri.parse("https://github.com/wedm/wedm#install");
 
-/** Says once for each reason that the server is not there. */
+/** Reports that the server is not there, once for each reason. */
 export function sayWhatFails(server: Server, log: vscode.LogOutputChannel): vscode.Disposable {
   let said = "";
   return server.onDidChangeState(async (state) => {

@@ -17,7 +17,7 @@ export function launch(program: string, log: string): Promise<ChildProcessWithou
   return new Promise((resolve, reject) => {
     const child = spawn(program, ["serve"], { stdio: "pipe", windowsHide: true, env: { ...process.env, WEDM_LOG: log } });
     child.once("spawn", () => {
-      // A write to a server that is just dying is answered by its end, not by an exception.
+      // A write to a server that is just dying must not throw: its end is handled elsewhere.
       child.stdin.on("error", () => undefined);
       resolve(child);
     });

@@ -1,8 +1,8 @@
-// How often a server that ends is started again, and how long it is left alone before: "When the server ends" in docs/protocol.md.
+// How often a server that ends is started again, and after what pause: "When the server ends" in docs/protocol.md.
 
-/** In ms, one after another. */
+/** The pauses before the starts in a row, in ms. */
 const PAUSES = [0, 500, 1_000, 2_000, 4_000];
-/** A server that lived this long was sound: what comes next is a new trouble. */
+/** A server that lived this long was sound: its end is the first of a new row. */
 const SOUND_LIFE = 60_000;
 
 export class Restarts {
@@ -20,7 +20,7 @@ export class Restarts {
     return pause;
   }
 
-  /** The user asked for a new start: what was before does not count. */
+  /** The user asked for a new start: earlier ends no longer count. */
   reset(): void {
     this.#ends = 0;
   }

@@ -24,7 +24,7 @@ interface Requests extends Methods {
 
 /** A program that has not answered by then is no server. */
 const PATIENCE = 20_000;
-/** How long after its pipe was closed it is waited for the code with which a server has ended. */
+/** How long to wait for the exit code of a server after its pipe was closed, in ms. */
 const CODE_FOLLOWS = 500;
 /** How long a server may take to end by itself. */
 const LAST_WORDS = 2_000;
@@ -36,7 +36,7 @@ export type State =
   /** Nothing more is tried until the user does something. */
   | { kind: "failed"; reason: string; cure: Cure };
 
-/** What helps: another program, or another try. */
+/** What the user can do: choose another program, or try again. */
 export type Cure = "program" | "restart";
 
 export class Server implements vscode.Disposable {
@@ -44,16 +44,16 @@ export class Server implements vscode.Disposable {
   #child: ChildProcessWithoutNullStreams | undefined;
   #state: State = { kind: "stopped" };
   #timer: NodeJS.Timeout | undefined;
-  /** What belongs to an older start is no longer listened to. */
+  /** The number of the start; events of older ones are ignored. */
   #start = 0;
   readonly #restarts = new Restarts();
-  /** When the server that runs had answered; 0 before. */
+  /** When the running server answered `initialize`; 0 before. */
   #ready = 0;
   readonly #changed = new vscode.EventEmitter<State>();
   readonly #diagnosed = new vscode.EventEmitter<vscode.Uri>();
 
   readonly onDidChangeState = this.#changed.event;
-  /** The server has looked at a document again. */
+  /** The server has checked a document again. */
   readonly onDidDiagnose = this.#diagnosed.event;
 
   constructor(
@@ -139,7 +139,7 @@ export class Server implements vscode.Disposable {
       child.kill("SIGKILL");
     }, PATIENCE);
     try {
-      // The client may wait for ever for a server that has ended before it answered, or take it for one that has started.
+      // If the server ends before it answers, the client may wait for ever, or take it as started.
       await Promise.race([client.start(), exited]);
     } catch (error) {
       this.log.debug(`${program}: ${String(error)}`);
@@ -242,7 +242,7 @@ export class Server implements vscode.Disposable {
       traceOutputChannel: this.log,
       initializationOptions: {},
       progressOnInitialization: false,
-      // What fails at the start is said once for all tries.
+      // A failure at the start is reported once for all tries.
       initializationFailedHandler: () => false,
       // Deaths are dealt with here, as docs/protocol.md says; the client's own way starts again at once, four times.
       errorHandler: {
@@ -259,7 +259,7 @@ export class Server implements vscode.Disposable {
             const sections = await next(params, token);
             return Array.isArray(sections) ? sections.map((section: unknown) => forServer(section)) : sections;
           },
-          // The server then asks for the section, and gets it without the extension's own keys.
+          // The server then asks for the section, which it gets without the extension's own keys.
           didChangeConfiguration: (_sections, next) => next(undefined),
         },
       },

@@ -3,12 +3,12 @@
 /** Keys of the section that are the extension's own. */
 const OWN = new Set(["server", "trace", "picture"]);
 
-/** What somebody has set, without the extension's own keys: null is "not set". */
+/** The settings that the user has set, without the extension's own keys: null is "not set". */
 export function forServer(section: unknown): Record<string, unknown> {
   return Object.fromEntries(Object.entries(set(section) ?? {}).filter(([key]) => !OWN.has(key)));
 }
 
-/** The tables and values of a section that are set; undefined for a table in which nothing is. */
+/** The tables and values of a section that are set; undefined for an empty table. */
 function set(value: unknown): Record<string, unknown> | undefined {
   if (typeof value !== "object" || value === null || Array.isArray(value)) {
     return undefined;

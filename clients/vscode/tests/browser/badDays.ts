@@ -77,7 +77,7 @@ async function killed(checks: Checks): Promise<void> {
   checks.page = host.page;
   const line = lineOf(FILLET, BULGE);
   try {
-    // A second text that is open, behind the first, with an edit that is not saved.
+    // A second text that is open, in a tab behind the first, with an edit that is not saved.
     await window.open("second.dxf");
     await window.squiggles.first().waitFor();
     await window.goToLine(line - 4, 1);
@@ -162,7 +162,7 @@ async function says(window: Window, text: string): Promise<void> {
   await expectSoon(text, async () => (await window.problems()).some((row) => row.includes(text)), async () => (await window.problems()).join("\n"));
 }
 
-/** The one that serves this window; none other is ever to be stopped. */
+/** The one that serves this window; no other may ever be stopped. */
 async function onlyServer(folder: string): Promise<number> {
   const [server, ...others] = await servers(folder);
   if (server === undefined || others.length > 0) {

@@ -1,4 +1,4 @@
-// A drawing that opens as its picture: findings acted upon, what is said of contours kept, text one click away, the picture saved.
+// A drawing that opens as its picture: findings are acted upon, settings of contours saved, the text is one click away, the picture saved.
 
 import { readFile } from "node:fs/promises";
 import { join } from "node:path";

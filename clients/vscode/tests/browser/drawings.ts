@@ -9,7 +9,7 @@ export const FILLET = await readFile(join(PROJECT, "tests/data/tight_fillet.dxf"
 /** A round hole as a program. */
 export const HOLE = await readFile(join(PROJECT, "tests/data/hole.3b"), "utf8");
 
-/** A drawing in mm of the entities that these lines are. */
+/** A drawing in mm with the entities that these lines describe. */
 export function drawn(...entities: string[]): string {
   const head = ["0", "SECTION", "2", "HEADER", "9", "$INSUNITS", "70", "4", "0", "ENDSEC", "0", "SECTION", "2", "ENTITIES"];
   return [...head, ...entities, "0", "ENDSEC", "0", "EOF", ""].join("\n");

@@ -36,7 +36,7 @@ export interface Machine {
   view?: BrowserContextOptions;
   /** The VSIX with the server in it. */
   withServer?: boolean;
-  /** The server is where `cargo install` puts it, and nobody has said so. */
+  /** The server is where `cargo install` puts it, and no setting names it. */
   isInstalled?: boolean;
 }
 

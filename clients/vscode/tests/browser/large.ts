@@ -42,7 +42,7 @@ export async function large(checks: Checks): Promise<void> {
         severity: "error" as const, rule: "small-radius", message: "too tight", handle: handle ?? "", segment: Number(segment), radius: 0.05,
       }));
       expectEqual("faults", faults.length, 500);
-      // What takes long is said by itself: a machine on which all of it does should be known by what it waits for.
+      // The slow parts are listed one by one, so that a slow machine shows what it waits for.
       const began = Date.now();
       await tell(page, shown({ svg, faults }));
       await page.evaluate(() => document.title);

@@ -1,4 +1,4 @@
-// The live picture and the radius list: seen, clicked, and at one with the cursor in both directions; programs generated.
+// The live picture and the radius list: seen, clicked, and in step with the cursor in both directions; programs generated.
 
 import { readFile, rm, writeFile } from "node:fs/promises";
 import { join } from "node:path";

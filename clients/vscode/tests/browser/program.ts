@@ -10,7 +10,7 @@ import { Host } from "./host";
 import { WEDM } from "./paths";
 import { Window } from "./window";
 
-/** The hole with the axis on which the circle is counted mistaken. */
+/** The hole, counted on the wrong axis. */
 const FIXABLE = HOLE.replace("GYNR1", "GXNR1");
 
 /** The same program as somebody types it. */
@@ -91,7 +91,7 @@ export async function program(checks: Checks): Promise<void> {
       const page = await window.pictureOf("hole.3b");
       const slider = page.locator("#slider");
       await expectSoon("a wire that moves", async () => Number(await slider.inputValue()) > 0, () => slider.inputValue());
-      // So slowly that it has not come to its end before it is stopped, however busy the machine is.
+      // So slow that it has not reached the end before it is stopped, however busy the machine is.
       await page.locator("#speed").selectOption("0.25");
       if ((await page.locator("#play.playing").count()) === 0) {
         await page.locator("#play").click();

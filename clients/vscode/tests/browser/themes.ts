@@ -12,7 +12,7 @@ import { Window } from "./window";
 const SMALL = await readFile(join(PROJECT, "docs/pictures/small-radius.dxf"), "utf8");
 const PROGRAM = await readFile(join(PROJECT, "tests/data/hole.3b"), "utf8");
 const THEMES = { dark: "Default Dark Modern", light: "Default Light Modern" };
-/** Of WCAG 2.1: what is read, and what is only seen. */
+/** The contrasts of WCAG 2.1: for text, and for graphics. */
 const READ = 4.5;
 const SEEN = 3;
 const TEXTS = [
@@ -23,7 +23,7 @@ const LINES = "svg .contour, svg .wire, svg .fault, svg .lead";
 
 type Colour = [red: number, green: number, blue: number, opacity: number];
 
-/** Everything of these that is seen and stands out too little from its ground. */
+/** All of these that are visible and have too little contrast with their background. */
 async function faint(page: Frame): Promise<string[]> {
   return page.evaluate(
     ([texts, lines, read, seen]) => {

@@ -50,7 +50,7 @@ export class Window {
   async #ask(key: string, text: string, offered?: string): Promise<void> {
     const box = this.page.locator(".quick-input-widget");
     for (let attempt = 1; ; attempt += 1) {
-      // What the machine is too slow for the first time is waited for longer the next.
+      // Where the machine is too slow at the first try, the next one waits longer.
       const timeout = (attempt * PATIENCE) / 10;
       try {
         await this.page.keyboard.press(key);

@@ -64,7 +64,7 @@ function resolved(schema: Schema): Schema {
   return name === undefined ? real : resolved(protocol.$defs[name] ?? {});
 }
 
-/** Every setting of the server, by its key. Tables with keys of their own are gone into. */
+/** Every setting of the server, by its key. Tables with keys of their own are descended into. */
 function settings(schema: Schema, prefix: string): [string, Schema][] {
   return Object.entries(schema.properties ?? {}).flatMap(([name, inner]) => {
     const real = resolved(inner);

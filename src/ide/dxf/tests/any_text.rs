@@ -1,4 +1,4 @@
-//! Asks everything of damaged texts.
+//! Asks every question about damaged texts.
 
 use super::{ALL, MM, all_tokens, lines};
 use crate::dxf::Document;
@@ -6,7 +6,7 @@ use crate::ide::Symbol;
 use crate::ide::dxf::*;
 use proptest::prelude::*;
 
-/// Asks everything at every line: no answer lies outside the text, none panics.
+/// Asks every question at every line: no answer lies outside the text, and none panics.
 fn ask_everything(text: Vec<u8>) {
     let document = Document::read(text);
     let length = document.text().len();

@@ -41,7 +41,7 @@ impl Offer<'_> {
         let given = [block.i, block.j]
             .map(|number| number.map(|number| reading.length(number, self.machine.inch)));
         if let Some(axis) = given.iter().position(Option::is_some) {
-            // One of them is given: the other follows from it.
+            // If one of them is given, the other follows from it.
             let place = given[axis].map(|length| match rule {
                 CenterRule::StartToCenter => made.from[axis].wrapping_add(length),
                 CenterRule::CenterToStart => made.from[axis].wrapping_sub(length),
@@ -129,7 +129,7 @@ fn candidates(
     found
 }
 
-/// The centre equally far from both ends of an arc, with one coordinate given, nm.
+/// The centre that is equally far from both ends of an arc, with one coordinate given in nm.
 fn equidistant(made: &Move, axis: usize, place: i64) -> Option<(Point, &'static str)> {
     let other = 1 - axis;
     let origin = made.from;

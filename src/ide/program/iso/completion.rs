@@ -15,7 +15,7 @@ use crate::program::iso::word::{Number, Token, WordFault};
 use std::borrow::Cow;
 use std::ops::Range;
 
-/// The G and M words that are offered unasked.
+/// The G and M words that are always offered.
 const G_WORDS: [u8; 15] = [0, 1, 2, 3, 4, 17, 20, 21, 40, 41, 42, 90, 91, 92, 70];
 const M_WORDS: [u8; 6] = [0, 1, 2, 30, 98, 99];
 
@@ -303,7 +303,7 @@ impl Offer<'_> {
         }
     }
 
-    /// The straight ways back to the start of the cut and to the end of its way in, behind the word that cuts where it
+    /// The straight ways back to the start of the cut and to the end of its way in, after the word that cuts where it
     /// is missing.
     fn ways_back(&mut self, motion: &str) {
         let Some(BegunCut { from, to, .. }) = self.document.begun_cut(self.line) else {
@@ -325,7 +325,7 @@ impl Offer<'_> {
             let [x, y] = [0, 1].map(|axis| target[axis].wrapping_sub(base[axis]));
             let (x, y) = (self.style.number(x), self.style.number(y));
             let text = format!("{motion}X{x} Y{y}");
-            // Proved: the line leads there.
+            // Checked by running it: the line leads there.
             let is_there = |made: Move| {
                 (0..2).all(|axis| (made.to[axis] - target[axis]).abs() <= self.style.step())
             };

@@ -1,4 +1,5 @@
-//! Words that belong together: the correction's begin and end, a call and what it calls, both ends of a tape.
+//! Words that belong together: where the correction begins and ends, a call and what it calls, both
+//! ends of a tape.
 
 use crate::program::iso::block::{Compensation, read_line, word_range};
 use crate::program::iso::document::Document;

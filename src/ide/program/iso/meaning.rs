@@ -75,7 +75,7 @@ pub(crate) fn meaning(document: &Document, word: Range<usize>) -> Option<String>
     })
 }
 
-/// A place of the control's table; `None` where the number is none.
+/// A place of the control's table; `None` where the number does not name a place.
 fn offset(letter: u8, index: Number) -> Option<Offset> {
     let index = u32::try_from(index.whole()?).ok()?;
     Some(Offset { letter, index })
@@ -147,7 +147,7 @@ impl About<'_> {
         mm(self.document.reading().length(number, inch))
     }
 
-    /// Under the state after the line's own words.
+    /// A length, read under the state after the line's own words.
     fn length(&self, number: Number) -> String {
         self.length_in(number, self.block.inch.unwrap_or(self.before.inch))
     }

@@ -1,6 +1,6 @@
 //! Answers to an editor about ISO text alone: what its words mean, what can follow, which words belong together.
 //!
-//! Answers about the machine's way, in any language, are in [`crate::ide::program`].
+//! Answers about the machine's path, in any language, are in [`crate::ide::program`].
 
 mod centres;
 mod completion;
@@ -35,7 +35,7 @@ impl Language for Document {
     fn words(&self, line: &[u8], offset: usize) -> Vec<Part> {
         let mut parts = Vec::new();
         words(line, 0, |token, range| {
-            // Part of a word that is read all the same.
+            // A part of a word that is read nevertheless.
             if let Token::Fault(_) = token
                 && parts
                     .last()
@@ -98,7 +98,7 @@ impl Language for Document {
     }
 }
 
-/// True where a word stands in a line.
+/// True where a line has the word.
 fn holds(line: &[u8], letter: u8, number: i64) -> bool {
     let is_it = |its: u8, own: crate::program::iso::word::Number| {
         its == letter && own.whole() == Some(number)

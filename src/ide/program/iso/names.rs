@@ -8,8 +8,8 @@ use crate::program::iso::plain::words;
 use crate::program::iso::word::{Number, Token};
 use std::ops::Range;
 
-/// This many lines are searched for rows of a program's own tables when somebody points at a word: they stand at its
-/// head.
+/// This many lines are searched for rows of a program's own tables when the user points at a word:
+/// these rows are at its head.
 const HEAD: usize = 10_000;
 
 /// A name that something in a program has.
@@ -22,7 +22,8 @@ pub(super) enum Name {
 }
 
 impl Name {
-    /// The letter that begins each place; a line without it need not be read.
+    /// True where a line has the letter that begins each place of the name; other lines need not be
+    /// read.
     fn is_in(self, line: &[u8]) -> bool {
         let has = |letters: &[u8]| {
             line.iter()
@@ -44,7 +45,7 @@ pub(super) fn name_at(document: &Document, offset: usize) -> Option<Name> {
         text.bytes().get(text.line_range(line))?,
         text.line_start(line),
         |name, range, _| {
-            // Between two words that touch, the one that begins there.
+            // Between two words that touch, the second one counts.
             if range.start <= offset
                 && offset <= range.end
                 && (found.is_none() || offset < range.end)
@@ -56,7 +57,8 @@ pub(super) fn name_at(document: &Document, offset: usize) -> Option<Name> {
     found
 }
 
-/// Every place of a name, in the order of the text, at most `limit`; `None` when it is not wanted any more.
+/// Every place of a name, in the order of the text, at most `limit`; `None` when the answer is no
+/// longer wanted.
 pub(super) fn places(
     document: &Document,
     wanted: Name,
@@ -129,7 +131,7 @@ fn each_in(line: &[u8], offset: usize, mut each: impl FnMut(Name, Range<usize>, 
             let Some((row, of_row)) = whole(index).zip(of_row) else {
                 return;
             };
-            // The word before the sign is the name; places behind it are used.
+            // The word before the sign is the name; places after it are used.
             let sign = of_row.iter().position(|byte| *byte == b'=').unwrap_or(0);
             let name = of_row[..sign].trim_ascii_end().len();
             let place = range.start..range.start + name;

@@ -24,7 +24,7 @@ pub(crate) fn signature(document: &Document, offset: usize) -> Option<Signature>
     let rule = document.reading().rule(incremental);
     let about = |name: &'static str| (name, about(label, name, incremental, rule));
     let parameters: Vec<_> = label.split(' ').skip(1).map(about).collect();
-    // Behind a word and a space the next one is meant; before the first word, that one.
+    // After a word and a space the next word is meant; before the first word, the first.
     let letter = if letter == b'H' { b'D' } else { letter };
     let is_behind = !inside && bytes.get(cursor.wrapping_sub(1)) == Some(&b' ');
     let at = parameters

@@ -118,7 +118,8 @@ impl Typed {
     }
 }
 
-/// Blocks with these X and Y: straight lines into each quadrant; circles, half and quarter turns from each of them.
+/// Blocks with these X and Y: straight lines into each quadrant; circles, half and quarter turns
+/// that start in each of them.
 fn shapes(x: i64, y: i64, largest: i64) -> Vec<Block> {
     let origin = Node { x: 0, y: 0 };
     let corners = corners(x, y);

@@ -1,6 +1,6 @@
 //! Answers to an editor about 3B text alone: its pieces, what they mean, what can follow, its layouts.
 //!
-//! Answers about the machine's way, in any language, are in [`crate::ide::program`].
+//! Answers about the machine's path, in any language, are in [`crate::ide::program`].
 
 mod completion;
 mod meaning;

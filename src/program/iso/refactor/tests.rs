@@ -446,9 +446,9 @@ proptest! {
         let own = &before[1..before.len() - 1];
         let back: Vec<Segment> = way(&reversed)[1..before.len() - 1].iter().rev().map(Segment::reversed).collect();
         prop_assert!(apart(own, &back) < 1e-6, "{reversed}");
-        // Where a random way lies on itself, the number of crossings found there depends on where it is looked at from.
-        // Where one arc alone begins decides whether it happens to fit another reading, and the writing decides which
-        // slip is the likeliest. A block that goes nowhere is a doubled one only where the block before it has the same words.
+        // Where a random path lies on itself, the number of crossings found depends on where the search starts. Whether a
+        // single arc fits another reading depends on where it begins, and the writing decides which slip is the likeliest.
+        // A block without movement counts as doubled only where the block before it has the same words.
         let rules = |text: &str| {
             let names = read(text).findings().into_iter().map(|finding| finding.rule.name());
             let mut names: Vec<_> = names.filter(|name| !matches!(*name, "path-crosses-itself" | "ambiguous-center" | "suspect-block" | "doubled-block")).collect();

@@ -39,8 +39,8 @@ pub(super) fn cut_around(document: &Document, line: usize) -> Range<usize> {
     first..end
 }
 
-/// True where the cut before some lines ends beside its own start, and the wire was not taken elsewhere since: where
-/// these lines close, the next ones begin astray all the same.
+/// True where the cut before some lines ends beside its own start, and the wire was not taken
+/// elsewhere since: even if these lines close, they begin at the wrong place.
 pub(super) fn begins_astray(document: &Document, lines: &Range<usize>) -> bool {
     let Some(last) = lines.start.checked_sub(1) else {
         return false;

@@ -107,7 +107,7 @@ impl Suspect<'_> {
         next.is_none_or(|next| next > number).then_some(number)
     }
 
-    /// The number of a line of the cut, or of one not far before it: many changes ask for it.
+    /// The number of a line of the cut, or of one not far before it: many changes need it.
     fn number_of(&self, line: usize) -> Option<u32> {
         let first = self.lines.start.saturating_sub(LOOKED_BACK);
         let read = || self.document.block(line).number;

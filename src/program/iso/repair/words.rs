@@ -13,7 +13,7 @@ use crate::program::repair::keys::{self, Key};
 use rustc_hash::FxHashMap;
 use std::ops::Range;
 
-/// How much less likely than none a slip is, by its kind.
+/// How unlikely a slip is compared with none, by its kind.
 pub(super) mod prior {
     pub(crate) const SIGN: f64 = 0.3;
     pub(crate) const SWAP: f64 = 0.3;
@@ -95,7 +95,8 @@ pub(crate) struct Meant {
     /// The present text, and the intended one.
     pub(crate) found: String,
     pub(crate) meant: String,
-    /// A number calculated from the others, in place of one that no single key makes of it: those may be wrong as well.
+    /// The number was calculated from the others and does not differ from the present one by a
+    /// single keystroke: the others may be wrong instead.
     pub(crate) is_calculated: bool,
 }
 
@@ -120,7 +121,7 @@ fn other_axis(letter: u8) -> u8 {
 }
 
 impl Words<'_> {
-    /// What each reading of the line needs.
+    /// All intended lines that one slip could explain, with their evidence.
     pub(crate) fn all(mut self, way: &Way<'_>) -> Vec<(Meant, f64)> {
         self.of_tokens();
         let line = &way.lines[self.index];

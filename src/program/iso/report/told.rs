@@ -1,5 +1,5 @@
-//! What is said of single cuts, kept from one edit to the next where it depends on them alone; and all findings before
-//! they are worded.
+//! The findings about single cuts, kept from one edit to the next where they depend on the cut
+//! alone; and all findings before they are worded.
 
 use super::super::cut::JoinedCut;
 use super::super::document::Document;
@@ -60,8 +60,8 @@ impl report::Report for Document {
 }
 
 impl Document {
-    /// Judges the doubtful cuts that begin in a range, where that depends on nothing else, and marks them; and tells where
-    /// cuts cross themselves there.
+    /// Judges and marks the doubtful cuts that begin in a range, where the verdict depends on
+    /// nothing else, and reports where cuts there cross themselves.
     pub(in crate::program::iso) fn tell(&mut self, places: Range<PartAt>) -> Vec<OfCut> {
         if self.order().is_some() {
             return Vec::new();
@@ -103,8 +103,9 @@ impl Document {
 }
 
 impl Report<'_> {
-    /// Whether what is said of a cut depends on it alone: it is open, and the wire stays on one side. The sides of others
-    /// are compared with those of the cuts beside them, and with the words before them; arcs are told where they lie.
+    /// Whether the findings about a cut depend on it alone: it is open, and the wire stays on one
+    /// side. Otherwise sides are compared with those of neighbouring cuts and with the words before
+    /// them, and arcs are reported at their place.
     fn stands_alone(&self, cut: &JoinedCut) -> bool {
         !self.document.is_closed(cut) && cut.flip.is_none() && self.tight_of(cut).is_empty()
     }

@@ -1,9 +1,10 @@
-//! An edited text reads as the same text afresh, and a fault is told wherever the text falls into stretches.
+//! An edited text reads as the same text afresh, and a fault is found wherever the text is divided
+//! into stretches.
 
 use super::*;
 use proptest::prelude::*;
 
-/// What was edited is the same as its text read afresh.
+/// Checks that an edited document is the same as its text read afresh.
 fn assert_as_afresh(document: &Document, what: &str) -> Document {
     let fresh = Document::read(document.text().bytes().to_vec());
     assert_eq!(document.reading(), fresh.reading(), "{what}");
@@ -31,7 +32,7 @@ fn lines_that_name_places_do_not_move_with_what_stands_before_them() {
 
 #[test]
 fn a_place_behind_a_line_that_cannot_be_read_does_not_move_with_what_stands_before_it() {
-    // The wire's place is not known before it, so it makes no move; all the same it says where the wire is.
+    // The wire's position is not known before it, so it makes no move; still it says where the wire is.
     let steps = "G01 X3. Y1.\n".repeat(30);
     for place in 0..60 {
         let comments = "(plate)\n".repeat(place);
@@ -101,7 +102,8 @@ fn a_spur_before_a_doubled_block_is_one() {
 
 #[test]
 fn what_a_joint_looks_at_behind_many_comments_is_looked_at_again() {
-    // Whether the way goes back on itself is decided by the next block, which may stand several stretches on.
+    // Whether the way goes back on itself is decided by the next block, which may be several
+    // stretches further on.
     for before in (0..50).step_by(7) {
         for between in 0..62 {
             let text = format!(

@@ -263,7 +263,7 @@ fn programs_and_subprograms_number_their_blocks_for_themselves() {
         &format!("G92 X0 Y0\n{body}N20 X1000\nN40 X0\nM02\n"),
         &[(5, "block-number")],
     );
-    // A number between those of its turn is not a missing number.
+    // A number out of its turn is not a missing number.
     check(
         "N10 G92 X0 Y0\nN20 G01 X1000\nN25 G01 Y1000\nN40 G01 X500\nN50 G01 X0 Y0\nM02\n",
         &[],

@@ -158,10 +158,11 @@ impl Document {
         (part + 1 < parts).then_some((stretch, parts - 1))
     }
 
-    /// Finds the cuts that are not parts of one stretch: those apart from what was read again are as they were before,
-    /// behind it perhaps some stretches on. Returns where the first and the last of the others begin and end.
+    /// Finds the cuts that are not parts of one stretch: cuts away from the lines that were read
+    /// again are as before, after these lines perhaps from a few stretches on. Returns where the
+    /// first of the others begins and the last ends.
     pub(super) fn find_outer(&self, cuts: &mut Vec<JoinedCut>, reread: &Reread) -> [PartAt; 2] {
-        // How the last one before the edit ends may depend on what stands behind its word: it is asked again.
+        // How the last cut before the edit ends may depend on what follows its word: it is found again.
         let kept = cuts
             .partition_point(|cut| cut.parts[1].0 < reread.chunks.start)
             .saturating_sub(1);
@@ -224,8 +225,8 @@ impl Document {
         Some(cut)
     }
 
-    /// An open cut, and those before and behind its stops that are open too, as one: what is wrong may stand in any of
-    /// them. `None` where it is the only one.
+    /// An open cut, and those before and behind its stops that are open too, as one: the fault may
+    /// be in any of them. `None` where it is the only one.
     pub(super) fn with_open_beside(&self, cut: &JoinedCut) -> Option<JoinedCut> {
         let is_open = |cut: &JoinedCut| !self.closes(cut);
         if !is_open(cut) {
@@ -342,7 +343,7 @@ pub(super) fn joined(cut: JoinedCut, behind: &JoinedCut) -> JoinedCut {
     }
 }
 
-/// The cut that begins at a part which stood elsewhere before, perhaps.
+/// The index of the cut that begins at a part, which may have been elsewhere before the edit.
 fn place_of_moved(cuts: &[JoinedCut], reread: &Reread, at: PartAt) -> Option<usize> {
     let begin = |cut: &JoinedCut| {
         let (stretch, part) = cut.parts[0];

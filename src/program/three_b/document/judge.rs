@@ -10,7 +10,7 @@ use crate::program::path::absurd_size;
 use std::ops::Range;
 
 impl Document {
-    /// Finds what is to be said of the program as a whole, beside what is found already.
+    /// Adds the findings about the program as a whole to those that were found already.
     pub(super) fn judge(&mut self, off: Vec<OffPosition>, mut findings: Vec<Finding>) {
         self.judge_end(&mut findings);
         self.judge_texts(&mut findings);

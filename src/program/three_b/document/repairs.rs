@@ -57,7 +57,7 @@ impl Document {
         let Some(whole) = self.with_open_beside(&cut) else {
             return self.searched(&cut, scope, |_| true);
         };
-        // One slip leaves both open; of two nothing says in which of them each is.
+        // A single slip may leave both open; of two slips nothing says in which of the two each is.
         let fixes = self.searched(&whole, scope, |repair| repair.is_whole);
         match scope {
             Scope::All if fixes.is_empty() => self.searched(&cut, scope, |repair| {
@@ -90,8 +90,8 @@ impl Document {
         offered(fixes)
     }
 
-    /// The block that keeps a contour open, by its number in the cut, where no other repair is as likely. It is searched
-    /// for in the `whole` of the cut and the open ones beside it.
+    /// The block that keeps a contour open, by its number in the cut, where no other repair is as
+    /// likely. It is searched for in `whole`, the cut together with the open ones beside it.
     pub(super) fn blamed(&self, cut: &JoinedCut, whole: &JoinedCut) -> Option<(usize, Fault)> {
         let (places, pieces) = self.pieces_of(whole)?;
         let first = self.blocks_of(cut).next()?;
@@ -101,7 +101,7 @@ impl Document {
         (own < cut.sum.blocks).then_some((own, fault))
     }
 
-    /// A mark of all that this search looks at; `None` where there are no blocks.
+    /// A mark of everything that this search looks at; `None` where there are no blocks.
     pub(super) fn mark_of_search(&self, cut: &JoinedCut, whole: &JoinedCut) -> Option<u64> {
         let is_piece = |at: &At| {
             let what = self.entry(*at).map(|entry| &entry.what);

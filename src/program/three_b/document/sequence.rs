@@ -15,7 +15,7 @@ pub(super) type OffPosition = (usize, At, [f64; 2]);
 /// How far coordinates may miss the place that they come back to, mm.
 const RETURNS: f64 = 0.01;
 
-/// Within so many stops a contour that begins elsewhere comes back.
+/// Within this many stops a contour that begins elsewhere must come back.
 const STOPS: usize = 16;
 
 /// The place from which a block leads to a stated one.
@@ -27,7 +27,7 @@ pub(super) fn place_before(stated: &StatedPoint, travel: &Move) -> StatedPoint {
     }
 }
 
-/// What is to be known of the numbers before a block.
+/// What is known of the numbers before a block.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Numbers {
     /// The usual step of the program's numbers, by the first of them.
@@ -37,7 +37,7 @@ pub(super) struct Numbers {
 }
 
 impl Numbers {
-    /// The stretches that were not read again before which another number stands `now`.
+    /// The stretches that were not read again but now have another number before them.
     pub(super) fn others(&self, now: &Numbers, reread: &Reread) -> impl Iterator<Item = usize> {
         let moved = self.before.iter().enumerate();
         let moved = moved.filter_map(|(stretch, number)| Some((reread.moved(stretch)?, number)));
@@ -178,7 +178,7 @@ impl Document {
     }
 
     /// The end points that are not where their blocks lead from those before, with the number of their block, by how
-    /// much, µm; none where so many are off that the numbers mean something else.
+    /// much, µm; empty where so many are off that the numbers mean something else.
     pub(super) fn off_positions(&self) -> Vec<OffPosition> {
         let mut anchor = None;
         let (mut compared, mut ordinal) = (0, 0);

@@ -1,8 +1,9 @@
-//! What is said of single contours: of those that do not close, and of those that cross themselves.
+//! The findings about single contours: those that do not close, and those that cross themselves.
 //!
-//! It depends on their own lines, on those of the cuts about them, and on a little that stands before them: after an
-//! edit only those are judged again for which one of these may be another. The search for the block to blame is made
-//! again only where one of the lines that it looks at has changed.
+//! They depend on the contour's own lines, on those of the cuts around it, and on a little that
+//! comes before it: after an edit only contours for which one of these may have changed are judged
+//! again. The search for the block to blame is repeated only where one of the lines that it looks
+//! at has changed.
 
 use super::super::fields::fields_of;
 use super::super::repair::FEWEST_BLAMED;
@@ -16,8 +17,8 @@ use crate::program::of_cut::OfCut;
 use crate::program::path::{HasCuts, tolerance};
 use rustc_hash::FxHashMap;
 
-/// What is said of a contour may depend on the lines of this many cuts with blocks on either side of it: on its stops,
-/// on those of the contour before, and on the cuts beside it.
+/// The findings about a contour may depend on the lines of this many cuts with blocks on either
+/// side of it: on its stops, on those of the contour before, and on the cuts beside it.
 const CUTS_ABOUT: usize = 24;
 
 /// An open contour in which a block to blame was searched for.
@@ -32,12 +33,13 @@ struct Searched {
 /// The block to blame, by its number in the contour.
 type Blamed = Option<Box<(usize, Fault)>>;
 
-/// All that is said of single contours, in the order in which they begin.
+/// All findings about single contours, in the order in which the contours begin.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Told {
     found: Vec<OfCut>,
     searched: Vec<Searched>,
-    /// The contours that the last edit had judged, and in how many of them it had a block searched for.
+    /// How many contours were judged for the last edit, and in how many of them a block to blame
+    /// was searched for.
     #[cfg(test)]
     pub(super) judged: [usize; 2],
 }
@@ -49,8 +51,8 @@ impl Told {
 }
 
 impl Document {
-    /// Judges the contours from one place up to another, and all others that may depend on what was read again, or on what
-    /// is not as it was in the view `before`.
+    /// Judges the contours between two places, and all others that may depend on lines that were
+    /// read again, or on differences from the view `before`.
     pub(super) fn judge_contours(&mut self, before: View, touched: Touched<'_>) {
         let Touched { reread, from, to } = touched;
         let View {
@@ -133,7 +135,8 @@ impl Document {
         self.view.told = told;
     }
 
-    /// The stretches that were not read again in which the wire is taken by hand, or was `before`, and not both.
+    /// The stretches that were not read again in which the wire is taken elsewhere by hand now but
+    /// was not `before`, or the reverse.
     fn taken_elsewhere(
         &self,
         before: &[(At, Vector)],
@@ -176,7 +179,7 @@ impl Document {
         }
     }
 
-    /// Where the cut begins that lies as many behind it.
+    /// Where the cut begins that lies as many cuts after a place.
     fn cuts_behind(&self, mut at: PartAt) -> PartAt {
         let mut cuts = 0;
         while at.0 < self.stretches.len() && cuts <= CUTS_ABOUT {

@@ -91,8 +91,9 @@ struct Stand {
 impl Stand {
     /// Moves on to a block's end, and judges its stated end point.
     ///
-    /// Where stated points stay in the text, later ones are compared with them; where they go, with the blocks alone,
-    /// so that formatting again finds the same.
+    /// Where stated points stay in the text, later ones are compared with them; where they are
+    /// dropped, later ones are compared with the blocks alone, so that formatting again finds the
+    /// same.
     fn go_on(&mut self, stated: Option<StatedPoint>, way: Option<Way>, layout: Layout) -> Stated {
         let stated = stated
             .and_then(|StatedPoint { at: [x, y], .. }| node_of(Point::new(x * 1000.0, y * 1000.0)));

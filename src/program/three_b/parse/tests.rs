@@ -103,12 +103,12 @@ fn every_layout_is_read() {
         "B40000BB040000GXL1 B1B9B090000GYL1 DD",
         "40000,0,40000 X L1 / 1,9,90000 Y L1 / End",
     );
-    // Commas that are none of numbers.
+    // Commas that do not belong to numbers.
     check(
         "B0B21500B21500GYL2 ; hole,left pin,right",
         "0,21500,21500 Y L2",
     );
-    // Two axes are none.
+    // Two axes are not an axis.
     check(
         "B9900B0B9900GXYL1",
         "! 14..17 column 15: found `YL1`, expected L, SR or NR and a quadrant",

@@ -7,7 +7,7 @@ use crate::program::three_b::pieces::{Field, pieces};
 use crate::text::TextEdit;
 use std::ops::Range;
 
-/// The edits that number the blocks from 1, words left out.
+/// The edits that number the blocks from 1; words get no number.
 pub(super) fn numbered(document: &Document) -> Vec<TextEdit> {
     let mut edits = Vec::new();
     for ((block, word), number) in blocks_of(document).into_iter().zip(1_u32..) {

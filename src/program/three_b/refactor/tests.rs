@@ -55,7 +55,7 @@ fn contours_are_reversed_between_their_ways() {
     let reversed = "; R10\nN1 B9900B0B9900GXL1 ; in\nN2 B9900B0B19800GYSR4\nN3 B9900B0B19800GYSR2 ; half\nN4 B9900B0B9900GXL3\nDD\n";
     check("reverse", HOLE, reversed);
     check("reverse", reversed, HOLE);
-    // Leads that part are turned round with it: arcs, and an overlap.
+    // Leads that differ are turned round with it: arcs, and an overlap.
     let arcs = "B2450B1415B2450GXL4\nB816B1416B1852GYNR3\nB4900B0B19600GYNR1\nB1634B1B2450GXNR1\nB2450B1415B2450GXL3\nDD\n";
     let turned = "B2450B1415B2450GXL1\nB816B1416B1852GYSR2\nB4900B0B19600GYSR4\nB1634B1B2450GXSR4\nB2450B1415B2450GXL2\nDD\n";
     check("reverse", arcs, turned);
@@ -190,7 +190,7 @@ fn long_blocks_are_split_and_merge_again() {
 
 #[test]
 fn the_correction_is_applied_to_the_parts_contour() {
-    // Where no way leads to the contour, the start is another one, and is said.
+    // Where no lead-in leads to the contour, the start changes, and the header says so.
     check(
         "correct.opening",
         "B5000B0B20000GYNR1\nDD\n",

@@ -1,4 +1,4 @@
-//! A block mirrored or turned: its numbers stay; axes, quadrants and directions change. So it changes exactly, to the last µm.
+//! A block mirrored or turned: its numbers stay; axes, quadrants and directions change. So the transformation is exact.
 
 use crate::program::refactor::Transform;
 use crate::program::three_b::block::{Block, CountingAxis, Motion, Quadrant};

@@ -100,7 +100,7 @@ impl Suspect<'_> {
             }
         );
         let is_better = match change {
-            // Where there is no other fault it must make the joints better.
+            // Where there is no other fault the exchange must make the joints better.
             Change::Exchange { .. } if was == 0 => left == 0 && gain >= 2 && joined.doubled <= 0,
             _ if restores => left < was || (left == was && after.is_open),
             Change::Insert { .. } => left == 0,

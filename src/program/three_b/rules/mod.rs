@@ -269,7 +269,7 @@ pub(super) fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
     own.map_or_else(Vec::new, |own| (own.fixes)(site, fault))
 }
 
-/// A fix that changes one thing, made unasked only where the contour then closes.
+/// A fix that changes one thing, made by "fix all" only where the contour then closes.
 fn one_edit(kind: FixKind, edit: Vec<TextEdit>, preferred: bool, in_fix_all: bool) -> TextFix {
     Fix::text(kind, in_fix_all, edit).preferred_if(preferred)
 }

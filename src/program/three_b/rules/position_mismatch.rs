@@ -90,7 +90,7 @@ pub(in super::super) struct Mismatched<'a> {
 }
 
 /// The coordinates become the block's end, or the block becomes one that ends at the coordinates, as the next block
-/// allows. Made unasked only where the contour shows which of the two is wrong.
+/// allows. Made by "fix all" only where the contour shows which of the two is wrong.
 pub(in super::super) fn fixes(site: &Mismatched<'_>) -> Vec<TextFix> {
     let coordinates = if site.goes_on == Some(true) {
         None

@@ -111,7 +111,8 @@ fn has_its_quadrant(block: &Block) -> bool {
     is_usual(block.x, block.y) && !is_usual(block.y, block.x)
 }
 
-/// J and G agree with each other, so another number may be the wrong one: unasked only where the contour closes.
+/// J and G agree with each other, so another number may be the wrong one: made by "fix all" only
+/// where the contour closes.
 fn with_j(site: &Site, axis: Axis, j: i64) -> TextFix {
     let made = Block {
         axis,

@@ -263,7 +263,8 @@ fn tight_arcs_of_four_b_are_found_whatever_the_compensation() {
 }
 
 proptest::proptest! {
-    /// However little a side is bent: the transition must not become a block of a micrometre, which runs anywhere.
+    /// However slight the corner, the transition must not become a block of a micrometre, whose
+    /// direction is arbitrary.
     #[test]
     fn a_corner_of_any_turn_is_written(
         turned in 0.0..std::f64::consts::TAU,

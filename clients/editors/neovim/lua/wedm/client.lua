@@ -27,7 +27,7 @@ local function root_of(path)
 end
 
 local function start(options, root)
-    -- Neovim heeds the version that an edit was made for, and does not say so: without it a fix would be made in a text that has changed meanwhile.
+    -- Neovim heeds the version of an edit but does not announce it: without this a fix would be made in a text that has changed meanwhile.
     local capabilities = vim.lsp.protocol.make_client_capabilities()
     capabilities.workspace.workspaceEdit.documentChanges = true
     return vim.lsp.start_client {
@@ -42,7 +42,7 @@ local function start(options, root)
         on_init = function(client) restarts.answered(client.id) end,
         on_exit = function(code, signal, client_id)
             clients[root] = nil
-            -- The server ends with 0 where it was asked to, and only there.
+            -- The server exits with 0 only where it was asked to end.
             if code ~= 0 or signal ~= 0 then
                 vim.schedule(function() M.again(options, root, client_id, code, signal) end)
             end
@@ -84,8 +84,8 @@ function M.attach(options, buffer)
     if clients[root] then
         vim.lsp.buf_attach_client(buffer, clients[root])
         if vim.fn.has('nvim-0.8') == 0 then
-            -- 0.7 stops to follow a buffer that is edited while it has no client, and does not start again. With the number of a client
-            -- that there never is, it has one.
+            -- 0.7 stops tracking a buffer that is edited while it has no client, and does not resume. With the number of a client
+            -- that never exists, it has one.
             vim.lsp.buf_attach_client(buffer, 0)
         end
     end

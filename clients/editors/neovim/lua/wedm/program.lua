@@ -8,7 +8,7 @@ function M.find()
     return vim.fn.executable('wedm') == 0 and vim.fn.executable(own) == 1 and own or 'wedm'
 end
 
--- Whether there is such a program; where not, that is said with the way to get it.
+-- Whether there is such a program; if not, the user is told how to get it.
 function M.is_there(command)
     if vim.fn.executable(command) == 1 then
         return true

@@ -1,10 +1,10 @@
--- How often a server that ends is started again, and how long it is left alone before: "When the server ends" in docs/protocol.md.
+-- How often a server that ends is started again, and after what pause: "When the server ends" in docs/protocol.md.
 
 local M = {}
 
 -- ms
 local pauses = { 0, 500, 1000, 2000, 4000 }
--- A server that has lived so long is not blamed for what came before.
+-- After a server that has lived this long, the count of ends in a row begins anew.
 local sound_life = 60000
 local loop = vim.uv or vim.loop
 
@@ -27,7 +27,7 @@ function M.answered(client_id)
     ready[client_id] = loop.now()
 end
 
--- The pause after the end of a server, and what the user is told of it; nothing where none is to be seen.
+-- The pause after the end of a server in ms, nil where it is not started again; tells the user, except of a restart at once.
 function M.after(client_id, code, signal)
     local pause = after_life_of(ready[client_id] and loop.now() - ready[client_id] or 0)
     ready[client_id] = nil
