@@ -91,6 +91,20 @@ impl Default for SourceText {
     }
 }
 
+/// Whether bytes are UTF-16, by their mark or by a zero in every other place; nothing else in a text has so many.
+pub(crate) fn is_utf_16(bytes: &[u8]) -> bool {
+    let head = head(bytes, 1024);
+    if head.starts_with(b"\xff\xfe") || head.starts_with(b"\xfe\xff") {
+        return true;
+    }
+    let zeros = |all: &mut dyn Iterator<Item = &u8>| all.filter(|&&byte| byte == 0).count();
+    let (all, odd) = (
+        zeros(&mut head.iter()),
+        zeros(&mut head.iter().skip(1).step_by(2)),
+    );
+    all * 5 > head.len() * 2 && odd * 10 > head.len() * 4 && all * 10 < head.len() * 6
+}
+
 /// The first items of a list, at most this many.
 pub(crate) fn head<T>(all: &[T], most: usize) -> &[T] {
     all.get(..most).unwrap_or(all)

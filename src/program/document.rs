@@ -7,9 +7,9 @@ use super::report::Report;
 use super::steps::{self, Program};
 use super::whereabouts::Whereabouts;
 use super::{iso, three_b};
-use crate::finding::{Finding, Severity, TextFix};
+use crate::finding::{Fault, Finding, Rule, Severity, TextFix};
 use crate::settings::Effective;
-use crate::text::{SourceText, TextEdit};
+use crate::text::{SourceText, TextEdit, is_utf_16};
 use std::ops::Range;
 
 /// The languages of programs.
@@ -122,10 +122,21 @@ impl Document {
     /// At most `limit` findings under the settings' severities, errors first, then in the order of the text; and how
     /// many there are in all.
     pub fn findings(&self, settings: &Effective, limit: usize) -> (Vec<Finding>, usize) {
+        if let Some(finding) = self.is_no_text() {
+            return (vec![finding], 1);
+        }
         match self {
             Document::ThreeB(document) => document.told(settings, limit),
             Document::Iso(document) => document.told(settings, limit),
         }
+    }
+
+    /// The one finding of bytes that are read as none of our texts: each of their lines would be another.
+    fn is_no_text(&self) -> Option<Finding> {
+        let text = self.text();
+        let head = text.slice(0..text.len().min(1024)).unwrap_or_default();
+        let fault = || Fault::said(Rule::Syntax, say!(the_text_is_utf_16));
+        is_utf_16(head).then(|| Finding::of(fault(), text.line_range(0)))
     }
 
     /// The fixes of one finding as edits of the text, the preferred one first. A fix that might

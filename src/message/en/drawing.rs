@@ -70,7 +70,6 @@ declare! {
     the_text_is_dxb_which_an_editor_cannot_keep => "the text is DXB, which an editor cannot keep: save it as ASCII DXF";
     the_file_is_a_pdf_not_dxf_text => "the file is a PDF, not DXF text";
     the_file_is_a_zip_archive_not_dxf_text => "the file is a ZIP archive, not DXF text";
-    the_text_is_utf_16 => "the text is UTF-16: save it as UTF-8";
     the_file_is_compressed => "the file is compressed (gzip), not DXF text";
     the_file_is_a_png_picture => "the file is a picture (PNG), not DXF text";
     the_file_is_a_tiff_picture => "the file is a picture (TIFF), not DXF text";

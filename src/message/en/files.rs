@@ -14,4 +14,5 @@ declare! {
     is_a_directory => "is a directory";
     no_space_left_on_device => "no space left on device";
     read_only_file_system => "read-only file system";
+    the_text_is_utf_16 => "the text is UTF-16: save it as UTF-8";
 }

@@ -70,7 +70,6 @@ translate! {
     the_text_is_dxb_which_an_editor_cannot_keep => "文本是 DXB，编辑器不能保存：请另存为 ASCII DXF";
     the_file_is_a_pdf_not_dxf_text => "文件是 PDF，不是 DXF 文本";
     the_file_is_a_zip_archive_not_dxf_text => "文件是 ZIP 压缩包，不是 DXF 文本";
-    the_text_is_utf_16 => "文本是 UTF-16：请存为 UTF-8";
     the_file_is_compressed => "文件经过压缩（gzip），不是 DXF 文本";
     the_file_is_a_png_picture => "文件是图片（PNG），不是 DXF 文本";
     the_file_is_a_tiff_picture => "文件是图片（TIFF），不是 DXF 文本";

@@ -14,4 +14,5 @@ translate! {
     is_a_directory => "是文件夹";
     no_space_left_on_device => "磁盘已满";
     read_only_file_system => "文件系统只读";
+    the_text_is_utf_16 => "文本是 UTF-16：请存为 UTF-8";
 }

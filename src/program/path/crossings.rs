@@ -8,10 +8,10 @@
 use super::behind_stops::KnownTabs;
 use super::boxes::Boxes;
 use super::crossing::{
-    Crossing, MOST_PAIRS, Tangle, come_near, margin, most_looks, near_each_other,
+    BESIDE, Crossing, MOST_PAIRS, Tangle, come_near, margin, most_looks, near_each_other,
 };
 use super::parted::{Blocks, Part, PartedWay, micrometres};
-use super::passes::{BESIDE, Before, MOST_PASSES, passes};
+use super::passes::{Before, MOST_PASSES, passes};
 use super::way::Way;
 use crate::finding::{Detail, Fault, Finding, NotJudged, Place, Rule, Severity};
 use crate::geometry::{Bounds, Segment, Vector};

@@ -1,6 +1,6 @@
 //! Passes: one contour that is cut several times in one go, each time on the same way or a little beside it.
 
-use super::crossing::{Tangle, margin};
+use super::crossing::{BESIDE, Tangle, margin};
 use super::way::{HeldWay, Way};
 use crate::geometry::{Bounds, Point, Segment};
 use std::cell::Cell;
@@ -8,10 +8,6 @@ use std::ops::Range;
 
 /// The most blocks before the first pass, or from one to the next.
 const BETWEEN: usize = 6;
-
-/// The largest distance between the boxes of two passes of one contour on each side, µm: more than any two corrections
-/// differ.
-pub(super) const BESIDE: f64 = 1_000.0;
 
 /// The most passes of a way that are looked at.
 pub(super) const MOST_PASSES: usize = 64;
