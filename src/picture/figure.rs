@@ -1,6 +1,7 @@
 //! The drawing itself: areas, contours, entities that are not cut, the wire's path and the faults on it.
 
 use super::marks;
+use super::reach::FARTHEST;
 use super::sheet::{Frame, Sheet, escaped, named, number, path_data};
 use super::style::class_of;
 use super::subject::{Subject, is_other};
@@ -150,7 +151,7 @@ fn kerfs(sheet: &mut Sheet, frame: &Frame, paths: &[(&WirePath, f64)]) {
         let pieces = path.segments.iter().map(|piece| piece.geometry);
         let (data, width) = (path_data(frame, pieces, false), 2.0 * half * frame.scale);
         if !data.is_empty() {
-            let width = number(width);
+            let width = number(width.min(FARTHEST));
             sheet.path(
                 &format!(r#"class="kerf" stroke-width="{width}""#),
                 &data,

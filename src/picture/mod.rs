@@ -13,6 +13,7 @@ mod fit;
 mod lens;
 mod marks;
 mod program;
+mod reach;
 mod sheet;
 mod style;
 mod subject;

@@ -1,5 +1,6 @@
 //! The sheet as SVG: the layout, geometry as path data, and how elements, numbers and texts are written.
 
+use super::reach::{FARTHEST, Part, parts};
 use crate::geometry::{Bounds, Point, Segment};
 use crate::message::columns;
 use std::f64::consts::PI;
@@ -36,6 +37,7 @@ impl Sheet {
         }
     }
 
+    /// A circle, where it is near enough, and no larger than can be seen of it.
     pub(crate) fn circle(
         &mut self,
         attributes: &str,
@@ -43,6 +45,9 @@ impl Sheet {
         radius: f64,
         title: &str,
     ) {
+        if radius.max(middle.0.abs()).max(middle.1.abs()) > FARTHEST {
+            return;
+        }
         let [x, y, r] = [middle.0, middle.1, radius].map(number);
         match title {
             "" => self.line(format_args!(
@@ -140,7 +145,8 @@ impl Frame {
     }
 }
 
-/// The segments as one path, in the frame's local coordinates; `close` joins its end to its start.
+/// The segments as one path, in the frame's local coordinates; `close` joins its end to its start. What lies farther
+/// away than [`FARTHEST`] is left out; of an area the edge there takes its place.
 ///
 /// An arc is split into pieces of less than a half turn, so that a full circle is drawn, and so that no viewer has to
 /// guess which of two arcs is meant.
@@ -151,7 +157,19 @@ pub(super) fn path_data(
 ) -> String {
     let mut data = String::new();
     let mut pen = String::new();
-    for segment in segments {
+    for part in segments
+        .into_iter()
+        .flat_map(|segment| parts(frame.origin, frame.scale, segment))
+    {
+        let segment = match part {
+            Part::Near(segment) => segment,
+            Part::Far(along) if close => along,
+            // A line that leaves the sheet comes back to it in another place.
+            Part::Far(_) => {
+                pen.clear();
+                continue;
+            }
+        };
         let start = pair(frame, segment.start());
         if pen.is_empty() {
             let _ = write!(data, "M{start}");

@@ -23,6 +23,42 @@ fn a_picture_is_well_formed_enough_to_be_shown() {
     );
 }
 
+/// A lens enlarges a hair beside a line of 800 m: what makes pixels of it once ended the whole process.
+#[test]
+fn what_lies_far_beside_a_fault_is_no_hindrance() {
+    let line = |[from, to]: [[f64; 3]; 2]| {
+        let vertex = |[x, y, bulge]: [f64; 3]| format!("10\n{x}\n20\n{y}\n42\n{bulge}\n");
+        let vertices = [from, to].map(vertex).concat();
+        format!("0\nLWPOLYLINE\n90\n2\n70\n1\n{vertices}")
+    };
+    for (nth, lines) in [
+        [
+            [[0.0, 8e5, 0.0], [0.0; 3]],
+            [[0.0, 0.0, 1.0], [0.0, 0.1, 0.0]],
+        ],
+        [
+            [[0.0, 0.01, 3.3], [0.0, 0.0, 1.0]],
+            [[-3e5, 0.0, 0.0], [0.0; 3]],
+        ],
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let desk = Desk::new();
+        let all = lines.map(line).concat();
+        let text = format!("0\nSECTION\n2\nENTITIES\n{all}0\nENDSEC\n0\nEOF\n");
+        desk.write("far.dxf", &text);
+        for ending in ["svg", "png", "pdf"] {
+            let made = desk.run(&format!("draw far.dxf -o far.{ending}"));
+            assert!(
+                desk.read(&format!("far.{ending}")).len() > 1000,
+                "{nth}: {}",
+                made.stderr
+            );
+        }
+    }
+}
+
 /// Two holes, of which the second is cut first.
 const HOLES: &str = "0\nSECTION\n2\nENTITIES\n0\nCIRCLE\n5\n2A\n10\n0\n20\n0\n40\n5\n\
     0\nCIRCLE\n5\n2B\n10\n20\n20\n0\n40\n5\n0\nENDSEC\n0\nEOF\n";

@@ -1,0 +1,173 @@
+//! What of a segment is near enough to be drawn: programs that show pictures lose themselves in coordinates of
+//! millions, and a lens enlarges a thousand times.
+
+use crate::geometry::{Arc, Bounds, Point, Segment};
+use std::f64::consts::TAU;
+
+/// The farthest coordinate that is written, and the largest radius, in the picture's units: more than ten sheets.
+pub(super) const FARTHEST: f64 = 10_000.0;
+/// An arc of a larger radius is drawn by chords, picture units.
+const FLATTEST: f64 = 1e6;
+/// The chords of such an arc: over a length of `FARTHEST` they are off by less than a tenth of a unit.
+const CHORDS: u32 = 64;
+
+/// A part of a segment.
+pub(super) enum Part {
+    /// As it is.
+    Near(Segment),
+    /// In place of what is too far away, a line along the edge of what is near: areas keep their inside.
+    Far(Segment),
+}
+
+/// The parts of a segment, in its direction; `origin` is where the picture's coordinates are 0, `scale` its units in
+/// one of the drawing.
+pub(super) fn parts(origin: Point, scale: f64, segment: Segment) -> Vec<Part> {
+    let near = Bounds {
+        min: origin,
+        max: origin,
+    }
+    .grown(FARTHEST / scale);
+    let bounds = segment.bounds();
+    if bounds.merged(&near) == near && !is_flat(scale, &segment) {
+        return vec![Part::Near(segment)];
+    }
+    let mut shares = match &segment {
+        Segment::Line(line) => {
+            let by = line.end - line.start;
+            let crossing = |axis: usize, edge: f64| (edge - line.start[axis]) / by[axis];
+            edges(&near)
+                .map(|(axis, edge)| crossing(axis, edge))
+                .to_vec()
+        }
+        Segment::Arc(arc) => edges(&near)
+            .into_iter()
+            .flat_map(|(axis, edge)| shares_at(arc, axis, edge))
+            .collect(),
+    };
+    shares.retain(|share| *share > 0.0 && *share < 1.0);
+    shares.extend([0.0, 1.0]);
+    shares.sort_by(f64::total_cmp);
+    shares.dedup();
+    let mut parts = Vec::new();
+    for pair in shares.windows(2) {
+        let (from, to) = (pair[0], pair[1]);
+        let middle = segment.point_at((from + to) / 2.0);
+        let [start, end] = [from, to].map(|share| clamped(segment.point_at(share), &near));
+        if middle != clamped(middle, &near) {
+            parts.push(Part::Far(Segment::line(start, end)));
+            continue;
+        }
+        let own = segment.part(from, to);
+        if !is_flat(scale, &own) {
+            parts.push(Part::Near(match own {
+                Segment::Line(_) => Segment::line(start, end),
+                arc => arc,
+            }));
+            continue;
+        }
+        let at = |chord: u32| {
+            let share = f64::from(chord) / f64::from(CHORDS);
+            clamped(segment.point_at(from + (to - from) * share), &near)
+        };
+        let chords = (0..CHORDS).map(|chord| Segment::line(at(chord), at(chord + 1)));
+        parts.extend(chords.map(Part::Near));
+    }
+    parts
+}
+
+fn is_flat(scale: f64, segment: &Segment) -> bool {
+    segment
+        .as_arc()
+        .is_some_and(|arc| arc.radius * scale > FLATTEST)
+}
+
+/// The lines of a box's edges, by their axis.
+fn edges(of: &Bounds) -> [(usize, f64); 4] {
+    [(0, of.min.x), (0, of.max.x), (1, of.min.y), (1, of.max.y)]
+}
+
+fn clamped(point: Point, within: &Bounds) -> Point {
+    let on = |axis: usize| point[axis].clamp(within.min[axis], within.max[axis]);
+    Point::new(on(0), on(1))
+}
+
+/// Where an arc has this coordinate, as shares of its sweep from 0 on.
+fn shares_at(arc: &Arc, axis: usize, edge: f64) -> Vec<f64> {
+    let across = (edge - arc.center[axis]) / arc.radius;
+    if across.is_nan() || across.abs() > 1.0 {
+        return Vec::new();
+    }
+    let angles = match axis {
+        0 => [across.acos(), -across.acos()],
+        _ => [across.asin(), std::f64::consts::PI - across.asin()],
+    };
+    let share = |angle: f64| {
+        let turned = (angle - arc.start_angle) * arc.sweep.signum();
+        turned.rem_euclid(TAU) / arc.sweep.abs()
+    };
+    angles.map(share).to_vec()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::drawing::winding_of;
+    use proptest::prelude::*;
+
+    /// Places about the origin, and far away from it.
+    fn place() -> impl Strategy<Value = Point> {
+        let one = || prop_oneof![-20.0..20.0, -3e4..3e4, -1e9..1e9];
+        (one(), one()).prop_map(|(x, y)| Point::new(x, y))
+    }
+
+    fn bulge() -> impl Strategy<Value = f64> {
+        prop_oneof![Just(0.0), -1.5..1.5, Just(1.0), -1e-4..1e-4]
+    }
+
+    fn drawn(segments: &[Segment], scale: f64) -> Vec<Segment> {
+        let parts = segments
+            .iter()
+            .flat_map(|segment| parts(Point::origin(), scale, *segment));
+        let all = parts.map(|part| match part {
+            Part::Near(segment) | Part::Far(segment) => segment,
+        });
+        all.collect()
+    }
+
+    proptest! {
+        /// Nothing is written that is far away, and an area keeps its inside.
+        #[test]
+        fn what_is_far_is_not_written_and_leaves_areas_as_they_are(
+            corners in prop::collection::vec((place(), bulge()), 3..7),
+            scale in prop_oneof![Just(1.0), 1e-3..1e3],
+            asked in prop::collection::vec((-0.9..0.9, -0.9..0.9), 20),
+        ) {
+            let next = corners.iter().cycle().skip(1);
+            let sides = corners.iter().zip(next);
+            let sides = sides.filter(|((from, _), (to, _))| (to - from).norm() > 1e-3);
+            let segments: Vec<Segment> = sides
+                .map(|((from, bulge), (to, _))| Segment::from_bulge(*from, *to, *bulge))
+                .collect();
+            let drawn = drawn(&segments, scale);
+            for segment in &drawn {
+                let ends = [segment.start(), segment.end(), segment.point_at(0.5)];
+                for end in ends {
+                    prop_assert!(end.coords.amax() * scale <= 1.001 * FARTHEST, "{segment:?}");
+                }
+            }
+            let reach = FARTHEST / scale;
+            for (x, y) in asked {
+                let at = Point::new(x * reach, y * reach);
+                // Beside the line itself chords decide.
+                let is_clear = |of: &[Segment]| of.iter().all(|own| own.distance_to(at) > 2e-2 * reach);
+                if is_clear(&segments) && is_clear(&drawn) {
+                    prop_assert_eq!(
+                        winding_of(segments.iter().copied(), at),
+                        winding_of(drawn.iter().copied(), at),
+                        "{:?} {:?}", at, drawn
+                    );
+                }
+            }
+        }
+    }
+}
