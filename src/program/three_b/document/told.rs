@@ -12,6 +12,7 @@ use crate::finding::{Axis, Fault, Finding};
 use crate::geometry::Vector;
 use crate::program::chunks::Reread;
 use crate::program::contours::{PartAt, Touched};
+use crate::program::numbering;
 use crate::program::of_cut::OfCut;
 use crate::program::path::{HasCuts, tolerance};
 use rustc_hash::FxHashMap;
@@ -271,8 +272,7 @@ impl Document {
         let steps = || {
             numbers
                 .windows(2)
-                .map(|pair| pair[1].saturating_sub(pair[0]))
-                .filter(|step| *step > 0)
+                .filter_map(|pair| numbering::step(pair[0], pair[1]))
         };
         steps()
             .min()

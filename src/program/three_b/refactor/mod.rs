@@ -2,7 +2,6 @@
 
 mod correction;
 mod layout;
-mod numbers;
 mod rows;
 mod slot;
 mod split;
@@ -20,6 +19,7 @@ use crate::finding::Finding;
 use crate::geometry::{Arc, Segment};
 use crate::program::encode::aside;
 use crate::program::grid::Node;
+use crate::program::numbering::numbered;
 use crate::program::path::{Cut, Trace};
 use crate::program::refactor::{
     At, Change, Content, Edits, News, Notation, Refactoring, Rewrite, Row, Sheet, Transform,
@@ -195,18 +195,10 @@ impl Notation for ThreeB {
             blocks.all(|(step, ordinal)| step.number == Some(ordinal))
         };
         if counts(before) && !counts(&after.trace()) {
-            numbers::numbered(after)
+            numbered(after).unwrap_or_default()
         } else {
             Vec::new()
         }
-    }
-
-    fn numbered(document: &Document) -> Edits {
-        Ok(numbers::numbered(document))
-    }
-
-    fn without_numbers(document: &Document) -> Edits {
-        Ok(numbers::without_numbers(document))
     }
 
     fn own() -> Vec<Refactoring<ThreeB>> {

@@ -18,7 +18,6 @@ mod wrong_j;
 mod wrong_quadrant;
 mod zero_block;
 
-pub(super) mod block_number;
 pub(super) mod missing_end;
 pub(super) mod position_mismatch;
 pub(super) mod text_after_end;
