@@ -5,7 +5,7 @@ mod centers;
 use super::block::{Block, Compensation, Motion, Stop};
 use super::document::Document;
 use super::machine::Machine;
-use super::moves::{Place, apart, distance};
+use super::moves::{Place, apart, distance, meet};
 use super::order::labels;
 use super::plain::{plain, word_at};
 use super::repair::{is_trouble, line_of};
@@ -228,7 +228,7 @@ fn spur_fix(document: &Document, back: usize) -> Option<TextFix> {
 
 /// Ends of lines this near each other are one.
 pub(super) fn have_met(one: Place, other: Place) -> bool {
-    distance(one, other) / 1e3 <= tolerance(0)
+    meet(one, other, tolerance(0))
 }
 
 /// The way out of a spur is searched for in this many lines before its way back.

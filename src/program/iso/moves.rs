@@ -273,3 +273,8 @@ pub(crate) fn distance(a: Place, b: Place) -> f64 {
     let [x, y] = apart(a, b);
     (x as f64).hypot(y as f64)
 }
+
+/// Whether two places are one, within so many µm.
+pub(super) fn meet(one: Place, other: Place, tolerance: f64) -> bool {
+    distance(one, other) / 1e3 <= tolerance
+}
