@@ -14,7 +14,7 @@ pub(in crate::program) use rows::Own;
 use super::Document;
 use super::block::{Motion, PartArc, Quadrant};
 use super::decode::decode;
-use super::encode::{ASIDE_TOLERANCE, END_TOLERANCE, Encoded, encode, point_of, snap};
+use super::encode::{ASIDE_TOLERANCE, Encoded, encode, point_of, runs_along, snap};
 use crate::finding::Finding;
 use crate::geometry::{Arc, Segment};
 use crate::program::encode::aside;
@@ -177,15 +177,14 @@ impl Notation for ThreeB {
         let decoded = decode(block, point_of(*from)).map_err(|_| beside())?;
         let apart =
             |share: f64| -> f64 { (decoded.point_at(share) - piece.point_at(share)).norm() };
-        let runs_along = if meant.exact {
+        let is_right = if meant.exact {
             [0.0, 0.5, 1.0]
                 .into_iter()
                 .all(|share| apart(share) <= EXACT)
         } else {
-            (decoded.end() - point_of(*to)).norm() <= END_TOLERANCE
-                && aside(&decoded, piece) <= ASIDE_TOLERANCE
+            runs_along(&decoded, piece, *to)
         };
-        if runs_along { Ok(()) } else { Err(beside()) }
+        if is_right { Ok(()) } else { Err(beside()) }
     }
 
     /// A program whose numbers counted its blocks keeps counting them.
