@@ -85,8 +85,9 @@ impl Document {
         // With subprograms nothing is kept.
         let crossing = self.contours().crossing().iter();
         for (cut, found) in crossing.filter(|_| self.order().is_some()) {
-            let crossings = found.findings(&self.way(cut), self.last_block(cut), self.text());
-            report.findings.extend(crossings);
+            report
+                .findings
+                .extend(self.crosses_itself(cut, found, self.text()));
         }
         report.taper();
         report.definitions();
