@@ -26,20 +26,9 @@ pub(super) fn wanted(
     chosen: &[usize],
     settings: &Effective,
 ) -> Result<Vec<Wanted>, Refusal> {
-    let threads = points(
-        drawing,
-        outlines,
-        chosen,
-        settings.thread.as_ref(),
-        say!(thread_hole),
-    )?;
-    let entries = points(
-        drawing,
-        outlines,
-        chosen,
-        settings.entry.as_ref(),
-        say!(entry),
-    )?;
+    let given = |setting, name| points(drawing, outlines, chosen, setting, name);
+    let threads = given(settings.thread.as_ref(), say!(thread_hole))?;
+    let entries = given(settings.entry.as_ref(), say!(entry))?;
     let said = own(drawing, outlines, settings);
     let marks = marks(drawing, outlines, usize::MAX).unwrap_or_default();
     let wanted =
