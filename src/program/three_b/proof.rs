@@ -1,11 +1,11 @@
 //! Decodes the written text and compares it with the path, block by block.
 
 use super::block::{Motion, Node, PartArc};
-use super::encode::{ASIDE_TOLERANCE, Decoded, END_TOLERANCE, Encoded, alternatives, point_of};
+use super::encode::{Decoded, END_TOLERANCE, Encoded, alternatives, point_of};
 use super::parse::{Item, read_line};
 use super::words::Words;
 use crate::geometry::{Segment, Vector};
-use crate::program::grid::largest_distance;
+use crate::program::encode::proved_aside;
 use crate::program::path::tolerance;
 use std::ops::Range;
 
@@ -139,15 +139,6 @@ fn check_block(encoded: &Encoded, decoded: &Segment) -> Result<f64, String> {
             encoded.to
         ));
     }
-    let aside = largest_distance(decoded, &encoded.piece);
-    let middles = (decoded.point_at(0.5) - encoded.piece.point_at(0.5)).norm();
-    if aside.max(middles) > ASIDE_TOLERANCE || aside.is_nan() || middles.is_nan() {
-        return Err(say!(
-            a_block_runs_beside_the_path,
-            block,
-            aside.max(middles),
-            encoded.from
-        ));
-    }
-    Ok(aside)
+    proved_aside(decoded, &encoded.piece, 0.0)
+        .map_err(|worst| say!(a_block_runs_beside_the_path, block, worst, encoded.from))
 }
