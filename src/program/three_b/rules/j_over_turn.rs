@@ -1,6 +1,7 @@
 //! `j-over-turn`: J of an arc counts more than once round, 4R.
 
-use super::{BlockRule, J_TOLERANCE, Observation, Outlook, Site, Spot, TextFix, one_edit};
+use super::super::decode::J_TOLERANCE;
+use super::{BlockRule, Observation, Outlook, Site, Spot, TextFix, one_edit};
 use crate::finding::{Fault, FixKind, Rule};
 use crate::program::three_b::block::Block;
 

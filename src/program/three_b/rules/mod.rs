@@ -23,15 +23,13 @@ pub(super) mod position_mismatch;
 pub(super) mod text_after_end;
 
 use super::block::{Block, Motion, PartArc};
+use super::decode::J_TOLERANCE;
 use super::fault::{Flaw, SyntaxFault};
 use super::fields::Fields;
 use crate::finding::{Detail, Fault, Fix, FixKind, Rule};
 use crate::settings::{Compensation, Effective, SideSetting};
 use crate::text::TextEdit;
 use std::ops::Range;
-
-/// The largest deviation of J from the exact projection, µm: published programs stay within it.
-pub(super) const J_TOLERANCE: f64 = 2.0;
 
 /// This near to a tie of the two axes, µm, either G is accepted.
 pub(super) const TIE: i64 = 1;
