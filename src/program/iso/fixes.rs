@@ -13,7 +13,7 @@ use super::style::Style;
 use crate::finding::{Detail, Fault, Finding, FixKind, Place as Where, Rule, TextFix};
 use crate::program::numbering::{self, Numbers};
 use crate::program::path::tolerance;
-use crate::program::repair::{merged, offered};
+use crate::program::repair::{merged, offered, without_spur};
 use crate::text::TextEdit;
 use centers::center_fixes;
 use std::ops::Range;
@@ -214,16 +214,8 @@ fn spur_fix(document: &Document, back: usize) -> Option<TextFix> {
             .trim()
             .to_owned()
     };
-    let found = shown(out) + say!(and) + &shown(back);
-    let edit = vec![whole_line(document, out), whole_line(document, back)];
-    Some(TextFix::text(
-        FixKind::Rewrite {
-            found,
-            meant: String::new(),
-        },
-        false,
-        edit,
-    ))
+    let edits = [out, back].map(|line| whole_line(document, line));
+    Some(without_spur([out, back].map(shown), edits))
 }
 
 /// Ends of lines this near each other are one.
