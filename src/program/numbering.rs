@@ -9,8 +9,9 @@ mod sequence;
 
 pub(super) use sequence::{FIRST, Numbered, Numbering, Sequence, check, usual_step};
 
+use super::steps::Program;
 use crate::finding::{FixKind, TextFix};
-use crate::text::{SourceText, TextEdit};
+use crate::text::TextEdit;
 use std::ops::Range;
 
 /// A block as far as its number goes.
@@ -26,11 +27,9 @@ pub(super) struct NumberedBlock {
 }
 
 /// A program whose blocks can be numbered. Errors are lower-case and have no final dot.
-pub(super) trait Numbers {
+pub(super) trait Numbers: Program {
     /// The first number and the step, where all blocks are numbered anew.
     const STEP: u32;
-
-    fn source(&self) -> &SourceText;
 
     /// Its blocks in the order of the text; an error where a word of it may name blocks by their numbers.
     fn blocks(&self) -> Result<Vec<NumberedBlock>, String>;
@@ -63,7 +62,7 @@ pub(super) fn numbered<P: Numbers>(program: &P) -> Result<Vec<TextEdit>, String>
         edits.push(program.written(&block, number)?);
         given.push((block, number));
     }
-    Ok(program.source().changing(program.followed(edits, &given)))
+    Ok(program.text().changing(program.followed(edits, &given)))
 }
 
 /// The edits that remove all numbers that are not called, with the space behind them.
@@ -72,7 +71,7 @@ pub(super) fn without_numbers(program: &impl Numbers) -> Result<Vec<TextEdit>, S
     let words = blocks.filter(|block| !block.is_called);
     let words = words.filter_map(|block| block.word);
     Ok(words
-        .map(|word| program.source().without_word(&word))
+        .map(|word| program.text().without_word(&word))
         .collect())
 }
 

@@ -14,10 +14,6 @@ const UNKNOWN_CALLS: [&str; 5] = ["M97", "G25", "GOTO", "CALL", "M96"];
 impl Numbers for Document {
     const STEP: u32 = 10;
 
-    fn source(&self) -> &SourceText {
-        self.text()
-    }
-
     fn blocks(&self) -> Result<Vec<NumberedBlock>, String> {
         refuse_unknown_calls(self)?;
         let text = self.text();

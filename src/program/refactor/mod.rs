@@ -13,7 +13,7 @@ mod reverse;
 mod scale;
 mod start_here;
 #[cfg(test)]
-pub(in crate::program) mod testing;
+pub(in crate::program) mod tests;
 mod transform;
 
 pub(in crate::program) use notation::{At, Change, Content, News, Notation, Rewrite, Row, Sheet};

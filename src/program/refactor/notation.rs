@@ -24,7 +24,7 @@ pub(in crate::program) enum Change {
 
 /// A language whose programs can be rewritten. Errors are lower-case and have no final dot.
 pub(in crate::program) trait Notation: Sized {
-    type Document: Program + Numbers;
+    type Document: Numbers;
     /// Everything known of a move except where it leads.
     type Own;
     /// The replacement of a move.

@@ -5,15 +5,11 @@ use super::layout::number_edit;
 use super::pieces::{Field, pieces};
 use crate::program::numbering::{NumberedBlock, Numbers};
 use crate::program::path::Step;
-use crate::text::{SourceText, TextEdit};
+use crate::text::TextEdit;
 use std::ops::Range;
 
 impl Numbers for Document {
     const STEP: u32 = 1;
-
-    fn source(&self) -> &SourceText {
-        self.text()
-    }
 
     /// Those that move, each with the number before it.
     fn blocks(&self) -> Result<Vec<NumberedBlock>, String> {

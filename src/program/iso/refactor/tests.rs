@@ -4,7 +4,7 @@ use crate::geometry::{Point, Segment};
 use crate::program::Language;
 use crate::program::iso::document::Document;
 use crate::program::iso::numbers::renamed;
-use crate::program::refactor::testing;
+use crate::program::refactor::tests;
 use crate::text::edited;
 use proptest::prelude::*;
 
@@ -13,21 +13,21 @@ fn read(text: &str) -> Document {
 }
 
 fn after(text: &str, id: &str) -> Result<String, String> {
-    testing::refactored(Language::Iso, id, text)
+    tests::refactored(Language::Iso, id, text)
 }
 
 fn scaled_by(text: &str, factor: f64) -> Result<String, String> {
-    testing::scaled_by(Language::Iso, text, factor)
+    tests::scaled_by(Language::Iso, text, factor)
 }
 
 #[track_caller]
 fn check(id: &str, text: &str, expected: &str) {
-    testing::check(Language::Iso, id, text, expected);
+    tests::check(Language::Iso, id, text, expected);
 }
 
 #[track_caller]
 fn refuses(id: &str, text: &str, expected: &str) {
-    testing::refused(Language::Iso, id, text, expected);
+    tests::refused(Language::Iso, id, text, expected);
 }
 
 /// A hole of R 5 with a flat, from its middle: absolute, start to centre.
@@ -241,7 +241,7 @@ fn programs_are_scaled_and_stay_in_their_steps() {
 
 #[test]
 fn a_program_is_written_anew_as_each_profile_has_it() {
-    let found = testing::proposed(
+    let found = tests::proposed(
         Language::Iso,
         "profile",
         "G92 X0. Y0.\nG91\nG01 X5. ; in\nG03 X-10. I-5.\nX10. I5.\nG01 X-5.\nM02\n",
@@ -404,7 +404,7 @@ proptest! {
         copies in 1_usize..4,
         (start, length) in (0_usize..200, 0_usize..60),
     ) {
-        testing::are_edits_or_reasons(Language::Iso, &text.repeat(copies), start..start + length)?;
+        tests::are_edits_or_reasons(Language::Iso, &text.repeat(copies), start..start + length)?;
     }
 }
 

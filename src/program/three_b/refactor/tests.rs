@@ -2,7 +2,7 @@ use super::ThreeB;
 use crate::geometry::{Arc, Point, Segment, direction};
 use crate::program::Language;
 use crate::program::path::cuts;
-use crate::program::refactor::{proposals, testing};
+use crate::program::refactor::{proposals, tests};
 use crate::program::three_b::Document;
 use crate::program::three_b::block::Node;
 use crate::program::three_b::encode::{encode, point_of, snap};
@@ -18,17 +18,17 @@ fn read(text: &str) -> Document {
 }
 
 fn refactored(id: &str, text: &str) -> Result<String, String> {
-    testing::refactored(Language::ThreeB, id, text)
+    tests::refactored(Language::ThreeB, id, text)
 }
 
 #[track_caller]
 fn check(id: &str, text: &str, expected: &str) {
-    testing::check(Language::ThreeB, id, text, expected);
+    tests::check(Language::ThreeB, id, text, expected);
 }
 
 #[track_caller]
 fn refused(id: &str, text: &str, reason: &str) {
-    testing::refused(Language::ThreeB, id, text, reason);
+    tests::refused(Language::ThreeB, id, text, reason);
 }
 
 const HOLE: &str = "; R10\nN1 B9900B0B9900GXL1 ; in\nN2 B9900B0B19800GYNR1 ; half\nN3 B9900B0B19800GYNR3\nN4 B9900B0B9900GXL3\nDD\n";
@@ -136,7 +136,7 @@ fn programs_are_scaled_and_close_again() {
         "B10B0B10GXL1\nDD\n",
         "line 1: the block becomes shorter than 1 µm",
     );
-    let scaled = |factor| testing::scaled_by(Language::ThreeB, "B10B0B10GXL1\n", factor);
+    let scaled = |factor| tests::scaled_by(Language::ThreeB, "B10B0B10GXL1\n", factor);
     for factor in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e9] {
         assert!(
             scaled(factor).is_err_and(|reason| reason.contains("expected one between")),
@@ -459,6 +459,6 @@ proptest! {
         copies in 1_usize..4,
         (start, length) in (0_usize..200, 0_usize..60),
     ) {
-        testing::are_edits_or_reasons(Language::ThreeB, &text.repeat(copies), start..start + length)?;
+        tests::are_edits_or_reasons(Language::ThreeB, &text.repeat(copies), start..start + length)?;
     }
 }
