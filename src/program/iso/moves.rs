@@ -39,6 +39,18 @@ impl Reading {
         }
     }
 
+    /// The same with I and J by another rule: under G91, where a centre has no coordinates, only by one that counts.
+    pub(super) fn with_rule(self, rule: CenterRule) -> Reading {
+        Reading {
+            absolute: rule,
+            incremental: match rule {
+                CenterRule::Absolute => self.incremental,
+                rule => rule,
+            },
+            ..self
+        }
+    }
+
     /// How the program gives the end of its moves.
     pub(crate) fn writing(&self) -> Writing {
         Writing {
