@@ -42,6 +42,14 @@ pub(super) trait Numbers: Program {
         Vec::new()
     }
 
+    /// The line of a block with a number other than `own`; an error as of [`Numbers::blocks`].
+    fn other_with(&self, number: u32, own: usize) -> Result<Option<usize>, String>;
+
+    /// The edits of the words that call the block in line `own` by its number.
+    fn calls_follow(&self, _own: usize, _old: u32, _new: u32) -> Vec<TextEdit> {
+        Vec::new()
+    }
+
     /// Lets what names blocks by their numbers follow these, in no order.
     fn followed(&self, edits: Vec<TextEdit>, _given: &[(NumberedBlock, u32)]) -> Vec<TextEdit> {
         edits
@@ -73,6 +81,26 @@ pub(super) fn without_numbers(program: &impl Numbers) -> Result<Vec<TextEdit>, S
     Ok(words
         .map(|word| program.text().without_word(&word))
         .collect())
+}
+
+/// The edits that give a block another number, whose digits stand at `digits`; calls of it follow.
+///
+/// Errors: one that another block has.
+pub(super) fn renamed(
+    program: &impl Numbers,
+    digits: Range<usize>,
+    old: u32,
+    name: &str,
+    new: u32,
+) -> Result<Vec<TextEdit>, String> {
+    let own = program.text().line_of(digits.start);
+    if let Some(line) = program.other_with(new, own)? {
+        return Err(say!(the_number_is_that_of_another_block, new, line + 1));
+    }
+    let mut edits = program.calls_follow(own, old, new);
+    edits.push(TextEdit::new(digits, name));
+    edits.sort_by_key(|edit| edit.range.start);
+    Ok(edits)
 }
 
 /// The fixes of a number: the one of the block's turn, where that is known, and all blocks numbered anew, from the

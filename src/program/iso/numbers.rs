@@ -1,4 +1,4 @@
-//! Block numbers: how they are written, and renamed; calls follow.
+//! Block numbers: how they are written; calls follow.
 
 use super::document::Document;
 use super::order::labels;
@@ -51,6 +51,19 @@ impl Numbers for Document {
         order.called.iter().filter(is_taken).copied().collect()
     }
 
+    fn other_with(&self, number: u32, own: usize) -> Result<Option<usize>, String> {
+        refuse_unknown_calls(self)?;
+        let other = labels(self.text()).get(&number).copied();
+        Ok(other.filter(|line| *line != own))
+    }
+
+    fn calls_follow(&self, own: usize, old: u32, new: u32) -> Vec<TextEdit> {
+        match self.called_line(old) == Some(own) {
+            true => calls(self, |called| (called == old).then_some(new)),
+            false => Vec::new(),
+        }
+    }
+
     /// Where a line gets its number and holds a call, both are one edit.
     fn followed(&self, mut edits: Vec<TextEdit>, given: &[(NumberedBlock, u32)]) -> Vec<TextEdit> {
         let text = self.text();
@@ -79,30 +92,6 @@ impl Numbers for Document {
         }
         edits
     }
-}
-
-/// The edits that give a block another number, whose digits stand at `digits`; calls of it follow.
-///
-/// Errors: a name that is no number, or one that another block has.
-pub(crate) fn renamed(
-    document: &Document,
-    digits: Range<usize>,
-    old: u32,
-    name: &str,
-    new: u32,
-) -> Result<Vec<TextEdit>, String> {
-    refuse_unknown_calls(document)?;
-    let (text, labels) = (document.text(), labels(document.text()));
-    let own = text.line_of(digits.start);
-    if let Some(line) = labels.get(&new).filter(|line| **line != own) {
-        return Err(say!(the_number_is_that_of_another_block, new, line + 1));
-    }
-    let mut edits = vec![TextEdit::new(digits, name.to_owned())];
-    if labels.get(&old) == Some(&own) {
-        edits.extend(calls(document, |called| (called == old).then_some(new)));
-    }
-    edits.sort_by_key(|edit| edit.range.start);
-    Ok(edits)
 }
 
 /// The P words of calls, with the numbers that `renamed` gives them.

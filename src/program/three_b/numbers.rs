@@ -40,6 +40,12 @@ impl Numbers for Document {
         let digits = digits.and_then(|word| self.text().digits_in(word));
         Ok(self.with_number(digits, block.start, number))
     }
+
+    fn other_with(&self, number: u32, own: usize) -> Result<Option<usize>, String> {
+        let steps = self.trace().steps.into_iter();
+        let mut others = steps.filter(|step| step.number == Some(number) && step.line != own);
+        Ok(others.next().map(|step| step.line))
+    }
 }
 
 impl Document {

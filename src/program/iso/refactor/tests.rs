@@ -3,7 +3,7 @@
 use crate::geometry::{Point, Segment};
 use crate::program::Language;
 use crate::program::iso::document::Document;
-use crate::program::iso::numbers::renamed;
+use crate::program::numbering::renamed;
 use crate::program::refactor::tests;
 use crate::text::edited;
 use proptest::prelude::*;
