@@ -127,7 +127,7 @@ fn the_stop_before_a_tab_stays_where_it_is() {
     let text =
         "G92 X0 Y0\nG90\nG01 X4. Y0.\nY5.\n|X24.\nY-15.\nX4.\nY-3.\nM00\nG01 Y0.\nX0.\nM02\n";
     for id in ["reverse", "startHere"] {
-        refuses(&format!("{id}"), text, "the contour pauses before line 10");
+        refuses(id, text, "the contour pauses before line 10");
     }
     refuses(
         "profile",
