@@ -45,32 +45,31 @@ pub enum Change {
     },
 }
 
+/// The entity of a change, borrowed as that is.
+macro_rules! entity_of {
+    ($change:expr) => {
+        match $change {
+            Change::SetVertex { entity, .. }
+            | Change::RemoveVertex { entity, .. }
+            | Change::Reshape { entity, .. }
+            | Change::RemoveEntity { entity }
+            | Change::InsertVertex { entity, .. }
+            | Change::SetClosed { entity, .. }
+            | Change::AddEntity { after: entity, .. } => entity,
+        }
+    };
+}
+
 impl Change {
     /// The same change for another entity.
     pub(crate) fn of(&self, other: EntityId) -> Change {
         let mut change = self.clone();
-        match &mut change {
-            Change::SetVertex { entity, .. }
-            | Change::RemoveVertex { entity, .. }
-            | Change::Reshape { entity, .. }
-            | Change::RemoveEntity { entity }
-            | Change::InsertVertex { entity, .. }
-            | Change::SetClosed { entity, .. }
-            | Change::AddEntity { after: entity, .. } => *entity = other,
-        }
+        *entity_of!(&mut change) = other;
         change
     }
 
     pub(crate) fn entity(&self) -> EntityId {
-        match self {
-            Change::SetVertex { entity, .. }
-            | Change::RemoveVertex { entity, .. }
-            | Change::Reshape { entity, .. }
-            | Change::RemoveEntity { entity }
-            | Change::InsertVertex { entity, .. }
-            | Change::SetClosed { entity, .. }
-            | Change::AddEntity { after: entity, .. } => *entity,
-        }
+        *entity_of!(self)
     }
 }
 

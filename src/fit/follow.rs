@@ -11,8 +11,8 @@ impl Held {
         let mut all = Bounds::EMPTY;
         boxes().for_each(|bounds| all.merge(bounds));
         let is_new = |asked: &Bounds| all.touches(asked) && boxes().any(|it| it.touches(asked));
-        for (which, looks) in self.looks.iter_mut().enumerate() {
-            if looks.asked.is_empty() {
+        for (which, observations) in self.observations.iter_mut().enumerate() {
+            if observations.asked.is_empty() {
                 continue;
             }
             let [own, other] = match which {
@@ -21,10 +21,10 @@ impl Held {
             };
             for (gone, new) in &own.edges {
                 let new = std::iter::repeat_n(Bounds::EMPTY, *new);
-                looks.asked.splice(gone.clone(), new);
+                observations.asked.splice(gone.clone(), new);
             }
             let mut again: Vec<usize> = own.come().collect();
-            looks.verdicts.retain_mut(|verdict| {
+            observations.verdicts.retain_mut(|verdict| {
                 let Some(edge) = own.is(verdict.edge as usize) else {
                     return false;
                 };
@@ -35,7 +35,7 @@ impl Held {
                 }
                 true
             });
-            let asked = looks.asked.iter().enumerate();
+            let asked = observations.asked.iter().enumerate();
             again.extend(asked.filter_map(|(edge, asked)| is_new(asked).then_some(edge)));
             again.sort_unstable();
             again.dedup();
@@ -43,8 +43,8 @@ impl Held {
             for edge in again {
                 about.asked = Bounds::EMPTY;
                 let verdict = look(which, parts, edge, &mut about, limits);
-                looks.asked[edge] = about.asked;
-                let known = &mut looks.verdicts;
+                observations.asked[edge] = about.asked;
+                let known = &mut observations.verdicts;
                 let at = known.partition_point(|known| (known.edge as usize) < edge);
                 let is_known = |at: usize| known.get(at).map(|it| it.edge as usize) == Some(edge);
                 let gone = at..at + usize::from(is_known(at));

@@ -5,9 +5,9 @@
 //! radius: there the farthest place of the other part that is nearest to that point says how much.
 
 use super::Spot;
-use super::deepest::deepest;
-use super::looks::{Looks, Verdict};
-use super::since::Since;
+use super::observations::{Observations, Verdict};
+use super::penetration::deepest;
+use super::reuse::Reuse;
 use crate::geometry::{
     Bounds, Few, Point, Segment, Vector, cross, line_circle, line_line, reached,
 };
@@ -33,7 +33,7 @@ pub(crate) struct Held {
     /// The least clearance where no edge stands too far out.
     pub(super) unless: f64,
     /// Corners of the punch, those of the plate, and walls of the punch.
-    pub(super) looks: [Looks; 3],
+    pub(super) observations: [Observations; 3],
     /// What stands for all walls, where they lie too near to each other everywhere.
     pub(super) apart: Option<Spot>,
     /// What the two are called.
@@ -60,16 +60,16 @@ pub(super) fn held(
     parts: [&Part; 2],
     names: &[Arc<str>; 2],
     limits: &Limits,
-    since: Option<&Since>,
+    reuse: Option<&Reuse>,
 ) -> Held {
-    let looks = [0, 1, 2].map(|which| match which {
-        2 if limits.along_walls.is_some() => Looks::default(),
-        which => looks(which, since, parts, limits),
+    let observations = [0, 1, 2].map(|which| match which {
+        2 if limits.along_walls.is_some() => Observations::default(),
+        which => observations(which, reuse, parts, limits),
     });
     let (unless, apart) = all_apart(parts, names, limits);
     let mut held = Held {
         unless,
-        looks,
+        observations,
         apart,
         names: names.clone(),
     };
@@ -115,18 +115,21 @@ impl Held {
 
     /// Where less is left than there should be, and what, in the order of the outline of the punch, then of that of the plate.
     pub(crate) fn clearances(&self) -> impl Iterator<Item = (Point, f64)> {
-        let verdicts = self.looks.iter().flat_map(|looks| &looks.verdicts);
+        let verdicts = self
+            .observations
+            .iter()
+            .flat_map(|observations| &observations.verdicts);
         let apart = self.apart.iter().map(|spot| (spot.at, spot.clearance));
         apart.chain(verdicts.map(|verdict| (verdict.at, verdict.clearance)))
     }
 
     /// What the part is called whose wire turned in a corner, of these the first one so far about a place.
     pub(crate) fn corner_near(&self, parts: [&Part; 2], at: Point, wide: f64) -> Option<&Arc<str>> {
-        let of_each = self.looks.iter().zip(parts).zip(&self.names);
-        let mut first = of_each.filter_map(|((looks, part), name)| {
+        let of_each = self.observations.iter().zip(parts).zip(&self.names);
+        let mut first = of_each.filter_map(|((observations, part), name)| {
             let mut is_any = false;
             part.near.find(&Bounds::of_disc(at, wide * WIDER), |edge| {
-                let verdict = looks.of(edge);
+                let verdict = observations.of(edge);
                 is_any |= verdict.is_some_and(|verdict| (verdict.at - at).norm() <= wide);
                 is_any
             });
@@ -137,21 +140,24 @@ impl Held {
 
     /// All of these, of the parts that were compared.
     pub(crate) fn spots<'a>(&'a self, parts: [&'a Part; 2]) -> impl Iterator<Item = Spot> + 'a {
-        let of_looks = self.looks.iter().enumerate();
-        let of_looks = of_looks.flat_map(move |(which, looks)| {
-            let verdicts = looks.verdicts.iter();
+        let of_observations = self.observations.iter().enumerate();
+        let of_observations = of_observations.flat_map(move |(which, observations)| {
+            let verdicts = observations.verdicts.iter();
             verdicts.filter_map(move |verdict| spot(which, verdict, parts, &self.names))
         });
-        self.apart.iter().cloned().chain(of_looks)
+        self.apart.iter().cloned().chain(of_observations)
     }
 
     /// The same by all cores.
     pub(super) fn all_spots(&self, parts: [&Part; 2]) -> Vec<Spot> {
-        let count = self.looks.iter().map(|looks| looks.verdicts.len());
+        let count = self
+            .observations
+            .iter()
+            .map(|observations| observations.verdicts.len());
         let mut all = Vec::with_capacity(1 + count.sum::<usize>());
         all.extend(self.apart.clone());
-        for (which, looks) in self.looks.iter().enumerate() {
-            let some = looks.verdicts.par_chunks(AT_A_TIME);
+        for (which, observations) in self.observations.iter().enumerate() {
+            let some = observations.verdicts.par_chunks(AT_A_TIME);
             all.par_extend(some.flat_map_iter(|verdicts| {
                 // Cores that count the uses of one name wait for each other.
                 let names = self.names.each_ref().map(|name| Arc::from(&**name));
@@ -255,15 +261,20 @@ pub(super) fn look(
 }
 
 /// What a look at each edge says.
-fn looks(which: usize, since: Option<&Since>, parts: [&Part; 2], limits: &Limits) -> Looks {
+fn observations(
+    which: usize,
+    reuse: Option<&Reuse>,
+    parts: [&Part; 2],
+    limits: &Limits,
+) -> Observations {
     let count = parts[usize::from(which == 1)].edges.len();
     let some = |edges: Range<usize>| {
-        let mut looks = Looks {
+        let mut observations = Observations {
             asked: Vec::with_capacity(edges.len()),
             verdicts: Vec::new(),
         };
         let mut about = About::of(which, parts);
-        let mut known = since.map(|since| since.of(which));
+        let mut known = reuse.map(|reuse| reuse.of(which));
         for edge in edges {
             let kept = known.as_mut().and_then(|known| known.kept(edge));
             let (asked, verdict) = kept.unwrap_or_else(|| {
@@ -271,20 +282,20 @@ fn looks(which: usize, since: Option<&Since>, parts: [&Part; 2], limits: &Limits
                 let verdict = look(which, parts, edge, &mut about, limits);
                 (about.asked, verdict)
             });
-            looks.asked.push(asked);
-            looks.verdicts.extend(verdict);
+            observations.asked.push(asked);
+            observations.verdicts.extend(verdict);
         }
-        looks
+        observations
     };
-    if since.is_some() || count <= AT_A_TIME {
+    if reuse.is_some() || count <= AT_A_TIME {
         // Waking a core would take longer.
         return some(0..count);
     }
     let steps = (0..count.div_ceil(AT_A_TIME)).into_par_iter();
-    let parts: Vec<Looks> = steps
+    let parts: Vec<Observations> = steps
         .map(|step| some(step * AT_A_TIME..((step + 1) * AT_A_TIME).min(count)))
         .collect();
-    let mut all = Looks {
+    let mut all = Observations {
         asked: Vec::with_capacity(count),
         verdicts: Vec::with_capacity(parts.iter().map(|part| part.verdicts.len()).sum()),
     };

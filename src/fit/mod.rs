@@ -5,12 +5,12 @@
 //! lies so near that it can only be its partner. Everything is in drawing units.
 
 mod change;
-mod deepest;
 mod follow;
 mod held;
-mod looks;
+mod observations;
 mod partners;
-mod since;
+mod penetration;
+mod reuse;
 
 pub(crate) use held::Held;
 pub use partners::Drawn;
@@ -21,8 +21,8 @@ use crate::geometry::{Point, Segment, Side};
 use crate::settings::{Effective, Partners, Use};
 use crate::toolpath::{Cutting, Moved, Part, Refusal, Walls, part};
 use held::Limits;
+use reuse::Reuse;
 use rustc_hash::FxHashMap;
-use since::Since;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -221,8 +221,8 @@ pub(crate) fn cut_twice(
         asks_least,
         ..limits(drawing, settings, true)
     };
-    let since = before.and_then(|(before, held)| Since::new(&held.looks, before, parts));
-    held::held(parts, &names, &limits, since.as_ref())
+    let reuse = before.and_then(|(before, held)| Reuse::new(&held.observations, before, parts));
+    held::held(parts, &names, &limits, reuse.as_ref())
 }
 
 /// What the clearance of two parts is checked against, which are cut along one contour or both
@@ -322,8 +322,8 @@ pub(crate) fn drawn_pair(
         asks_least,
         ..limits(drawing, settings, false)
     };
-    let since = before.and_then(|(before, held)| Since::new(&held.looks, before, parts));
-    held::held(parts, &names, &limits, since.as_ref())
+    let reuse = before.and_then(|(before, held)| Reuse::new(&held.observations, before, parts));
+    held::held(parts, &names, &limits, reuse.as_ref())
 }
 
 fn side_of(outline: &Outline, role: Role) -> Result<Side, Refusal> {

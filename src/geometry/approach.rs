@@ -2,7 +2,7 @@
 //! far they coincide.
 
 use super::intersection::Meetings;
-use super::{Arc, Few, Line, Point, Segment, Vector, circle_circle, cross, line_circle, line_line};
+use super::{Arc, Few, Line, Locus, Point, Segment, Vector, cross};
 
 /// Places where two segments face each other.
 type Facing = Few<(Point, Point), 6>;
@@ -12,17 +12,7 @@ const PARALLEL: f64 = 1e-6;
 
 /// The points that two segments have in common, except those of a stretch that they share.
 pub(crate) fn meetings(a: &Segment, b: &Segment) -> Meetings {
-    let met = match (a, b) {
-        (Segment::Line(a), Segment::Line(b)) => {
-            line_line(a.start, a.end - a.start, b.start, b.end - b.start)
-                .into_iter()
-                .collect()
-        }
-        (Segment::Line(line), Segment::Arc(arc)) | (Segment::Arc(arc), Segment::Line(line)) => {
-            line_circle(line.start, line.end - line.start, arc.center, arc.radius)
-        }
-        (Segment::Arc(a), Segment::Arc(b)) => circle_circle(a.center, a.radius, b.center, b.radius),
-    };
+    let met = Locus::of(a).meet(&Locus::of(b));
     met.into_iter()
         .filter(|&point| a.spans(point) && b.spans(point))
         .collect()

@@ -1,4 +1,4 @@
-//! Where the centre of a disc may lie that touches something: a line or a circle.
+//! Lines and circles: those that carry segments, and those on which the centre of a disc may lie that touches something.
 
 use super::intersection::Meetings;
 use super::{Point, Segment, Vector, circle_circle, left_normal, line_circle, line_line};
@@ -10,6 +10,17 @@ pub(crate) enum Locus {
 }
 
 impl Locus {
+    /// The line or circle that carries a segment.
+    pub(crate) fn of(segment: &Segment) -> Locus {
+        match segment {
+            Segment::Line(line) => Locus::Line {
+                point: line.start,
+                direction: line.end - line.start,
+            },
+            Segment::Arc(arc) => Locus::about(arc.center, arc.radius),
+        }
+    }
+
     /// The locus for discs of `radius` that touch the line or circle of a segment, on its left where `side` is +1, on
     /// its right where it is −1. `None` for a line no longer than `zero_length`, and inside an arc that is no larger
     /// than the disc.
@@ -46,7 +57,7 @@ impl Locus {
         }
     }
 
-    /// The centres that lie on both.
+    /// The points that lie on both.
     pub(crate) fn meet(&self, other: &Locus) -> Meetings {
         match (self, other) {
             (

@@ -5,7 +5,7 @@ mod rings;
 use super::document::Document;
 use super::format::Format;
 use super::iso;
-use super::path::{self, Kind, Step, tolerance};
+use super::path::{self, Follower, Kind, Step, tolerance};
 use super::three_b::StatedPoint;
 use crate::drawing::{Drawing, Entity, EntityId, Geometry, Unit, Vertex};
 use crate::finding::Side;
@@ -22,6 +22,9 @@ const WAY: &str = "WAY";
 
 /// A bulge does not hold arcs well that turn by more than this, nearly full circles, rad.
 const MOST_BY_BULGE: f64 = TAU * 0.75;
+
+/// Ends are joined within this many times the tolerance of closing.
+const JOINED: f64 = 2.0;
 
 /// The path of one cut, µm.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -102,15 +105,13 @@ pub fn cuts(document: &Document) -> Cuts {
     }
     let mut open = CutPath::default();
     let mut spans = spans.iter().peekable();
-    let (mut node, mut stands) = (trace.start, trace.start);
+    let mut follower = Follower::from(trace.start);
     let mut arcs = 0_usize;
     for (index, step) in trace.steps.iter().enumerate() {
         while spans.next_if(|span| span.steps.end <= index).is_some() {
             cuts.close(std::mem::take(&mut open));
         }
-        // The program may state a new position: the wire was taken there.
-        node += step.start - stands;
-        stands = step.end;
+        let node = follower.begin(step);
         if !step.moves() {
             let is_within = spans.peek().is_some_and(|span| span.steps.contains(&index));
             cuts.stops.extend(is_within.then_some(step.line));
@@ -119,7 +120,7 @@ pub fn cuts(document: &Document) -> Cuts {
         }
         let Some(ideal) = step.ideal else {
             cuts.lost.push(step.line);
-            node += step.end - step.start;
+            follower.at += step.end - step.start;
             continue;
         };
         let mut end = node + (step.end - step.start);
@@ -151,7 +152,7 @@ pub fn cuts(document: &Document) -> Cuts {
             }
             open.segments.push(between(&ideal, step, node, end));
         }
-        node = end;
+        follower.at = end;
     }
     cuts.close(open);
     cuts
@@ -261,12 +262,13 @@ impl Cuts {
             .iter()
             .filter(|segment| segment.as_arc().is_some())
             .count();
-        let near = |a: Point, b: Point| (a - b).norm() <= 2.0 * tolerance(arcs);
+        let within = JOINED * tolerance(arcs);
+        let near = |a: Point, b: Point| (a - b).norm() <= within;
         if cut.closed {
             let mut target = begin.start();
             if !near(target, end.end()) {
                 // It goes on past its closing point: a part that is cut twice does not belong to the contour.
-                if end.distance_to(target) <= 2.0 * tolerance(arcs) {
+                if end.distance_to(target) <= within {
                     let share = end.share_of(target);
                     cut.segments[last] = end.part(0.0, share);
                     cut.insert(last + 1, end.part(share, 1.0));

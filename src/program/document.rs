@@ -1,6 +1,7 @@
 //! A program as an open document, in any language. A new language adds its variant here and is complete when this
 //! compiles.
 
+use super::numbering;
 use super::path::{Cut, CutSteps, Step, Trace, cut_of};
 use super::repair::gate;
 use super::report::Report;
@@ -146,6 +147,21 @@ impl Document {
         match self {
             Document::ThreeB(document) => gate::gated(document, finding, offered),
             Document::Iso(document) => gate::gated(&**document, finding, offered),
+        }
+    }
+
+    /// The edits that give the block whose number has its digits at `digits` another one, written as `name`; calls of
+    /// it follow. An error where another block has it.
+    pub(crate) fn renamed(
+        &self,
+        digits: Range<usize>,
+        old: u32,
+        name: &str,
+        new: u32,
+    ) -> Result<Vec<TextEdit>, String> {
+        match self {
+            Document::ThreeB(document) => numbering::renamed(document, digits, old, name, new),
+            Document::Iso(document) => numbering::renamed(&**document, digits, old, name, new),
         }
     }
 

@@ -145,6 +145,16 @@ fn straight<E: Encoder + ?Sized>(
     )
 }
 
+/// The largest distance of a written line or arc from its piece, µm; as an error, that of the two middles counted in,
+/// where one of these is above the tolerance by more than `slack`, or unknown.
+pub(super) fn proved_aside(written: &Segment, piece: &Segment, slack: f64) -> Result<f64, f64> {
+    let middles = (written.point_at(0.5) - piece.point_at(0.5)).norm();
+    let aside = largest_distance(written, piece);
+    let worst = aside.max(middles);
+    let is_beside = worst > ASIDE_TOLERANCE + slack || aside.is_nan() || middles.is_nan();
+    if is_beside { Err(worst) } else { Ok(aside) }
+}
+
 /// The largest distance of a written line or arc from its piece, and of the two middles; infinite where it is unknown.
 pub(super) fn aside(written: &Segment, piece: &Segment) -> f64 {
     let middles = (written.point_at(0.5) - piece.point_at(0.5)).norm();

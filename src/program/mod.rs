@@ -17,6 +17,7 @@ pub mod iso;
 mod layout;
 mod lookalikes;
 pub(crate) mod notes;
+mod numbering;
 mod of_cut;
 pub mod path;
 mod profile;

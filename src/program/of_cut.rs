@@ -1,7 +1,8 @@
 //! A finding of a cut, kept by places that no edit elsewhere moves, in any language.
 
 use super::chunks::Chunks;
-use super::contours::{PartAt, Touched};
+use super::contours::{Contours, Followed, PartAt, Touched};
+use super::steps::Program;
 use crate::finding::{Detail, Fault, Finding, Place, Rule, Severity};
 use crate::text::SourceText;
 use std::ops::Range;
@@ -88,7 +89,32 @@ impl OfCut {
         }
     }
 
-    /// Replaces the findings of the touched cuts in a list that is in the order in which cuts begin.
+    /// What is said of the contours that begin from one place up to another, in the order in which they begin, and how
+    /// many were asked for it: those that a language has `judged` by itself, and those that cross themselves, where
+    /// that is to be said.
+    pub(crate) fn all<D: Followed + Program, C>(
+        document: &D,
+        (chunks, contours): (&Chunks<C>, &Contours<D::Cut>),
+        places: Range<PartAt>,
+        judged: impl Iterator<Item = (PartAt, Vec<Finding>)>,
+        is_said: impl Fn(&D::Cut) -> bool,
+    ) -> (Vec<OfCut>, usize) {
+        let crossing = contours.crossing_within(places, |cut| Followed::begin(document, cut));
+        let crossing = crossing.iter().map(|(cut, found)| {
+            let said = is_said(cut).then(|| document.crosses_itself(cut, found, document.text()));
+            (Followed::begin(document, cut), said.unwrap_or_default())
+        });
+        let (mut all, mut asked) = (Vec::new(), 0);
+        for (begin, findings) in judged.chain(crossing) {
+            asked += 1;
+            let of_cut = |finding| OfCut::new(chunks, begin, finding);
+            all.extend(findings.into_iter().filter_map(of_cut));
+        }
+        all.sort_by_key(OfCut::begin);
+        (all, asked)
+    }
+
+    /// Puts what is found of the touched cuts in the place of what was, in a list in the order in which cuts begin.
     pub(crate) fn splice(list: &mut Vec<OfCut>, touched: &Touched<'_>, fresh: Vec<OfCut>) {
         let renumber = |one: &mut OfCut, moved: &dyn Fn(usize) -> usize| {
             one.begin.0 = moved(one.begin.0 as usize) as u32;

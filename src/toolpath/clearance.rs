@@ -1,9 +1,9 @@
 //! How near a path comes to the walls, for contours of any size.
 
-use super::about::{About, FAN, by_place, merged};
-use super::apart::{are_apart, distance_between};
 use super::cores::{each, sum};
+use super::distance::{are_apart, distance_between};
 use super::offset::Wall;
+use super::vicinity::{FAN, Vicinity, by_place, merged};
 use crate::geometry::{Bounds, Point, Segment, Vector, left_normal};
 use std::ops::Range;
 use std::sync::OnceLock;
@@ -18,7 +18,7 @@ pub(crate) struct Walls {
     /// Of each box of the second level, where it is of the first few along the contour; empty where they stand in their order.
     order: Vec<u32>,
     /// What lies about each, once it has been asked for; `None` where that is too much.
-    about: OnceLock<Option<About>>,
+    about: OnceLock<Option<Vicinity>>,
     /// Of each its directions at both ends, once they have been asked for.
     tangents: OnceLock<Vec<[Vector; 2]>>,
     /// Of all as one closed contour, the same.
@@ -207,7 +207,7 @@ impl Walls {
         let (area, boxes) = (bounds.grown(distance), &self.levels[0]);
         let about = self.about.get().and_then(Option::as_ref);
         // All that comes near to what lies in the box is among those.
-        let is_known = |about: &&About| boxes[own].grown(about.reach).holds(&area);
+        let is_known = |about: &&Vicinity| boxes[own].grown(about.reach).holds(&area);
         let Some(about) = about.filter(is_known) else {
             return self.too_near(path, distance);
         };
@@ -224,7 +224,7 @@ impl Walls {
     pub(crate) fn know_about(&self, distance: f64) {
         if self.about.get().is_none() {
             let few_near = |area: &Bounds, few: &mut Vec<_>| self.few_near(area, few);
-            let made = About::of(&self.levels[0], 2.1 * distance, few_near);
+            let made = Vicinity::of(&self.levels[0], 2.1 * distance, few_near);
             self.about.get_or_init(|| made);
         }
     }

@@ -8,8 +8,7 @@ use super::cores::each;
 use super::offset::{Offset, Wall, offset};
 use super::path::Source;
 use crate::geometry::{
-    Arc, Few, Point, Segment, Vector, circle_circle, cross, left_normal, line_circle, line_line,
-    positive_angle,
+    Arc, Few, Locus, Point, Segment, Vector, cross, left_normal, positive_angle,
 };
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -346,17 +345,7 @@ pub(super) fn meetings(a: &Segment, b: &Segment) -> Few<Point, 2> {
 
 /// The same but for rounding, which about a centre that is far away shows.
 pub(super) fn nearly_meetings(a: &Segment, b: &Segment) -> Few<Point, 2> {
-    match (a, b) {
-        (Segment::Line(a), Segment::Line(b)) => {
-            line_line(a.start, a.end - a.start, b.start, b.end - b.start)
-                .into_iter()
-                .collect()
-        }
-        (Segment::Line(line), Segment::Arc(arc)) | (Segment::Arc(arc), Segment::Line(line)) => {
-            line_circle(line.start, line.end - line.start, arc.center, arc.radius)
-        }
-        (Segment::Arc(a), Segment::Arc(b)) => circle_circle(a.center, a.radius, b.center, b.radius),
-    }
+    Locus::of(a).meet(&Locus::of(b))
 }
 
 /// A meeting of two carriers, one step nearer to both.

@@ -5,7 +5,7 @@ use super::job::{Job, ROUNDING};
 use super::offset::{Wall, normal};
 use super::order::name;
 use super::path::{Refusal, Source};
-use super::wanted::Wanted;
+use super::requested::Requested;
 use crate::drawing::{Drawing, Outline};
 use crate::geometry::{Arc, Point, Segment};
 use crate::settings::Lead;
@@ -163,7 +163,7 @@ impl Job<'_> {
         &self,
         index: usize,
         walls: &[Wall],
-        wanted: &Wanted,
+        wanted: &Requested,
     ) -> Result<Option<Entry>, Refusal> {
         let outline = &self.outlines[index];
         let tie = self.units(ROUNDING);

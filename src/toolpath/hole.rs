@@ -5,7 +5,7 @@ use super::containment::Places;
 use super::job::Job;
 use super::leads::{Contours, HOLE_CLEAR, finding};
 use super::order::{self, name};
-use super::wanted::{Wanted, wanted};
+use super::requested::{Requested, wanted};
 use crate::drawing::{Drawing, Outline, Role, winding};
 use crate::finding::{Finding, Place, Rule, Severity};
 use crate::geometry::{Point, Vector};
@@ -67,7 +67,7 @@ impl Job<'_> {
         let contours = Contours::new(drawing, outlines);
         let mut faults = Vec::new();
         let mut given: Vec<(Point, usize)> = Vec::new();
-        for (&index, Wanted { thread, .. }) in chosen.outlines.iter().zip(wanted) {
+        for (&index, Requested { thread, .. }) in chosen.outlines.iter().zip(wanted) {
             let outline = &outlines[index];
             if !outline.contour.closed && outline.wire_side().is_none() {
                 continue;

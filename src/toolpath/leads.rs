@@ -6,11 +6,11 @@ use super::clearance::Walls;
 use super::corners::Element;
 use super::entry::Entry;
 use super::job::ROUNDING;
+use super::lead_form::{Landing, Way};
 use super::offset::Wall;
 use super::order::name;
 use super::path::Source;
-use super::wanted::Wanted;
-use super::way::{Landing, Way};
+use super::requested::Requested;
 use crate::drawing::{Drawing, EntityId, Outline};
 use crate::finding::{Detail, Finding, Place, Rule, Severity};
 use crate::geometry::{Point, Segment};
@@ -313,7 +313,7 @@ pub(super) struct Threading<'a> {
 /// from it is clear; else the lead runs on from the entry through the landing, and its length, counted from the path where
 /// somebody has set it, else from the entry, is halved until it fits, or is what a start hole needs.
 pub(super) fn thread_hole(
-    wanted: &Wanted,
+    wanted: &Requested,
     threading: &Threading<'_>,
     entry: &Entry,
     landing: &Landing,

@@ -4,21 +4,18 @@
 //! correction, lies at it everywhere but on the tips of corners, and leaves out nothing that the wire can reach: `proof`. Where that
 //! cannot be, there is an error finding at the place and no path. Everything is in drawing units; settings are in mm.
 
-mod about;
-mod apart;
-mod begun;
 mod clearance;
 mod containment;
+mod contour_path;
 mod cores;
 mod corners;
-mod drawn;
+mod distance;
+mod drawn_path;
 mod entry;
 mod finished;
 mod hole;
 mod job;
-mod kept;
-mod laid;
-mod later;
+mod lead_form;
 mod leads;
 mod loops;
 pub(crate) mod milling;
@@ -26,25 +23,28 @@ mod moved;
 mod nearby;
 mod nest;
 mod offset;
-mod open;
+mod open_contour;
 mod order;
 mod part;
 mod path;
 mod paths;
 mod proof;
+mod quick_tests;
+mod requested;
+mod reuse;
 mod ring;
+mod rotated;
 mod rounds;
-mod seen;
+mod settings_check;
 mod skim;
+mod skim_sweep;
 mod spliced;
-mod stated;
 mod tab;
 #[cfg(test)]
 mod tests;
 mod threading;
 mod tips;
-mod wanted;
-mod way;
+mod vicinity;
 mod work;
 
 pub(crate) use clearance::Walls;
@@ -52,15 +52,15 @@ pub(crate) use cores::each;
 pub(crate) use finished::Finished;
 pub use hole::StartHole;
 pub(crate) use hole::hole_faults;
-pub(crate) use kept::{NEW, which_it_is, which_it_was};
 pub use milling::{Milled, MilledContour};
 pub(crate) use moved::Moved;
 pub(crate) use nearby::Nearby;
 pub(crate) use part::{Cutting, Part, part};
 pub(crate) use path::lengths;
 pub use path::{PathSegment, Refusal, Source, WirePath};
+pub(crate) use reuse::{NEW, which_it_is, which_it_was};
 pub(crate) use rounds::rounds;
-pub(crate) use stated::{is_stated, short_layers, shortened_leads, stated_faults};
+pub(crate) use settings_check::{is_stated, short_layers, shortened_leads, stated_faults};
 pub(crate) use work::Work;
 pub use work::{LargestWire, largest_wire, work};
 
@@ -68,8 +68,8 @@ use crate::drawing::{Drawing, EntityId, Outline};
 use crate::finding::{Detail, Finding, Rule, Severity};
 use crate::geometry::Point;
 use crate::settings::{Compensation, Effective, LengthSetting, Order};
+use contour_path::{Fault, Laid};
 use job::Job;
-use laid::{Fault, Laid};
 use leads::Contours;
 use order::Chosen;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -130,20 +130,20 @@ pub(crate) fn cuts(
             .map(|path| path.outline)
             .collect(),
         order => {
-            let places = wanted::places(drawing, outlines, settings);
+            let places = requested::places(drawing, outlines, settings);
             let zero_length = tolerances.zero_length;
             order::chosen(drawing, outlines, None, order, &places, zero_length)
                 .unwrap_or_default()
                 .outlines
         }
     };
-    let marks = wanted::marks(drawing, outlines, MOST_COMPARED / segments.max(1))?;
+    let marks = requested::marks(drawing, outlines, MOST_COMPARED / segments.max(1))?;
     Some(
         chosen
             .into_iter()
             .map(|outline| ContourToCut {
                 outline,
-                mark: wanted::mark_of(&marks, outline),
+                mark: requested::mark_of(&marks, outline),
             })
             .collect(),
     )
@@ -159,7 +159,7 @@ pub(crate) fn plan_while(
     goes_on: &(dyn Fn() -> bool + Sync),
 ) -> Result<Planned, Refusal> {
     let tolerances = settings.tolerances.in_units(settings.unit_of(drawing).mm);
-    let places = wanted::places(drawing, outlines, settings);
+    let places = requested::places(drawing, outlines, settings);
     let Chosen {
         outlines: chosen,
         picks,
@@ -172,7 +172,7 @@ pub(crate) fn plan_while(
         tolerances.zero_length,
     )?;
     if settings.compensation == Compensation::None
-        && let Some(path) = drawn::one_path(
+        && let Some(path) = drawn_path::one_path(
             drawing,
             outlines,
             &chosen,
@@ -192,7 +192,7 @@ pub(crate) fn plan_while(
             finished: None,
         });
     }
-    let wanted = wanted::wanted(drawing, outlines, &chosen, settings)?;
+    let wanted = requested::wanted(drawing, outlines, &chosen, settings)?;
     if let LengthSetting::ByHandle(tabs) = &settings.tab {
         for handle in tabs.keys() {
             order::outline_of(drawing, outlines, handle)?;

@@ -3,14 +3,14 @@
 //! only where the number of pieces changes are all later ones renumbered.
 
 use super::clearance::area_about;
+use super::contour_path::Along;
 use super::corners::Element;
 use super::job::{Job, ROUNDING};
-use super::kept::{Kept, NEW, follows_of, which_it_is};
-use super::laid::Along;
 use super::offset::Wall;
 use super::part::{Cut, Cutting, Edge, Part};
 use super::path::Source;
 use super::proof::Beside;
+use super::reuse::{Kept, NEW, follows_of, which_it_is};
 use super::spliced::Splice;
 use crate::drawing::{Contour, Drawing};
 use crate::geometry::{Bounds, Segment};

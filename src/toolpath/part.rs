@@ -4,12 +4,12 @@
 //! turns in a point the wire leaves its own radius: such an edge remembers the point.
 
 use super::clearance::Walls;
+use super::contour_path::{Along, Known, Laid};
 use super::corners::{Element, elements};
 use super::job::Job;
-use super::kept::{Kept, follows, which_it_was};
-use super::laid::{Along, Known, Laid};
 use super::offset::{Wall, walls};
 use super::path::{Refusal, Source};
+use super::reuse::{Kept, follows, which_it_was};
 use super::skim::Rough;
 use crate::drawing::{Contour, ContourSegment, Drawing, EntityId};
 use crate::geometry::{Arc, Point, Segment, Side};
@@ -202,7 +202,7 @@ pub(crate) fn part(
     let outline = match job.laid_within(&beside, &near_path, back, known)? {
         Ok(Laid::Path(outline)) => outline,
         Ok(Laid::Point(_)) => {
-            let fault = super::laid::Fault::Nothing;
+            let fault = super::contour_path::Fault::Nothing;
             return Err(Refusal::Findings(vec![job.no_path(&fault, &beside, half)]));
         }
         Err(fault) => {

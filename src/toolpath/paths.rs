@@ -1,20 +1,20 @@
 //! The paths of all contours of one request, with their leads, each checked against all contours.
 
 use super::Planned;
-use super::begun::Begun;
 use super::clearance::Walls;
+use super::contour_path::{Along, Fault, Laid};
 use super::cores::each;
 use super::corners::{Element, elements};
 use super::entry::{Entry, default_entry, path_point};
 use super::finished::{Finished, Kerf, finished};
 use super::job::{Job, ROUNDING};
-use super::laid::{Along, Fault, Laid};
+use super::lead_form::Landing;
 use super::leads::{Contours, Kerfs, fault};
 use super::offset::Wall;
 use super::order::{directed, name};
 use super::path::{Refusal, Source, WirePath};
-use super::wanted::Wanted;
-use super::way::Landing;
+use super::requested::Requested;
+use super::rotated::Rotated;
 use crate::drawing::{Contour, Role};
 use crate::finding::{Finding, Rule, Severity};
 use crate::geometry::{Point, Segment, Side};
@@ -38,7 +38,7 @@ enum Offset {
     /// Ready.
     Middle(WirePath),
     /// With what is wanted of it, without leads.
-    Beside(Wanted, Box<Unled>),
+    Beside(Requested, Box<Unled>),
 }
 
 /// Contours that one core takes at a time.
@@ -71,7 +71,7 @@ impl Job<'_> {
     pub(crate) fn as_drawn_all(
         &self,
         chosen: &[usize],
-        wanted: &[Wanted],
+        wanted: &[Requested],
         contours: &Contours,
     ) -> Result<(Planned, Vec<Finding>), Refusal> {
         let (mut paths, mut findings) = (Vec::new(), Vec::new());
@@ -118,7 +118,7 @@ impl Job<'_> {
     pub(crate) fn offset_all(
         &self,
         chosen: &[usize],
-        wanted: &[Wanted],
+        wanted: &[Requested],
         contours: &Contours,
     ) -> Result<(Planned, Vec<Finding>), Refusal> {
         let (mut planned, mut findings) = (Planned::default(), Vec::new());
@@ -173,13 +173,13 @@ impl Job<'_> {
     fn offset(
         &self,
         index: usize,
-        wanted: &Wanted,
+        wanted: &Requested,
         contours: &Contours,
     ) -> Result<Offset, Refusal> {
         let closed = self.outlines[index].contour.closed;
         if self.settings.goes_along_middle(closed) {
             let thread = wanted.thread.or(wanted.beside);
-            let mut path = self.as_drawn(index, &Wanted { thread, ..*wanted })?;
+            let mut path = self.as_drawn(index, &Requested { thread, ..*wanted })?;
             path.segments.retain(|piece| piece.source.place().is_some());
             path.thread_hole = path.begin();
             return Ok(Offset::Middle(path));
@@ -190,7 +190,7 @@ impl Job<'_> {
     }
 
     /// Where a start hole is to be in an opening of which nothing is said: in the deepest point.
-    fn with_proposed(&self, index: usize, wanted: Wanted, contours: &Contours) -> Wanted {
+    fn with_proposed(&self, index: usize, wanted: Requested, contours: &Contours) -> Requested {
         let says_nothing = wanted.thread.is_none()
             && wanted.entry.is_none()
             && wanted.beside.is_none()
@@ -200,7 +200,7 @@ impl Job<'_> {
             && self.outlines[index].role == Role::Opening
             && self.outlines[index].contour.closed;
         let deepest = || Some(self.deepest(index, contours, f64::INFINITY)?.0);
-        Wanted {
+        Requested {
             proposed: if is_proposed { deepest() } else { None },
             ..wanted
         }
@@ -287,7 +287,7 @@ impl Job<'_> {
     }
 
     /// The same, but that an open contour is begun at the end that is entered, or that the thread hole is nearer to.
-    fn towards(&self, index: usize, wanted: &Wanted) -> Result<(Contour, bool), Refusal> {
+    fn towards(&self, index: usize, wanted: &Requested) -> Result<(Contour, bool), Refusal> {
         let (contour, turned) = self.directed(index);
         let ends = || {
             let first = contour.segment(self.drawing, 0)?.geometry.start();
@@ -316,7 +316,7 @@ impl Job<'_> {
     }
 
     /// The contour itself as the wire's path.
-    fn as_drawn(&self, index: usize, wanted: &Wanted) -> Result<WirePath, Refusal> {
+    fn as_drawn(&self, index: usize, wanted: &Requested) -> Result<WirePath, Refusal> {
         let outline = &self.outlines[index];
         let (contour, _) = self.towards(index, wanted)?;
         let walls = self.walls(&contour);
@@ -325,7 +325,7 @@ impl Job<'_> {
         let path = if contour.closed {
             let path = elements(&walls);
             match self.entry(index, &walls, wanted)? {
-                Some(entry) => Begun::at(path, entry.wall, entry.point).into_path(),
+                Some(entry) => Rotated::at(path, entry.wall, entry.point).into_path(),
                 None => path,
             }
         } else {
@@ -340,7 +340,7 @@ impl Job<'_> {
     }
 
     /// The offsets of a contour, one for each pass.
-    fn compensated(&self, index: usize, wanted: &Wanted) -> Result<Unled, Refusal> {
+    fn compensated(&self, index: usize, wanted: &Requested) -> Result<Unled, Refusal> {
         let (outline, settings) = (&self.outlines[index], self.settings);
         let handle = name(self.drawing, outline);
         let closed = outline.contour.closed;
@@ -446,8 +446,8 @@ impl Job<'_> {
     pub(super) fn controlled(
         &self,
         index: usize,
-        wanted: &Wanted,
-    ) -> Result<(Begun, Option<Side>), Refusal> {
+        wanted: &Requested,
+    ) -> Result<(Rotated, Option<Side>), Refusal> {
         let outline = &self.outlines[index];
         let (contour, turned) = self.towards(index, wanted)?;
         let side = outline
@@ -455,7 +455,7 @@ impl Job<'_> {
             .map(|side| if turned { side.reversed() } else { side });
         let walls = self.walls(&contour);
         if !contour.closed {
-            return Ok((Begun::whole(elements(&walls)), side));
+            return Ok((Rotated::whole(elements(&walls)), side));
         }
         let Some(entry) = self
             .entry(index, &walls, wanted)?
@@ -466,7 +466,7 @@ impl Job<'_> {
                 name(self.drawing, outline)
             )));
         };
-        let path = Begun::at(elements(&walls), entry.wall, entry.point);
+        let path = Rotated::at(elements(&walls), entry.wall, entry.point);
         Ok((path, side))
     }
 }

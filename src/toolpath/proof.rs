@@ -6,11 +6,11 @@
 
 use super::clearance::Walls;
 use super::corners::{Element, Offsets, Raw, meetings};
-use super::kept::Kept;
 use super::nest::{BesideWall, Nest};
 use super::offset::Wall;
+use super::quick_tests::{is_all_about_foot, is_all_within, middle, runs_beside};
+use super::reuse::Kept;
 use super::ring::Pieces;
-use super::seen::{is_all_about_foot, is_all_within, middle, runs_beside};
 use crate::drawing::winding_of;
 use crate::geometry::{Arc, Bounds, Point, Segment};
 use std::ops::{Deref, Range};

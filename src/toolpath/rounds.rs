@@ -1,7 +1,7 @@
 //! The ways round one contour without leads: what a program is compared with.
 
+use super::contour_path::{Along, Laid};
 use super::job::Job;
-use super::laid::{Along, Laid};
 use super::path::{PathSegment, Refusal};
 use super::skim::Rough;
 use crate::drawing::{ContourSegment, Drawing};

@@ -1,9 +1,9 @@
 //! The paths of the passes after the first.
 
 use super::clearance::Walls;
+use super::contour_path::{Along, Fault, Known, Laid, Outcome};
 use super::corners::Element;
 use super::job::{Job, ROUNDING};
-use super::laid::{Along, Fault, Known, Laid, Outcome};
 use super::nest::Before;
 use super::offset::Wall;
 use super::path::Refusal;

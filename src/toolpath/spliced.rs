@@ -6,9 +6,9 @@
 
 use super::clearance::Walls;
 use super::corners::{Element, Joining, Offsets, Raw};
-use super::kept::{Kept, which_it_is};
 use super::offset::Wall;
-use super::open::there_and_back;
+use super::open_contour::there_and_back;
+use super::reuse::{Kept, which_it_is};
 use super::ring::trimmed;
 use crate::geometry::Segment;
 use std::ops::Range;

@@ -5,18 +5,18 @@
 //! next. Passes that all go one way come back to the thread hole from where the tab begins. Then the tab is cut in passes of its own, to and
 //! fro from where the wire stands, or one way from the thread hole.
 
-use super::begun::Begun;
 use super::corners::Element;
 use super::entry::{Entry, path_point};
 use super::job::{Job, ROUNDING};
+use super::lead_form::{Landing, lead_in, lead_out};
 use super::leads::{Contours, Kerfs, fault};
 use super::offset::normal;
 use super::order::name;
 use super::path::{PathSegment, Refusal, Source, WirePath};
 use super::paths::{Pass, Unled};
+use super::requested::Requested;
+use super::rotated::Rotated;
 use super::threading::lead;
-use super::wanted::Wanted;
-use super::way::{Landing, lead_in, lead_out};
 use crate::drawing::Role;
 use crate::geometry::{Point, Segment, Side};
 use crate::settings::{Compensation, Lead, Sequence};
@@ -33,7 +33,7 @@ struct Round {
     /// The first piece of that is the straight way from the thread hole.
     is_led: bool,
     /// Along the tab, which ends at the entry.
-    held: Begun,
+    held: Rotated,
     /// Drawing units; 0 where the contour is the path.
     correction: f64,
     /// Where the wire goes at the tab to have its correction switched.
@@ -45,7 +45,7 @@ impl Job<'_> {
     pub(super) fn led(
         &self,
         mut unled: Unled,
-        wanted: &Wanted,
+        wanted: &Requested,
         thread: Point,
         contours: &Contours,
         kerfs: &Kerfs,
@@ -192,7 +192,7 @@ impl Job<'_> {
     fn round(
         &self,
         unled: &Unled,
-        wanted: &Wanted,
+        wanted: &Requested,
         pass: Pass,
         tab: Option<&Entry>,
         form: Form,
@@ -202,7 +202,7 @@ impl Job<'_> {
             thread,
             count,
         } = form;
-        let main = |way: Begun| {
+        let main = |way: Rotated| {
             let led = thread.zip(way.begin_of(back));
             let led = led.and_then(|(thread, begin)| lead(thread, begin, Source::LeadIn));
             (led.is_some(), way.into_segments(back, led))
@@ -217,8 +217,8 @@ impl Job<'_> {
                 let at =
                     tab.and_then(|tab| path_point(&pass.path, &unled.walls, tab, wire, unled.side));
                 let ring = match closed {
-                    true => Begun::at(pass.path, pass.element, pass.begin),
-                    false => Begun::whole(pass.path),
+                    true => Rotated::at(pass.path, pass.element, pass.begin),
+                    false => Rotated::whole(pass.path),
                 };
                 (ring, at.map(|(_, at)| at), wire, None)
             };
@@ -240,7 +240,7 @@ impl Job<'_> {
             let round = Round {
                 main,
                 is_led,
-                held: Begun::default(),
+                held: Rotated::default(),
                 correction,
                 aside: far_end.as_ref().and_then(aside),
             };
@@ -253,11 +253,11 @@ impl Job<'_> {
             let finding = fault(self.severity(), Some(wall.source), sentence, None);
             return Err(Refusal::Findings(vec![finding]));
         }
-        let (is_led, main) = main(Begun::whole(before));
+        let (is_led, main) = main(Rotated::whole(before));
         let round = Round {
             main,
             is_led,
-            held: Begun::whole(held),
+            held: Rotated::whole(held),
             correction,
             aside: aside(tab),
         };

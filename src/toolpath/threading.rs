@@ -1,14 +1,14 @@
 //! Where a contour is threaded, and the leads between the thread hole and its path.
 
+use super::contour_path::goes_out_and_back;
 use super::corners::Element;
 use super::entry::{circle_center, nearest};
 use super::job::{Job, ROUNDING};
-use super::laid::goes_out_and_back;
 use super::leads::{Contours, Kerfs, Surroundings, Threading, fault, thread_hole};
 use super::offset::Wall;
 use super::path::{PathSegment, Refusal, Source, WirePath};
 use super::paths::{Pass, Unled};
-use super::wanted::Wanted;
+use super::requested::Requested;
 use crate::drawing::Role;
 use crate::finding::Finding;
 use crate::geometry::{Point, Segment};
@@ -24,7 +24,7 @@ impl Job<'_> {
     }
 
     /// The form of the leads of a contour. A hole that is found, or the nearest point to one, lies at right angles to it anyway.
-    pub(super) fn lead(&self, wanted: &Wanted) -> Lead {
+    pub(super) fn lead(&self, wanted: &Requested) -> Lead {
         match self.settings.lead {
             Lead::Perpendicular if wanted.thread.and(wanted.entry).is_none() => Lead::Straight,
             lead => lead,
@@ -59,7 +59,7 @@ impl Job<'_> {
     pub(super) fn thread_hole(
         &self,
         unled: &Unled,
-        wanted: &Wanted,
+        wanted: &Requested,
         contours: &Contours,
         kerfs: &Kerfs,
         holes: &[Point],
@@ -129,7 +129,7 @@ impl Job<'_> {
     /// Where the wire's centre can only stand it is threaded, and cuts nothing more: no other thread hole will do.
     pub(super) fn refuse_other_thread(
         &self,
-        wanted: &Wanted,
+        wanted: &Requested,
         walls: &[Wall],
         stand: &Pass,
     ) -> Result<(), Refusal> {

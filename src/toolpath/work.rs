@@ -2,8 +2,8 @@
 //!
 //! Nothing is guessed: without a key that it needs a value is left out, and the key is named.
 
+use super::lead_form::largest_lead_angle;
 use super::path::WirePath;
-use super::way::largest_lead_angle;
 use crate::drawing::{Drawing, EntityId, Outline, Role};
 use crate::geometry::Segment;
 use crate::settings::Effective;

@@ -31,7 +31,6 @@ pub(crate) use tokens::{tokens, tokens_in};
 use super::occurrence::{Occurrence, Stop, Stopped};
 use super::{Completion, Signature};
 use crate::program::Document;
-use crate::text::TextEdit;
 use std::ops::Range;
 use words::{Part, WordKind};
 
@@ -64,15 +63,6 @@ trait Language {
     fn letters_of_numbers(&self) -> &'static [char] {
         &['N', 'n']
     }
-
-    /// The edits that give a block another number.
-    fn renamed(
-        &self,
-        digits: Range<usize>,
-        old: u32,
-        name: &str,
-        new: u32,
-    ) -> Result<Vec<TextEdit>, String>;
 }
 
 fn of(document: &Document) -> &dyn Language {

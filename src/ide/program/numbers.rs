@@ -34,5 +34,5 @@ pub(crate) fn renamed(
         !name.is_empty() && name.len() <= 8 && name.bytes().all(|byte| byte.is_ascii_digit());
     let new = name.parse().ok().filter(|_| is_number);
     let new = new.ok_or_else(|| say!(is_no_block_number, name))?;
-    of(document).renamed(digits, number, name, new)
+    document.renamed(digits, number, name, new)
 }

@@ -1,6 +1,6 @@
 //! Passes of one contour, each closed by its tab, which a later cut removes.
 
-use super::CutPath;
+use super::{CutPath, JOINED};
 use crate::geometry::{Bounds, Point, Segment};
 use crate::program::path::{lie_beside, tolerance};
 
@@ -26,7 +26,7 @@ pub(super) fn passes(cuts: &[CutPath]) -> Option<(Vec<Ring>, usize)> {
             .filter(|it| it.as_arc().is_some())
             .count()
     };
-    let near = 2.0 * tolerance(cuts.first().map_or(0, arcs));
+    let near = JOINED * tolerance(cuts.first().map_or(0, arcs));
     let begins_there = |cut: &&CutPath| {
         let first = cut.segments.first();
         first.is_some_and(|first| (first.start() - begin).norm() <= near)

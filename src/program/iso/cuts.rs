@@ -62,9 +62,9 @@ impl HasCuts for Document {
 }
 
 impl Document {
-    /// The tolerance of a cut's end at a place, µm.
-    pub(super) fn tolerance(&self, cut: &JoinedCut) -> f64 {
-        self.ends(cut).tolerance
+    /// The tolerance for the end of some moves at a place, µm.
+    pub(super) fn tolerance(&self, sum: &Part) -> f64 {
+        path::tolerance(sum.arcs as usize).max(self.reading().writing().slack)
     }
 
     /// The ends of some moves, relative to their start.
@@ -75,7 +75,7 @@ impl Document {
             begin: [first.from, first.to, second.to].map(seen),
             end: [last.from, last.to].map(seen),
             blocks: sum.moves as usize,
-            tolerance: path::tolerance(sum.arcs as usize).max(self.reading().writing().slack),
+            tolerance: self.tolerance(sum),
         }
     }
 

@@ -4,18 +4,16 @@ mod centers;
 
 use super::block::{Block, Compensation, Motion, Stop};
 use super::document::Document;
-use super::layout::is_parted;
-use super::line::with_word;
 use super::machine::Machine;
-use super::moves::{Place, apart, distance};
-use super::numbers::numbered;
+use super::moves::{Place, apart, distance, meet};
 use super::order::labels;
 use super::plain::{plain, word_at};
 use super::repair::{is_trouble, line_of};
 use super::style::Style;
 use crate::finding::{Detail, Fault, Finding, FixKind, Place as Where, Rule, TextFix};
+use crate::program::numbering::{self, Numbers};
 use crate::program::path::tolerance;
-use crate::program::repair::{merged, offered};
+use crate::program::repair::{merged, offered, without_spur};
 use crate::text::TextEdit;
 use centers::center_fixes;
 use std::ops::Range;
@@ -98,7 +96,7 @@ fn plain_fix(document: &Document, fault: &Fault, range: &Range<usize>) -> Option
                 String::new(),
                 format!("{}{}", offset.letter as char, offset.index),
             );
-            let space = if is_parted(text) { " " } else { "" };
+            let space = if document.is_parted() { " " } else { "" };
             let edit = TextEdit::new(range.end..range.end, format!("{space}{meant}"));
             (FixKind::Rewrite { found, meant }, false, edit)
         }
@@ -182,8 +180,7 @@ fn exchanged_word(
         let found = String::from_utf8_lossy(text.bytes().get(word.clone())?).into_owned();
         return Some((found, meant.clone(), TextEdit::new(word, meant)));
     }
-    let new = String::from_utf8(with_word(text.line(line), &meant, is_parted(text))).ok()?;
-    let edit = TextEdit::new(text.line_range(line), new);
+    let edit = document.with_word(line, &meant)?;
     Some((String::new(), meant, edit))
 }
 
@@ -217,21 +214,13 @@ fn spur_fix(document: &Document, back: usize) -> Option<TextFix> {
             .trim()
             .to_owned()
     };
-    let found = shown(out) + say!(and) + &shown(back);
-    let edit = vec![whole_line(document, out), whole_line(document, back)];
-    Some(TextFix::text(
-        FixKind::Rewrite {
-            found,
-            meant: String::new(),
-        },
-        false,
-        edit,
-    ))
+    let edits = [out, back].map(|line| whole_line(document, line));
+    Some(without_spur([out, back].map(shown), edits))
 }
 
 /// Ends of lines this near each other are one.
 pub(super) fn have_met(one: Place, other: Place) -> bool {
-    distance(one, other) / 1e3 <= tolerance(0)
+    meet(one, other, tolerance(0))
 }
 
 /// The way out of a spur is searched for in this many lines before its way back.
@@ -291,7 +280,7 @@ fn closing_fix(document: &Document, range: &Range<usize>) -> Option<TextFix> {
         machine.zero
     };
     let [x, y] = apart(target, base).map(|length| style.number(length));
-    let separator = if is_parted(text) { " " } else { "" };
+    let separator = if document.is_parted() { " " } else { "" };
     let words = ["G01".to_owned(), format!("X{x}"), format!("Y{y}")].join(separator);
     // Proved: the line leads there.
     let mut again = machine;
@@ -326,52 +315,26 @@ fn goes_on_by_itself(document: &Document, line: usize, motion: Motion) -> bool {
 fn number_fixes(document: &Document, fault: &Fault, range: &Range<usize>) -> Vec<TextFix> {
     let text = document.text();
     let line = text.line_of(range.start);
-    let mut fixes = Vec::new();
     let free = |number: u32| !labels(text).contains_key(&number);
-    match *fault {
+    let own = match *fault {
         Fault::Unnumbered { expected } if free(expected) => {
-            let own = text.line_range(line);
-            let number = format!("N{expected}");
-            let new = with_word(text.line(line), &number, is_parted(text));
-            if let Ok(new) = String::from_utf8(new) {
-                let edit = TextEdit::new(own, new);
-                fixes.push(TextFix::text(
-                    FixKind::SetNumber { number: expected },
-                    true,
-                    edit,
-                ));
-            }
+            let edit = document.with_word(line, &format!("N{expected}"));
+            edit.map(|edit| (expected, edit))
         }
         Fault::DoubledNumber { number } if !document.calls(number) => {
             let turn = document
                 .numbers_before(line)
                 .map(|(last, step)| last.saturating_add(step));
             let next = document.number_behind(line);
-            if let Some(turn) =
-                turn.filter(|turn| free(*turn) && next.is_none_or(|next| next > *turn))
-            {
-                let edit = TextEdit::new(range.clone(), format!("N{turn}"));
-                fixes.push(TextFix::text(
-                    FixKind::SetNumber { number: turn },
-                    true,
-                    edit,
-                ));
-            }
+            let has_room = |turn: &u32| free(*turn) && next.is_none_or(|next| next > *turn);
+            let edit = |turn| (turn, TextEdit::new(range.clone(), format!("N{turn}")));
+            turn.filter(has_room).map(edit)
         }
-        _ => {}
-    }
-    if let Ok(edit) = numbered(document, RENUMBERED) {
-        let kind = FixKind::Renumber {
-            first: RENUMBERED,
-            step: RENUMBERED,
-        };
-        fixes.push(TextFix::text(kind, false, edit).preferred_if(fixes.is_empty()));
-    }
-    fixes
+        _ => None,
+    };
+    let all = numbering::numbered(document).ok();
+    numbering::fixes(own, all.map(|edits| ([Document::STEP; 2], edits)))
 }
-
-/// The step in which all blocks are numbered.
-const RENUMBERED: u32 = 10;
 
 /// The G00 of a line.
 fn rapid_word(document: &Document, range: &Range<usize>) -> Option<Range<usize>> {

@@ -3,6 +3,7 @@
 use super::block::Stop;
 use super::document::Document;
 use super::stretch::Placed;
+use crate::program::numbering::step;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -64,10 +65,7 @@ impl Document {
             .filter_map(number_of)
             .filter(|number| *number < u32::MAX);
         let last = numbers.next()?;
-        let step = numbers
-            .next()
-            .and_then(|before| last.checked_sub(before))
-            .filter(|step| *step > 0);
+        let step = numbers.next().and_then(|before| step(before, last));
         Some((
             last,
             step.unwrap_or(if last.is_multiple_of(10) { 10 } else { 1 }),

@@ -2,7 +2,6 @@
 
 use super::block::{Block, Motion};
 use super::document::Document;
-use super::layout::is_parted;
 use super::machine::Machine;
 use super::moves::{Bend, CenterRule, Course, Move, Place, Reading, apart, to_center};
 use super::plain::words_in;
@@ -96,7 +95,7 @@ pub(super) fn line_to(
     let inch = document.block(line).inch.unwrap_or(before.inch);
     let written = Line {
         bytes: own,
-        parted: is_parted(document.text()),
+        parted: document.is_parted(),
         style: Style::of(document, inch),
         reading,
     };
@@ -254,6 +253,15 @@ impl Line<'_> {
             return Ok(with_word(&out, motion, self.parted));
         }
         Ok(out)
+    }
+}
+
+impl Document {
+    /// The edit that puts a word behind the block number of a line; `None` in another code page.
+    pub(super) fn with_word(&self, line: usize, word: &str) -> Option<TextEdit> {
+        let text = self.text();
+        let new = String::from_utf8(with_word(text.line(line), word, self.is_parted())).ok()?;
+        Some(TextEdit::new(text.line_range(line), new))
     }
 }
 

@@ -44,7 +44,6 @@ pub use block::read_line;
 pub use document::Document;
 pub(crate) use layout::format;
 pub(crate) use mill::write_milled;
-pub(crate) use numbers::renamed;
 pub(in crate::program) use taper::{Words as TaperWords, refuse_anywhere as refuse_taper};
 
 pub(crate) use plain::words;

@@ -39,6 +39,18 @@ impl Reading {
         }
     }
 
+    /// The same with I and J by another rule: under G91, where a centre has no coordinates, only by one that counts.
+    pub(super) fn with_rule(self, rule: CenterRule) -> Reading {
+        Reading {
+            absolute: rule,
+            incremental: match rule {
+                CenterRule::Absolute => self.incremental,
+                rule => rule,
+            },
+            ..self
+        }
+    }
+
     /// How the program gives the end of its moves.
     pub(crate) fn writing(&self) -> Writing {
         Writing {
@@ -272,4 +284,9 @@ pub(crate) fn apart(a: Place, b: Place) -> Place {
 pub(crate) fn distance(a: Place, b: Place) -> f64 {
     let [x, y] = apart(a, b);
     (x as f64).hypot(y as f64)
+}
+
+/// Whether two places are one, within so many µm.
+pub(super) fn meet(one: Place, other: Place, tolerance: f64) -> bool {
+    distance(one, other) / 1e3 <= tolerance
 }

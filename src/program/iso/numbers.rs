@@ -1,17 +1,9 @@
-//! Block numbers: renumbered, removed, renamed; calls follow.
-//!
-//! ```text
-//! M98 P7                     M98 P40
-//! M02                   →    N30 M02
-//! N7 G01 X1.                 N40 G01 X1.
-//! ```
+//! Block numbers: how they are written; calls follow.
 
-use super::block::Block;
 use super::document::Document;
-use super::layout::is_parted;
-use super::line::with_word;
-use super::order::{called, labels};
+use super::order::labels;
 use super::plain::word_at;
+use crate::program::numbering::{NumberedBlock, Numbers};
 use crate::text::{SourceText, TextEdit};
 use rustc_hash::FxHashMap;
 use std::ops::Range;
@@ -19,119 +11,87 @@ use std::ops::Range;
 /// Words of some controls that name a block and are not followed here.
 const UNKNOWN_CALLS: [&str; 5] = ["M97", "G25", "GOTO", "CALL", "M96"];
 
-/// Numbers in steps of `step`, for every line with a word for the machine.
-pub(super) fn numbered(document: &Document, step: u32) -> Result<Vec<TextEdit>, String> {
-    refuse_unknown_calls(document)?;
-    let text = document.text();
-    let parted = is_parted(text);
-    let mut edits = Vec::new();
-    // From old to new numbers, by the line that a call of them leads to.
-    let labels = labels(text);
-    let mut renamed: FxHashMap<u32, u32> = FxHashMap::default();
-    // A block with the number of a called program, or of a block elsewhere that is called, would be
-    // called instead.
-    let taken: Vec<u32> = called(text)
-        .into_iter()
-        .filter(|called| {
-            labels
-                .get(called)
-                .is_none_or(|&line| is_program(text, line))
-        })
-        .collect();
-    let mut number = step;
-    for line in 0..text.line_count() {
-        let block = document.block(line);
-        if block.empty || block.program.is_some() {
-            continue;
+impl Numbers for Document {
+    const STEP: u32 = 10;
+
+    fn blocks(&self) -> Result<Vec<NumberedBlock>, String> {
+        refuse_unknown_calls(self)?;
+        let text = self.text();
+        let block = |line: usize| {
+            let block = self.block(line);
+            NumberedBlock {
+                start: text.line_start(line),
+                word: block.number.and_then(|_| number_word(text, line)),
+                is_counted: !block.empty && block.program.is_none(),
+                is_called: block.number.is_some_and(|number| self.calls(number)),
+            }
+        };
+        Ok((0..text.line_count()).map(block).collect())
+    }
+
+    fn written(&self, block: &NumberedBlock, number: u32) -> Result<TextEdit, String> {
+        let number = format!("N{number}");
+        match &block.word {
+            Some(word) => Ok(TextEdit::new(word.clone(), number)),
+            None => {
+                let line = self.text().line_of(block.start);
+                let edit = self.with_word(line, &number);
+                edit.ok_or_else(|| say!(that_line_is_in_another_code_page, line + 1))
+            }
         }
-        while taken.contains(&number) && number < u32::MAX {
-            number = number.saturating_add(step);
+    }
+
+    /// Those of called programs and of calls that lead elsewhere: a block with one would be called in its place.
+    fn taken(&self) -> Vec<u32> {
+        let Some(order) = self.order() else {
+            return Vec::new();
+        };
+        let is_program = |line: &usize| self.block(*line).program.is_some();
+        let is_taken = |called: &&u32| order.labels.get(called).is_none_or(is_program);
+        order.called.iter().filter(is_taken).copied().collect()
+    }
+
+    fn other_with(&self, number: u32, own: usize) -> Result<Option<usize>, String> {
+        refuse_unknown_calls(self)?;
+        let other = labels(self.text()).get(&number).copied();
+        Ok(other.filter(|line| *line != own))
+    }
+
+    fn calls_follow(&self, own: usize, old: u32, new: u32) -> Vec<TextEdit> {
+        match self.called_line(old) == Some(own) {
+            true => calls(self, |called| (called == old).then_some(new)),
+            false => Vec::new(),
         }
-        match (block.number, number_word(text, line)) {
-            (Some(old), Some(word)) => {
-                if labels.get(&old) == Some(&line) {
-                    renamed.insert(old, number);
+    }
+
+    /// Where a line gets its number and holds a call, both are one edit.
+    fn followed(&self, mut edits: Vec<TextEdit>, given: &[(NumberedBlock, u32)]) -> Vec<TextEdit> {
+        let text = self.text();
+        // From old to new numbers, by the line that a call of them leads to.
+        let renamed = given.iter().filter_map(|(block, new)| {
+            block.word.as_ref()?;
+            let line = text.line_of(block.start);
+            let old = self.block(line).number?;
+            (self.called_line(old) == Some(line)).then_some((old, *new))
+        });
+        let renamed: FxHashMap<u32, u32> = renamed.collect();
+        for call in calls(self, |called| renamed.get(&called).copied()) {
+            let holds = |edit: &&mut TextEdit| {
+                edit.range.start <= call.range.start && call.range.end <= edit.range.end
+            };
+            match edits.iter_mut().find(holds) {
+                Some(whole) => {
+                    let old = text.bytes().get(whole.range.clone()).unwrap_or_default();
+                    let grown = whole.text.len() - String::from_utf8_lossy(old).len();
+                    let place = |byte: usize| byte - whole.range.start + grown;
+                    let within = place(call.range.start)..place(call.range.end);
+                    whole.text.replace_range(within, &call.text);
                 }
-                edits.push(TextEdit::new(word, format!("N{number}")));
-            }
-            _ => {
-                let new = with_word(text.line(line), &format!("N{number}"), parted);
-                let new = String::from_utf8(new)
-                    .map_err(|_| say!(that_line_is_in_another_code_page, line + 1))?;
-                edits.push(TextEdit::new(text.line_range(line), new));
+                None => edits.push(call),
             }
         }
-        number = number.saturating_add(step);
+        edits
     }
-    // Where a line gets its number and holds a call, both are one edit.
-    let calls = calls(document, |called| renamed.get(&called).copied());
-    for call in calls {
-        match edits
-            .iter_mut()
-            .find(|edit| edit.range.start <= call.range.start && call.range.end <= edit.range.end)
-        {
-            Some(whole) => {
-                let old = String::from_utf8_lossy(
-                    text.bytes().get(whole.range.clone()).unwrap_or_default(),
-                )
-                .into_owned();
-                let within =
-                    call.range.start - whole.range.start..call.range.end - whole.range.start;
-                let grown = whole.text.len() - old.len();
-                whole
-                    .text
-                    .replace_range(within.start + grown..within.end + grown, &call.text);
-            }
-            None => edits.push(call),
-        }
-    }
-    Ok(text.changing(edits))
-}
-
-/// True where a line begins a program (`O`).
-fn is_program(text: &SourceText, line: usize) -> bool {
-    Block::of(text.line(line)).program.is_some()
-}
-
-/// Removes all numbers that are not called.
-pub(super) fn without_numbers(document: &Document) -> Result<Vec<TextEdit>, String> {
-    refuse_unknown_calls(document)?;
-    let text = document.text();
-    let called = called(text);
-    let mut edits = Vec::new();
-    for line in 0..text.line_count() {
-        let number = document.block(line).number;
-        if let (Some(number), Some(word)) = (number, number_word(text, line))
-            && !called.contains(&number)
-        {
-            edits.push(text.without_word(&word));
-        }
-    }
-    Ok(edits)
-}
-
-/// The edits that give a block another number, whose digits stand at `digits`; calls of it follow.
-///
-/// Errors: a name that is no number, or one that another block has.
-pub(crate) fn renamed(
-    document: &Document,
-    digits: Range<usize>,
-    old: u32,
-    name: &str,
-    new: u32,
-) -> Result<Vec<TextEdit>, String> {
-    refuse_unknown_calls(document)?;
-    let (text, labels) = (document.text(), labels(document.text()));
-    let own = text.line_of(digits.start);
-    if let Some(line) = labels.get(&new).filter(|line| **line != own) {
-        return Err(say!(the_number_is_that_of_another_block, new, line + 1));
-    }
-    let mut edits = vec![TextEdit::new(digits, name.to_owned())];
-    if labels.get(&old) == Some(&own) {
-        edits.extend(calls(document, |called| (called == old).then_some(new)));
-    }
-    edits.sort_by_key(|edit| edit.range.start);
-    Ok(edits)
 }
 
 /// The P words of calls, with the numbers that `renamed` gives them.

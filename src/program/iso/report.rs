@@ -9,7 +9,7 @@ use super::cut::JoinedCut;
 use super::document::{Document, Table};
 use super::fixes::have_met;
 use super::limits::Limits;
-use super::moves::{Place as Spot, Reading, apart, distance, micrometres};
+use super::moves::{Place as Spot, Reading, apart, meet, micrometres};
 use super::part::{Part, WireSide};
 use super::plain::word_at;
 use super::repair::found::Repair;
@@ -85,8 +85,9 @@ impl Document {
         // With subprograms nothing is kept.
         let crossing = self.contours().crossing().iter();
         for (cut, found) in crossing.filter(|_| self.order().is_some()) {
-            let crossings = found.findings(&self.way(cut), self.last_block(cut), self.text());
-            report.findings.extend(crossings);
+            report
+                .findings
+                .extend(self.crosses_itself(cut, found, self.text()));
         }
         report.taper();
         report.definitions();
@@ -318,8 +319,8 @@ impl<'a> Report<'a> {
 
     /// Whether a cut beside which the wire runs leads back to the thread hole from elsewhere than where it came.
     fn may_lack_its_tab(&self, sum: &Part) -> bool {
-        let tolerance = tolerance(sum.arcs as usize).max(self.reading.writing().slack);
-        let meet = |one: Spot, other: Spot| distance(one, other) / 1e3 <= tolerance;
+        let tolerance = self.document.tolerance(sum);
+        let meet = |one: Spot, other: Spot| meet(one, other, tolerance);
         let [[first, second], [before, last]] = [sum.first, sum.last];
         let mut closes = meet(first.to, last.from) || meet(first.to, last.to);
         if sum.moves >= LONGEST_LEADS {
@@ -386,7 +387,7 @@ impl<'a> Report<'a> {
             let begins = [sum.first[0].from, sum.first[0].to];
             if !begins
                 .iter()
-                .any(|begin| distance(*begin, *place) / 1e3 <= self.document.tolerance(cut))
+                .any(|begin| meet(*begin, *place, self.document.tolerance(&cut.sum)))
             {
                 self.side_change(self.document.bytes_of(*line));
             }
@@ -399,8 +400,8 @@ impl<'a> Report<'a> {
     fn area_with_tab(&self, cut: &JoinedCut, all: &[JoinedCut]) -> Option<i128> {
         let begins = |sum: &Part| sum.first.map(|step| step.to);
         let ends = |sum: &Part| sum.last.map(|step| step.from);
-        let tolerance = self.document.tolerance(cut);
-        let meet = |one: Spot, other: Spot| distance(one, other) / 1e3 <= tolerance;
+        let tolerance = self.document.tolerance(&cut.sum);
+        let meet = |one: Spot, other: Spot| meet(one, other, tolerance);
         let common = |some: [Spot; 2], others: [Spot; 2]| {
             let is_met = move |spot: &Spot| others.iter().any(|other| meet(*spot, *other));
             some.into_iter().filter(is_met)
@@ -443,7 +444,7 @@ impl<'a> Report<'a> {
         if lead.switches != Some(true) || lead.is_arc() {
             return None;
         }
-        let near = |spot: Spot| distance(spot, lead.to) / 1e3 <= tolerance(sum.arcs as usize);
+        let near = |spot: Spot| meet(spot, lead.to, tolerance(sum.arcs as usize));
         let last = sum.last.iter().rev().find(|step| near(step.to))?;
         let ahead = sum.first[1]
             .at_origin()

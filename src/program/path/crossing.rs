@@ -6,6 +6,7 @@
 //! crossing: anything within [`margin`] is only a touch.
 
 use super::boxes::Boxes;
+use super::way::tolerance;
 use crate::geometry::{Bounds, Point, Segment, Vector, meetings, positive_angle};
 use std::cell::Cell;
 
@@ -49,7 +50,7 @@ const DOUBLINGS: usize = 10;
 /// The largest deviation of a way with this many arcs, µm: each arc adds up to 1 µm to either side, by chance. Counts
 /// that are nearly equal give the same, so that a block more or less does not matter.
 pub(in crate::program) fn margin(arcs: usize) -> f64 {
-    2.0 + (arcs.next_power_of_two() as f64).sqrt()
+    tolerance(arcs.next_power_of_two())
 }
 
 /// A way by its pieces, each of which begins where the one before ends.

@@ -10,7 +10,7 @@ use super::boxes::Boxes;
 use super::crossing::{
     BESIDE, Crossing, MOST_PAIRS, Tangle, come_near, margin, most_looks, near_each_other,
 };
-use super::parted::{Blocks, Part, PartedWay, micrometres};
+use super::parted::{Blocks, Part, PartedWay, SLACK, micrometres};
 use super::passes::{Before, MOST_PASSES, passes};
 use super::way::Way;
 use crate::finding::{Detail, Fault, Finding, NotJudged, Place, Rule, Severity};
@@ -457,6 +457,3 @@ fn keep_first(near: &mut Vec<(u32, u32)>) {
         near.truncate(MOST_PAIRS + 1);
     }
 }
-
-/// The enlargement of boxes, µm: places are rounded to nm.
-const SLACK: f64 = 1.0;

@@ -5,6 +5,7 @@ use super::crossings::{Found, Known};
 use super::lay::Lay;
 use super::parted::PartedWay;
 use crate::finding::{Finding, Severity};
+use crate::text::SourceText;
 use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::Arc;
@@ -67,7 +68,12 @@ pub(crate) trait HasCuts {
         })
     }
 
-    /// True for a cut so short that it may well be meant to be open.
+    /// What is said of a cut that crosses itself in these places.
+    fn crosses_itself(&self, cut: &Self::Cut, found: &Found, text: &SourceText) -> Vec<Finding> {
+        found.findings(&self.way(cut), self.last_block(cut), text)
+    }
+
+    /// So short that it may well be meant to be open.
     fn is_fragment(&self, cut: &Self::Cut) -> bool {
         self.ends(cut).blocks <= FRAGMENT
     }

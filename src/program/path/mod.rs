@@ -34,7 +34,7 @@ pub(crate) use passes::lie_beside;
 pub(in crate::program) use passes::pieces_of;
 pub(in crate::program) use size::{absurd_size, size_of};
 pub(in crate::program) use tight::{UM_IN_MM, is_tight, is_tight_in_four_b};
-pub(crate) use trace::CutSteps;
+pub(crate) use trace::{CutSteps, Follower};
 pub use trace::{Kind, Step, Trace};
 pub(crate) use way::Writing;
 pub(crate) use way::tolerance;

@@ -63,7 +63,7 @@ pub(crate) struct PartedWay<'a> {
 }
 
 /// The enlargement of boxes, µm: places are rounded to nm.
-const SLACK: f64 = 1.0;
+pub(super) const SLACK: f64 = 1.0;
 
 impl<'a> PartedWay<'a> {
     pub(crate) fn new(

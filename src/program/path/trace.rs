@@ -97,15 +97,14 @@ impl Trace {
     /// The same program as its blocks mean it: every step begins at the intended end of the one before, without the
     /// drift of a counting machine. Where the program states a place anew, it begins there.
     pub(crate) fn into_meant(mut self) -> Trace {
-        let (mut at, mut stands) = (self.start, self.start);
+        let mut follower = Follower::from(self.start);
         for step in &mut self.steps {
-            at += step.start - stands;
-            stands = step.end;
+            let at = follower.begin(step);
             let by = at - step.start;
             step.ideal = step.ideal.as_ref().map(|ideal| ideal.moved(by));
             step.end = step.ideal.as_ref().map_or(step.end + by, Segment::end);
             step.start = at;
-            at = step.end;
+            follower.at = step.end;
         }
         self
     }
@@ -143,6 +142,30 @@ impl Trace {
             bounds.merge(&piece.bounds());
         }
         bounds.min.x.is_finite().then_some(bounds)
+    }
+}
+
+/// Where a way stands that follows the steps of a trace, and ends beside them.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Follower {
+    pub(crate) at: Point,
+    /// Where the machine stands behind the last step.
+    stands: Point,
+}
+
+impl Follower {
+    pub(crate) fn from(start: Point) -> Follower {
+        Follower {
+            at: start,
+            stands: start,
+        }
+    }
+
+    /// Where it begins the next step. The program may state a place anew: the wire was taken there.
+    pub(crate) fn begin(&mut self, step: &Step) -> Point {
+        self.at += step.start - self.stands;
+        self.stands = step.end;
+        self.at
     }
 }
 

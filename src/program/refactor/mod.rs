@@ -13,6 +13,8 @@ mod proof;
 mod reverse;
 mod scale;
 mod start_here;
+#[cfg(test)]
+pub(in crate::program) mod tests;
 mod transform;
 
 pub(in crate::program) use notation::{At, Change, Content, News, Notation, Rewrite, Row, Sheet};

@@ -5,6 +5,7 @@ use super::{Edits, Refactoring};
 use crate::finding::Finding;
 use crate::geometry::{Point, Segment};
 use crate::program::grid::{Node, point_of};
+use crate::program::numbering::Numbers;
 use crate::program::path::{Cut, Kind, Trace, cuts};
 use crate::program::steps::{Program, trace};
 use crate::settings::Effective;
@@ -23,7 +24,7 @@ pub(in crate::program) enum Change {
 
 /// A language whose programs can be rewritten. Errors are in lower case without a full stop.
 pub(in crate::program) trait Notation: Sized {
-    type Document: Program;
+    type Document: Numbers;
     /// Everything known of a move except where it leads.
     type Own;
     /// The replacement of a move.
@@ -102,8 +103,6 @@ pub(in crate::program) trait Notation: Sized {
         Vec::new()
     }
 
-    fn numbered(document: &Self::Document) -> Edits;
-    fn without_numbers(document: &Self::Document) -> Edits;
     /// Refactorings that it alone has.
     fn own() -> Vec<Refactoring<Self>>;
 }

@@ -21,6 +21,15 @@ pub(super) fn offered(
     found.enumerate().filter_map(fix).collect()
 }
 
+/// The fix of a spur, whose way out and way back stand in two lines: both go.
+pub(super) fn without_spur(lines: [String; 2], edits: [TextEdit; 2]) -> TextFix {
+    let kind = FixKind::Rewrite {
+        found: lines.join(say!(and)),
+        meant: String::new(),
+    };
+    TextFix::text(kind, false, edits.to_vec())
+}
+
 /// Merges those that take precedence with the others of one finding. Of two equal edits one stays, under the other's
 /// name where that `names` it better.
 pub(super) fn merged(mut fixes: Vec<TextFix>, more: Vec<TextFix>, names: bool) -> Vec<TextFix> {

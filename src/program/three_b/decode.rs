@@ -20,7 +20,7 @@ pub enum DecodeFault {
 }
 
 /// The largest deviation of J from the exact projection, µm: published programs stay within it.
-const TOLERANCE: f64 = 2.0;
+pub(super) const J_TOLERANCE: f64 = 2.0;
 
 /// The line or arc of `block` from `start`, in µm.
 ///
@@ -84,7 +84,7 @@ fn line(block: &Block, quadrant: Quadrant, start: Point) -> Result<Segment, Deco
         }
     } else if counted == 0.0 {
         return Err(DecodeFault::WrongAxis);
-    } else if x.max(y) < j || (j - counted).abs() <= TOLERANCE {
+    } else if x.max(y) < j || (j - counted).abs() <= J_TOLERANCE {
         (x * (j / counted), y * (j / counted))
     } else {
         return Err(DecodeFault::WrongLength);
@@ -114,7 +114,7 @@ fn arc(
     let center = start - from_center;
     let start_angle = from_center.y.atan2(from_center.x);
     let turn = if counter_clockwise { 1.0 } else { -1.0 };
-    if (j - 4.0 * radius).abs() <= TOLERANCE {
+    if (j - 4.0 * radius).abs() <= J_TOLERANCE {
         return Ok(Segment::Arc(Arc {
             center,
             radius,

@@ -1,7 +1,7 @@
 //! From a line or arc of the path to blocks on the µm grid.
 
 use super::block::{Block, CountingAxis, Motion, Node, Quadrant};
-use super::decode::{decode, phase};
+use super::decode::{DecodeFault, decode, phase};
 use crate::geometry::{Arc, Segment};
 pub(super) use crate::program::encode::ASIDE_TOLERANCE;
 use crate::program::encode::{Attempt, Encoder, aside};
@@ -11,6 +11,9 @@ use std::f64::consts::{PI, TAU};
 
 /// How far a decoded block may end from its node, µm.
 pub(crate) const END_TOLERANCE: f64 = 1.5;
+
+/// A block as it runs from its own node.
+pub(super) type Decoded = Result<Segment, DecodeFault>;
 
 /// A block, the nodes between which it runs, and its piece of the path, in µm.
 #[derive(Clone, Copy, Debug)]
@@ -32,7 +35,10 @@ pub(crate) fn encode(
     largest: i64,
     blocks: &mut Vec<Encoded>,
 ) -> Option<()> {
-    Blocks { largest }.encode(piece, from, to, blocks)
+    let mut made = Vec::new();
+    Blocks { largest }.encode(piece, from, to, &mut made)?;
+    blocks.extend(made.into_iter().map(|(block, _)| block));
+    Some(())
 }
 
 /// Blocks with no number above the largest.
@@ -41,7 +47,7 @@ pub(super) struct Blocks {
 }
 
 impl Encoder for Blocks {
-    type Block = Encoded;
+    type Block = (Encoded, Decoded);
 
     fn step(&self) -> f64 {
         1.0
@@ -55,34 +61,40 @@ impl Encoder for Blocks {
         }
     }
 
-    fn line(&self, piece: Segment, from: Node, to: Node) -> Encoded {
-        Encoded {
-            block: line_block(from, to),
+    fn line(&self, piece: Segment, from: Node, to: Node) -> (Encoded, Decoded) {
+        let block = line_block(from, to);
+        let encoded = Encoded {
+            block,
             from,
             to,
             piece,
-        }
+        };
+        (encoded, decode(&block, point_of(from)))
     }
 
-    fn arc(&self, arc: &Arc, from: Node, to: Node, full_turn: bool) -> Attempt<Encoded> {
+    fn arc(&self, arc: &Arc, from: Node, to: Node, full_turn: bool) -> Attempt<Self::Block> {
         // Its centre needs more digits than a block has.
         if arc.radius > 2.0 * self.largest as f64 {
             return Attempt::Chords;
         }
         match arc_block(arc, from, to, full_turn) {
             None => Attempt::Misses,
-            Some(block) if block.x.max(block.y) > self.largest => Attempt::Chords,
+            Some((block, _)) if block.x.max(block.y) > self.largest => Attempt::Chords,
             // Pieces of one length differ in their J; one that is too long is split once more.
-            Some(block) if block.j > self.largest => {
+            Some((block, _)) if block.j > self.largest => {
                 let count = block.j / (self.largest - self.largest / 1000).max(1) + 1;
                 Attempt::Pieces(count.max(2))
             }
-            Some(block) => Attempt::Made(Encoded {
-                block,
-                from,
-                to,
-                piece: Segment::Arc(*arc),
-            }),
+            Some((block, decoded)) => {
+                let piece = Segment::Arc(*arc);
+                let encoded = Encoded {
+                    block,
+                    from,
+                    to,
+                    piece,
+                };
+                Attempt::Made((encoded, Ok(decoded)))
+            }
         }
     }
 }
@@ -111,14 +123,14 @@ pub(crate) fn line_block(from: Node, to: Node) -> Block {
     }
 }
 
-/// The block about the best centre. Where it leads too far from the arc, as a grid centre two µm off can past a half
-/// turn, the block about the next best one.
-fn arc_block(arc: &Arc, from: Node, to: Node, full_turn: bool) -> Option<Block> {
+/// The block about the best centre, and how it runs. Where it leads too far from the arc, as a grid centre two µm off
+/// can past a half turn, the block about the next best one.
+fn arc_block(arc: &Arc, from: Node, to: Node, full_turn: bool) -> Option<(Block, Segment)> {
     grid_centers(arc, from, to).find_map(|center| block_about(center, arc, from, to, full_turn))
 }
 
 /// Other blocks for the same arc within tolerance: about another centre, or counting 1 µm more or less.
-pub(crate) fn alternatives(encoded: &Encoded, largest: i64) -> Vec<Block> {
+pub(crate) fn alternatives(encoded: &Encoded, largest: i64) -> Vec<(Encoded, Decoded)> {
     let Segment::Arc(arc) = &encoded.piece else {
         return Vec::new();
     };
@@ -128,30 +140,49 @@ pub(crate) fn alternatives(encoded: &Encoded, largest: i64) -> Vec<Block> {
     }
     let mut found = Vec::new();
     for center in grid_centers(arc, from, to) {
-        let Some(block) = block_about(center, arc, from, to, false) else {
+        let Some((block, _)) = block_about(center, arc, from, to, false) else {
             continue;
         };
         let counts = [block.j - 1, block.j, block.j + 1].map(|j| Block { j, ..block });
-        found.extend(counts.into_iter().filter(|block| {
-            block.x.max(block.y).max(block.j) <= largest && stands_for(block, arc, from, to, false)
+        let fitting = counts
+            .into_iter()
+            .filter(|block| block.x.max(block.y).max(block.j) <= largest);
+        found.extend(fitting.filter_map(|block| {
+            let decoded = standing_for(&block, arc, from, to, false)?;
+            Some((Encoded { block, ..*encoded }, Ok(decoded)))
         }));
     }
     found
 }
 
-/// Whether a block, decoded again, is the arc between its nodes.
-fn stands_for(block: &Block, arc: &Arc, from: Node, to: Node, full_turn: bool) -> bool {
-    match decode(block, point_of(from)) {
-        Ok(Segment::Arc(decoded)) => {
-            decoded.is_full_turn() == full_turn
-                && (decoded.end - point_of(to)).norm() <= END_TOLERANCE
-                && aside(&Segment::Arc(decoded), &Segment::Arc(*arc)) <= ASIDE_TOLERANCE
-        }
-        _ => false,
-    }
+/// A block decoded again, if it is the arc between its nodes.
+fn standing_for(
+    block: &Block,
+    arc: &Arc,
+    from: Node,
+    to: Node,
+    full_turn: bool,
+) -> Option<Segment> {
+    let decoded = decode(block, point_of(from)).ok()?;
+    let is_arc = decoded
+        .as_arc()
+        .is_some_and(|arc| arc.is_full_turn() == full_turn);
+    (is_arc && runs_along(&decoded, &Segment::Arc(*arc), to)).then_some(decoded)
 }
 
-fn block_about(center: Node, arc: &Arc, from: Node, to: Node, full_turn: bool) -> Option<Block> {
+/// Whether a decoded block runs along its piece of the path to its node.
+pub(super) fn runs_along(decoded: &Segment, piece: &Segment, to: Node) -> bool {
+    (decoded.end() - point_of(to)).norm() <= END_TOLERANCE
+        && aside(decoded, piece) <= ASIDE_TOLERANCE
+}
+
+fn block_about(
+    center: Node,
+    arc: &Arc,
+    from: Node,
+    to: Node,
+    full_turn: bool,
+) -> Option<(Block, Segment)> {
     let (start_x, start_y) = (from.x - center.x, from.y - center.y);
     let (end_x, end_y) = (to.x - center.x, to.y - center.y);
     if (start_x, start_y) == (0, 0) || (end_x, end_y) == (0, 0) {
@@ -197,7 +228,7 @@ fn block_about(center: Node, arc: &Arc, from: Node, to: Node, full_turn: bool) -
         axis,
         motion,
     };
-    stands_for(&block, arc, from, to, full_turn).then_some(block)
+    Some((block, standing_for(&block, arc, from, to, full_turn)?))
 }
 
 /// How far a controller counts on an axis along an arc.

@@ -13,6 +13,7 @@ mod fields;
 pub(in crate::program) mod format;
 pub(crate) mod layout;
 mod machine;
+mod numbers;
 pub(crate) mod parse;
 mod part;
 pub(crate) mod pieces;

@@ -1,17 +1,13 @@
 //! Decodes the written text and compares it with the path, block by block.
 
 use super::block::{Motion, Node, PartArc};
-use super::decode::{DecodeFault, decode};
-use super::encode::{ASIDE_TOLERANCE, END_TOLERANCE, Encoded, alternatives, point_of};
+use super::encode::{Decoded, END_TOLERANCE, Encoded, alternatives, point_of};
 use super::parse::{Item, read_line};
 use super::words::Words;
 use crate::geometry::{Segment, Vector};
-use crate::program::grid::largest_distance;
+use crate::program::encode::proved_aside;
 use crate::program::path::tolerance;
 use std::ops::Range;
-
-/// A block as it runs from its own node.
-type Decoded = Result<Segment, DecodeFault>;
 
 /// The results for the blocks of one program so far.
 #[derive(Clone, Debug, Default)]
@@ -44,10 +40,7 @@ impl Proof {
         let allowed = tolerance(self.arcs - self.arcs_at_start) / 2.0;
         let mut taken = (encoded, decoded);
         if let Some(largest) = largest.filter(|_| drifted(&taken.1) > allowed) {
-            let others = alternatives(&encoded, largest).into_iter().map(|block| {
-                let decoded = decode(&block, point_of(encoded.from));
-                (Encoded { block, ..encoded }, decoded)
-            });
+            let others = alternatives(&encoded, largest).into_iter();
             let best = others.min_by(|a, b| drifted(&a.1).total_cmp(&drifted(&b.1)));
             if let Some(best) = best.filter(|(_, other)| drifted(other) < drifted(&taken.1)) {
                 taken = best;
@@ -146,15 +139,6 @@ fn check_block(encoded: &Encoded, decoded: &Segment) -> Result<f64, String> {
             encoded.to
         ));
     }
-    let aside = largest_distance(decoded, &encoded.piece);
-    let middles = (decoded.point_at(0.5) - encoded.piece.point_at(0.5)).norm();
-    if aside.max(middles) > ASIDE_TOLERANCE || aside.is_nan() || middles.is_nan() {
-        return Err(say!(
-            a_block_runs_beside_the_path,
-            block,
-            aside.max(middles),
-            encoded.from
-        ));
-    }
-    Ok(aside)
+    proved_aside(decoded, &encoded.piece, 0.0)
+        .map_err(|worst| say!(a_block_runs_beside_the_path, block, worst, encoded.from))
 }

@@ -2,7 +2,6 @@
 
 use super::block::Node;
 use super::block::PartArc;
-use super::decode::decode;
 use super::encode::{self, Encoded};
 use super::layout::{push_block, push_start_point};
 use super::machine::travel;
@@ -199,13 +198,8 @@ impl Writer for Blocks<'_> {
         })?;
         // 4B's radius is the block's own.
         let largest = self.part.is_none().then_some(largest);
-        let encoded: Vec<(usize, Encoded)> = encoded.into_iter().flatten().collect();
-        let decoded = each(encoded.len(), AT_A_TIME, |nth| {
-            let own = &encoded[nth].1;
-            decode(&own.block, point_of(own.from))
-        });
-        let mut lines = Vec::with_capacity(encoded.len());
-        for ((piece, block), decoded) in encoded.into_iter().zip(decoded) {
+        let mut lines = Vec::with_capacity(encoded.iter().map(Vec::len).sum());
+        for (piece, (block, decoded)) in encoded.into_iter().flatten() {
             let (block, decoded) = self.proof.taken(block, decoded, largest);
             self.made.blocks += 1;
             let start = self.out.len();

@@ -15,8 +15,7 @@ mod vocabulary;
 use super::{Completion, Language, Part, Signature, WordKind};
 use crate::ide::occurrence::{Occurrence, Stop, Stopped};
 use crate::program::iso::block::word_range;
-use crate::program::iso::{self, Document, Token, words};
-use crate::text::TextEdit;
+use crate::program::iso::{Document, Token, words};
 use std::ops::Range;
 
 impl Language for Document {
@@ -85,16 +84,6 @@ impl Language for Document {
 
     fn letters_of_numbers(&self) -> &'static [char] {
         &['N', 'n', 'O', 'o']
-    }
-
-    fn renamed(
-        &self,
-        digits: Range<usize>,
-        old: u32,
-        name: &str,
-        new: u32,
-    ) -> Result<Vec<TextEdit>, String> {
-        iso::renamed(self, digits, old, name, new)
     }
 }
 

@@ -7,10 +7,8 @@ mod meaning;
 mod signature;
 
 use super::{Completion, Language, Part, Signature, WordKind};
-use crate::program::path::Step;
 use crate::program::three_b::Document;
 use crate::program::three_b::pieces::{Field, Piece, pieces};
-use crate::text::TextEdit;
 use std::ops::Range;
 
 impl Language for Document {
@@ -44,24 +42,5 @@ impl Language for Document {
         };
         let pieces = pieces(line, &self.words());
         pieces.into_iter().map(part).collect()
-    }
-
-    fn renamed(
-        &self,
-        digits: Range<usize>,
-        _: u32,
-        name: &str,
-        new: u32,
-    ) -> Result<Vec<TextEdit>, String> {
-        let line = self.text().line_of(digits.start);
-        let other = |step: &&Step| step.number == Some(new) && step.line != line;
-        match self.trace().steps.iter().find(other) {
-            Some(step) => Err(say!(
-                the_number_is_that_of_another_block,
-                new,
-                step.line + 1
-            )),
-            None => Ok(vec![TextEdit::new(digits, name)]),
-        }
     }
 }

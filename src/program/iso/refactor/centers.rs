@@ -5,7 +5,7 @@
 //! ```
 
 use super::Iso;
-use crate::program::iso::moves::{Bend, CenterRule, Reading};
+use crate::program::iso::moves::{Bend, CenterRule};
 use crate::program::refactor::{Edits, Refactoring, Rewrite, Sheet};
 
 pub(super) const START_TO_CENTER: Refactoring<Iso> = Refactoring {
@@ -44,16 +44,7 @@ fn converted(sheet: &Sheet<'_, Iso>, rule: CenterRule) -> Edits {
     if rule == CenterRule::Absolute && incremental > 0 {
         return Err(say!(under_g91_a_centre_has_no_coordinates_of_its_own).into());
     }
-    let under_g91 = if rule == CenterRule::Absolute {
-        old.incremental
-    } else {
-        rule
-    };
     let mut rewrite = Rewrite::<Iso>::new();
-    rewrite.extra.reading = Some(Reading {
-        absolute: rule,
-        incremental: under_g91,
-        ..*old
-    });
+    rewrite.extra.reading = Some(old.with_rule(rule));
     rewrite.edits(sheet, content)
 }

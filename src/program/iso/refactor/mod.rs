@@ -13,7 +13,6 @@ use super::block::Motion;
 use super::document::Document;
 use super::line::{Bent, Target};
 use super::moves::{Place, micrometres};
-use super::numbers;
 use super::plain::{words_at, words_in};
 use super::style::Style;
 use super::taper::{Words, refuse, refuse_anywhere};
@@ -216,14 +215,6 @@ impl Notation for Iso {
             Bent::Center(_) => Err(say!(the_arcs_would_not_tell_how_i_and_j_are_meant).into()),
             _ => Err(say!(the_new_line_leads_elsewhere).into()),
         }
-    }
-
-    fn numbered(document: &Document) -> Edits {
-        numbers::numbered(document, 10)
-    }
-
-    fn without_numbers(document: &Document) -> Edits {
-        numbers::without_numbers(document)
     }
 
     fn own() -> Vec<Refactoring<Iso>> {

@@ -7,7 +7,6 @@
 //! ```
 
 use super::Iso;
-use crate::program::iso::moves::{CenterRule, Reading};
 use crate::program::iso::plain::words_at;
 use crate::program::iso::taper::{Words, refuse_anywhere};
 use crate::program::refactor::{Edits, Refactoring, Rewrite, Sheet};
@@ -41,16 +40,7 @@ fn converted(sheet: &Sheet<'_, Iso>, incremental: bool) -> Edits {
     } else {
         old.incremental
     };
-    let under_g91 = if rule == CenterRule::Absolute {
-        old.incremental
-    } else {
-        rule
-    };
-    let reading = Reading {
-        absolute: rule,
-        incremental: under_g91,
-        ..*old
-    };
+    let reading = old.with_rule(rule);
     let word = if incremental { "G91" } else { "G90" };
     let mut rewrite = Rewrite::<Iso>::new();
     rewrite.extra.reading = Some(reading);

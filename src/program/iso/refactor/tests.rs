@@ -1,61 +1,33 @@
 //! Each refactoring leads where it should. The cursor is `|` in the text.
 
-use super::Iso;
 use crate::geometry::{Point, Segment};
-use crate::program;
+use crate::program::Language;
 use crate::program::iso::document::Document;
-use crate::program::iso::numbers::renamed;
-use crate::program::refactor::{Proposal, Sheet, scaled};
-use crate::settings::Effective;
-use crate::text::{TextEdit, edited};
+use crate::program::numbering::renamed;
+use crate::program::refactor::tests;
+use crate::text::edited;
 use proptest::prelude::*;
-use std::ops::Range;
 
 fn read(text: &str) -> Document {
     Document::read(text.as_bytes().to_vec())
 }
 
-fn scaled_by(document: &Document, factor: f64) -> Result<Vec<TextEdit>, String> {
-    scaled(
-        &Sheet::<Iso>::new(document, &Effective::default(), 0..0),
-        factor,
-    )
-}
-
-fn proposed(text: &str, id: &str) -> Vec<Proposal> {
-    let offset = text.find('|').unwrap_or(0);
-    let document = read(&text.replacen('|', "", 1));
-    proposals(document, offset..offset, &|its| its == id)
-}
-
-fn proposals(
-    document: Document,
-    selection: Range<usize>,
-    wanted: &dyn Fn(&str) -> bool,
-) -> Vec<Proposal> {
-    let program = program::Document::Iso(Box::new(document));
-    program::refactorings(&program, &Effective::default(), selection, wanted)
-}
-
 fn after(text: &str, id: &str) -> Result<String, String> {
-    let plain = text.replacen('|', "", 1);
-    match proposed(text, id).into_iter().next() {
-        None => Ok(plain),
-        Some(proposal) => proposal
-            .edits
-            .map(|edits| String::from_utf8(edited(plain.as_bytes(), &edits).unwrap()).unwrap()),
-    }
+    tests::refactored(Language::Iso, id, text)
+}
+
+fn scaled_by(text: &str, factor: f64) -> Result<String, String> {
+    tests::scaled_by(Language::Iso, text, factor)
 }
 
 #[track_caller]
 fn check(id: &str, text: &str, expected: &str) {
-    assert_eq!(after(text, id).as_deref(), Ok(expected), "{id} of {text}");
+    tests::check(Language::Iso, id, text, expected);
 }
 
 #[track_caller]
 fn refuses(id: &str, text: &str, expected: &str) {
-    let reason = after(text, id).expect_err(text);
-    assert!(reason.contains(expected), "{id} of {text}: {reason}");
+    tests::refused(Language::Iso, id, text, expected);
 }
 
 /// A hole of R 5 with a flat, from its middle: absolute, start to centre.
@@ -64,41 +36,37 @@ const HOLE: &str = "%\nN1 G92 X0. Y0. ; start\nN2 G90\nN3 G41 D1\nN4 G01 X5. Y0.
 #[test]
 fn contours_are_cut_the_other_way() {
     check(
-        "refactor.rewrite.reverse",
+        "reverse",
         HOLE,
         "%\nN1 G92 X0. Y0. ; start\nN2 G90\nN3 G42 D1\nN4 G01 X5. Y0. F3.\nN5 G02 X-5. Y0. I-5. J0. (quarter)\nN6 G01 X0. Y5.\nN7 G02 X5. Y0. I0. J-5.\nN8 G40\nN9 G01 X0. Y0.\nM02\n%\n",
     );
     refuses(
-        "refactor.rewrite.reverse",
+        "reverse",
         "G91\nG01 X5.\nG01 Y5.\nG01 X-4.\nG01 Y-4.\nM02\n",
         "is open",
     );
     refuses(
-        "refactor.rewrite.reverse",
+        "reverse",
         "G01 X5.\nG03 X6. I4. J0.\nM02\n",
         "line 2: the arc leads nowhere",
     );
-    refuses(
-        "refactor.rewrite.reverse",
-        "M98 P5\nM02\nN5 G01 X5.\nM99\n",
-        "subprograms",
-    );
+    refuses("reverse", "M98 P5\nM02\nN5 G01 X5.\nM99\n", "subprograms");
 }
 
 #[test]
 fn a_contour_begins_where_the_cursor_stands() {
     check(
-        "refactor.rewrite.startHere",
+        "startHere",
         "G92 X0 Y0\nG90\nG01 X5 Y5\nG01 X5 Y-5\n|X-5\nY5\nX5\nX0 Y0\nM02\n",
         "G92 X0 Y0\nG90\nG01 X5 Y-5\nG01 X-5 Y-5\nX-5 Y5\nX5 Y5\nX5 Y-5\nX0 Y0\nM02\n",
     );
     refuses(
-        "refactor.rewrite.startHere",
+        "startHere",
         "G92 X0 Y20\nG90\nG01 X0 Y10\nX10\nY0\n|X-10\nY10\nX0\nG01 X0 Y20\nM02\n",
         "would cut the contour in line",
     );
     refuses(
-        "refactor.rewrite.startHere",
+        "startHere",
         "G92 X0 Y0\nG90\n|G01 X5 Y5\nX5 Y-5\nX-5\nY5\nX5\nX0 Y0\nM02\n",
         "expected one of the contour",
     );
@@ -107,30 +75,26 @@ fn a_contour_begins_where_the_cursor_stands() {
 #[test]
 fn programs_are_mirrored_and_turned_about_their_zero() {
     check(
-        "refactor.rewrite.mirror.x",
+        "mirror.x",
         HOLE,
         "%\nN1 G92 X0. Y0. ; start\nN2 G90\nN3 G42 D1\nN4 G01 X-5. Y0. F3.\nN5 G02 X0. Y5. I5. J0. (quarter)\nN6 G01 X5. Y0.\nN7 G02 X-5. Y0. I-5. J0.\nN8 G40\nN9 G01 X0. Y0.\nM02\n%\n",
     );
     check(
-        "refactor.rewrite.rotate.left",
+        "rotate.left",
         "G92 X3. Y1.5\nG01 X5.\nG03 Y5.5 X5. I0. J2.\nM02\n",
         "G92 X-1.5 Y3.\nG01 Y5.\nG03 Y5. X-5.5 I-2. J0.\nM02\n",
     );
     check(
-        "refactor.rewrite.rotate.half",
+        "rotate.half",
         "G91\nG01 X5 Y-3\nG02 X4 R-2\nM02\n",
         "G91\nG01 X-5 Y3\nG02 X-4 R-2\nM02\n",
     );
     refuses(
-        "refactor.rewrite.rotate.left",
+        "rotate.left",
         "G91\nG01 X5 U1\nM02\n",
         "line 2: the way of the upper guide",
     );
-    refuses(
-        "refactor.rewrite.mirror.y",
-        "G51 A1.\nG01 X5.\nM02\n",
-        "a taper",
-    );
+    refuses("mirror.y", "G51 A1.\nG01 X5.\nM02\n", "a taper");
 }
 
 #[test]
@@ -144,19 +108,18 @@ fn what_would_part_the_upper_guide_from_the_wire_is_refused() {
         ("G01 X5. Y2. : X5. Y2.1\n", ""),
     ] {
         for id in ["reverse", "coordinates.incremental", "startHere", "profile"] {
-            refuses(&format!("refactor.rewrite.{id}"), &square(words), about);
+            refuses(id, &square(words), about);
         }
     }
     for words in ["G51 A1.\n", "G52 T2.\n", "G140 A1.\n"] {
         for id in ["reverse", "startHere", "profile"] {
-            refuses(&format!("refactor.rewrite.{id}"), &square(words), "a taper");
+            refuses(id, &square(words), "a taper");
         }
     }
     // In a comment they mean nothing.
     let harmless = square("(U1 G51) ");
-    assert!(after(&harmless, "refactor.rewrite.reverse").is_ok());
-    let sheet = |text: &str| scaled_by(&read(text), 2.0);
-    assert!(sheet("G91\nG01 X5. U1.\nM02\n").is_err());
+    assert!(after(&harmless, "reverse").is_ok());
+    assert!(scaled_by("G91\nG01 X5. U1.\nM02\n", 2.0).is_err());
 }
 
 #[test]
@@ -164,14 +127,10 @@ fn the_stop_before_a_tab_stays_where_it_is() {
     let text =
         "G92 X0 Y0\nG90\nG01 X4. Y0.\nY5.\n|X24.\nY-15.\nX4.\nY-3.\nM00\nG01 Y0.\nX0.\nM02\n";
     for id in ["reverse", "startHere"] {
-        refuses(
-            &format!("refactor.rewrite.{id}"),
-            text,
-            "the contour pauses before line 10",
-        );
+        refuses(id, text, "the contour pauses before line 10");
     }
     refuses(
-        "refactor.rewrite.profile",
+        "profile",
         text,
         "line 9: the stop before the tab would be lost",
     );
@@ -182,20 +141,12 @@ fn coordinates_become_absolute_and_back() {
     let absolute = "G92 X1. Y2.\nG90\nG01 X5. Y2.\nY7.\nG03 X3. Y9. I-2. J0.\nG01 X1.\nY2.\nM02\n";
     let incremental =
         "G92 X1. Y2.\nG91\nG01 X4. Y0.\nY5.\nG03 X-2. Y2. I-2. J0.\nG01 X-2.\nY-7.\nM02\n";
-    check(
-        "refactor.rewrite.coordinates.incremental",
-        absolute,
-        incremental,
-    );
-    check(
-        "refactor.rewrite.coordinates.absolute",
-        incremental,
-        absolute,
-    );
-    check("refactor.rewrite.coordinates.absolute", absolute, absolute);
+    check("coordinates.incremental", absolute, incremental);
+    check("coordinates.absolute", incremental, absolute);
+    check("coordinates.absolute", absolute, absolute);
     // Where nothing says G90, G91 is put before the first move.
     check(
-        "refactor.rewrite.coordinates.incremental",
+        "coordinates.incremental",
         "N1 G92 X1 Y0\nN2 G01 X5\nN3 X7\n",
         "N1 G92 X1 Y0\nN2 G91 G01 X4\nN3 X2\n",
     );
@@ -206,30 +157,18 @@ fn centres_are_written_in_every_convention() {
     let to_center = "G90\nG01 X5. Y0.\nG03 X0. Y5. I-5. J0.\nG01 Y8.\nG02 X2. Y10. I2.\nM02\n";
     let to_start = "G90\nG01 X5. Y0.\nG03 X0. Y5. I5. J0.\nG01 Y8.\nG02 X2. Y10. I-2. J0.\nM02\n";
     let absolute = "G90\nG01 X5. Y0.\nG03 X0. Y5. I0. J0.\nG01 Y8.\nG02 X2. Y10. I2.\nM02\n";
-    check(
-        "refactor.rewrite.centers.centerToStart",
-        to_center,
-        to_start,
-    );
-    check("refactor.rewrite.centers.absolute", to_center, absolute);
-    check(
-        "refactor.rewrite.centers.startToCenter",
-        absolute,
-        to_center,
-    );
-    check(
-        "refactor.rewrite.centers.startToCenter",
-        to_center,
-        to_center,
-    );
+    check("centers.centerToStart", to_center, to_start);
+    check("centers.absolute", to_center, absolute);
+    check("centers.startToCenter", absolute, to_center);
+    check("centers.startToCenter", to_center, to_center);
     refuses(
-        "refactor.rewrite.centers.absolute",
+        "centers.absolute",
         "G91\nG03 X-5. Y5. I-5. J0.\nM02\n",
         "under G91",
     );
     // A full circle alone does not show its convention.
     refuses(
-        "refactor.rewrite.centers.centerToStart",
+        "centers.centerToStart",
         "G90\nG01 X5. Y0.\nG03 X5. Y0. I-5. J0.\nM02\n",
         "would not tell",
     );
@@ -238,20 +177,16 @@ fn centres_are_written_in_every_convention() {
 #[test]
 fn blocks_are_numbered_and_calls_follow() {
     check(
-        "refactor.rewrite.number",
+        "number",
         "%\nG92 X0 Y0\nM98 P7\n(note)\nM02\nN7 G01 X1\nN7000 M99\n",
         "%\nN10 G92 X0 Y0\nN20 M98 P40\n(note)\nN30 M02\nN40 G01 X1\nN50 M99\n",
     );
     check(
-        "refactor.rewrite.withoutNumbers",
+        "withoutNumbers",
         "N1 G01 X5\nN2 M98 P7\nN3 M02\nN7 X1\nN8 M99\n",
         "G01 X5\nM98 P7\nM02\nN7 X1\nM99\n",
     );
-    refuses(
-        "refactor.rewrite.number",
-        "N1 G01 X5\nGOTO 1\nM02\n",
-        "GOTO",
-    );
+    refuses("number", "N1 G01 X5\nGOTO 1\nM02\n", "GOTO");
     let document = read("M98 P7\nM02\nN7 G01 X1\nN8 M99\n");
     let edits = renamed(&document, 12..13, 7, "70", 70).unwrap();
     assert_eq!(
@@ -267,10 +202,10 @@ fn blocks_are_numbered_and_calls_follow() {
 #[test]
 fn the_planes_of_a_taper_go_into_another_unit_and_are_scaled_by_nothing_else() {
     let tapered = "TP0.0\nTN1.25\nG92 X0. Y0.\nG51 A2.\nG01 X1.0000 Y0.\nG50\nG01 X0. Y0.\nM02\n";
-    let in_mm = after(tapered, "refactor.rewrite.scale.inchToMm").unwrap();
+    let in_mm = after(tapered, "scale.inchToMm").unwrap();
     let other = in_mm.lines().nth(1);
     assert_eq!(other, Some("TN31.75"), "{in_mm}");
-    let refused = scaled_by(&read(tapered), 2.0).unwrap_err();
+    let refused = scaled_by(tapered, 2.0).unwrap_err();
     assert!(refused.contains("TP, TN"), "{refused}");
 }
 
@@ -279,13 +214,7 @@ fn programs_are_scaled_and_stay_in_their_steps() {
     // An arc whose ends would meet becomes no circle.
     let arc =
         "G92 X0 Y0\nG01 X5.000 Y0.000\nG03 X5.000 Y0.010 I-5.000 J0.005\nG01 X0.000 Y0.000\nM02\n";
-    refuses("refactor.rewrite.scale.mmToInch", arc, "becomes shorter");
-    let scaled_by = |text: &str, factor: f64| {
-        let document = read(text);
-        scaled_by(&document, factor).map(|edits| {
-            String::from_utf8(edited(document.text().bytes(), &edits).unwrap()).unwrap()
-        })
-    };
+    refuses("scale.mmToInch", arc, "becomes shorter");
     assert_eq!(
         scaled_by(
             "H1=110\nG92 X0 Y1000\nG91\nG01 X5000\nG03 X5000 Y5000 J5000\nM02\n",
@@ -312,9 +241,10 @@ fn programs_are_scaled_and_stay_in_their_steps() {
 
 #[test]
 fn a_program_is_written_anew_as_each_profile_has_it() {
-    let found = proposed(
+    let found = tests::proposed(
+        Language::Iso,
+        "profile",
         "G92 X0. Y0.\nG91\nG01 X5. ; in\nG03 X-10. I-5.\nX10. I5.\nG01 X-5.\nM02\n",
-        "refactor.rewrite.profile",
     );
     let of = |name: &str| {
         let proposal = found
@@ -428,21 +358,21 @@ proptest! {
         let before = way(&text);
         // These write the same way otherwise.
         for id in ["coordinates.absolute", "coordinates.incremental", "centers.startToCenter", "centers.centerToStart", "centers.absolute", "number"] {
-            if let Ok(text) = after(&text, &format!("refactor.rewrite.{id}")) {
+            if let Ok(text) = after(&text, id) {
                 prop_assert!(apart(&way(&text), &before) < 1e-6, "{id}: {text}");
             }
         }
         // There and back gives the same text where nothing was left out.
-        let turned = after(&text, "refactor.rewrite.rotate.left").unwrap();
+        let turned = after(&text, "rotate.left").unwrap();
         let quarter = |point: Point| Point::new(-point.y, point.x);
         let ends = |way: &[Segment]| way.iter().map(Segment::end).collect::<Vec<_>>();
         prop_assert_eq!(ends(&way(&turned)), ends(&before).into_iter().map(quarter).collect::<Vec<_>>());
-        prop_assert_eq!(&after(&turned, "refactor.rewrite.rotate.right").unwrap(), &text);
-        let mirrored = after(&text, "refactor.rewrite.mirror.x").unwrap();
-        prop_assert_eq!(&after(&mirrored, "refactor.rewrite.mirror.x").unwrap(), &text);
+        prop_assert_eq!(&after(&turned, "rotate.right").unwrap(), &text);
+        let mirrored = after(&text, "mirror.x").unwrap();
+        prop_assert_eq!(&after(&mirrored, "mirror.x").unwrap(), &text);
         // Reversed, the contour has the same points in the other order; reversed again it is the same way.
-        let reversed = after(&text, "refactor.rewrite.reverse").unwrap();
-        prop_assert!(apart(&way(&after(&reversed, "refactor.rewrite.reverse").unwrap()), &before) < 1e-6);
+        let reversed = after(&text, "reverse").unwrap();
+        prop_assert!(apart(&way(&after(&reversed, "reverse").unwrap()), &before) < 1e-6);
         let own = &before[1..before.len() - 1];
         let back: Vec<Segment> = way(&reversed)[1..before.len() - 1].iter().rev().map(Segment::reversed).collect();
         prop_assert!(apart(own, &back) < 1e-6, "{reversed}");
@@ -457,9 +387,7 @@ proptest! {
         };
         prop_assert_eq!(rules(&reversed), rules(&text));
         // Twice as large, and no further off than a step.
-        let document = read(&text);
-        let edits = scaled_by(&document, 2.0).unwrap();
-        let larger = String::from_utf8(edited(document.text().bytes(), &edits).unwrap()).unwrap();
+        let larger = scaled_by(&text, 2.0).unwrap();
         let halved: Vec<Point> = way(&larger).iter().map(|segment| segment.point_at(0.5) / 2.0).collect();
         for (half, whole) in halved.iter().zip(&before) {
             prop_assert!((half - whole.point_at(0.5)).norm() < 1.5, "{larger}");
@@ -476,21 +404,13 @@ proptest! {
         copies in 1_usize..4,
         (start, length) in (0_usize..200, 0_usize..60),
     ) {
-        let text = text.repeat(copies);
-        let document = read(&text);
-        let start = start.min(text.len());
-        for proposal in proposals(document.clone(), start..(start + length).min(text.len()), &|_| true) {
-            let Ok(edits) = proposal.edits else { continue };
-            prop_assert!(edits.windows(2).all(|pair| pair[0].range.end <= pair[1].range.start), "{}: {edits:?}", proposal.id);
-            prop_assert!(edits.iter().all(|edit| edit.range.start <= edit.range.end && edit.range.end <= text.len()), "{}", proposal.id);
-        }
-        let _ = scaled_by(&document, 2.0);
+        tests::are_edits_or_reasons(Language::Iso, &text.repeat(copies), start..start + length)?;
     }
 }
 
 #[test]
 fn a_number_that_is_called_and_stands_elsewhere_is_given_to_no_block() {
-    let number = |text: &str| after(text, "refactor.rewrite.number").unwrap();
+    let number = |text: &str| after(text, "number").unwrap();
     // Subprogram 20 is in the control, 40 begins with O.
     let text = "M98 P20\nG01 X1.\nM98 P40\nM02\nO40\nG01 X2.\nM99\n";
     assert_eq!(

@@ -2,7 +2,6 @@
 
 use super::Iso;
 use crate::program::iso::block::Block;
-use crate::program::iso::layout::is_parted;
 use crate::program::iso::line::{Line, Target, prove, push_changed, with_word};
 use crate::program::iso::moves::Reading;
 use crate::program::iso::style::Style;
@@ -38,7 +37,7 @@ pub(super) fn edits(
     let text = document.text();
     let old = document.reading();
     let reading = reading.unwrap_or(*old);
-    let parted = is_parted(text);
+    let parted = sheet.document.is_parted();
     let styles = [false, true].map(|inch| Style::of(document, inch));
     let mut machine = document.first_machine();
     let mut edits = Vec::new();

@@ -66,31 +66,22 @@ impl Document {
         if self.order().is_some() {
             return Vec::new();
         }
-        let (mut told, mut alone): (Vec<OfCut>, _) = (Vec::new(), Vec::new());
-        let mut asked = 0;
+        let mut alone = Vec::new();
         let mut report = Report::new(self);
         let first = self
             .doubtful()
             .partition_point(|cut| cut.begin() < places.start);
         let doubtful = self.doubtful().iter().enumerate().skip(first);
-        for (index, cut) in doubtful.take_while(|(_, cut)| cut.begin() < places.end) {
-            asked += 1;
+        let doubtful = doubtful.take_while(|(_, cut)| cut.begin() < places.end);
+        let judged = doubtful.map(|(index, cut)| {
             if report.stands_alone(cut) {
                 alone.push(index);
                 report.judge(cut, &[]);
-                let found = report.findings.drain(..);
-                let of_cut = |finding| OfCut::new(self.chunks(), cut.begin(), finding);
-                told.extend(found.filter_map(of_cut));
             }
-        }
-        let crossing = self.contours().crossing_within(places, JoinedCut::begin);
-        for (cut, found) in crossing {
-            asked += 1;
-            let found = found.findings(&self.way(cut), self.last_block(cut), self.text());
-            let of_cut = |finding| OfCut::new(self.chunks(), cut.begin(), finding);
-            told.extend(found.into_iter().filter_map(of_cut));
-        }
-        told.sort_by_key(OfCut::begin);
+            (cut.begin(), std::mem::take(&mut report.findings))
+        });
+        let kept = (self.chunks(), self.contours());
+        let (told, asked) = OfCut::all(&*self, kept, places.clone(), judged, |_| true);
         #[cfg(test)]
         (self.judged = asked);
         #[cfg(not(test))]

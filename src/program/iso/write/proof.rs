@@ -2,8 +2,8 @@
 
 use super::Lines;
 use crate::geometry::Segment;
-use crate::program::encode::ASIDE_TOLERANCE;
-use crate::program::grid::{largest_distance, point_of};
+use crate::program::encode::proved_aside;
+use crate::program::grid::point_of;
 use crate::program::iso::encode::Encoded;
 use crate::program::iso::moves::{Course, Move, Place, micrometres};
 use crate::program::write::{ProofError, Proved, scaled};
@@ -58,15 +58,9 @@ impl Lines<'_> {
             &step.piece.moved(-point_of(self.zero).coords),
             self.step_um(),
         );
-        let middles = (decoded.point_at(0.5) - piece.point_at(0.5)).norm();
-        let aside = largest_distance(&decoded, &piece);
-        if aside.max(middles) > ASIDE_TOLERANCE + 1e-6 || aside.is_nan() || middles.is_nan() {
-            return Err(ProofError::Mismatch(say!(
-                the_move_runs_beside_the_path,
-                step.to,
-                aside.max(middles)
-            )));
-        }
+        let aside = proved_aside(&decoded, &piece, 1e-6).map_err(|worst| {
+            ProofError::Mismatch(say!(the_move_runs_beside_the_path, step.to, worst))
+        })?;
         Ok(Checked {
             made,
             decoded,

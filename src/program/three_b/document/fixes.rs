@@ -5,17 +5,16 @@ use super::super::block::{Block, Node};
 use super::super::encode::line_block;
 use super::super::entry::{BlockEntry, Move, What, travel_of};
 use super::super::fields::fields_of;
-use super::super::layout::{layout_in, number_edit, push_fields};
+use super::super::layout::{layout_in, push_fields};
 use super::super::pieces::{Field, Piece, pieces};
 use super::super::rules::position_mismatch::Mismatched;
-use super::super::rules::{
-    self, Site, TextFix, block_number, missing_end, position_mismatch, text_after_end,
-};
+use super::super::rules::{self, Site, TextFix, missing_end, position_mismatch, text_after_end};
 use super::super::sum::Sum;
 use super::sequence::place_before;
 use super::{At, Document};
 use crate::finding::{Detail, Fault, Finding, FixKind, Place};
 use crate::program::lookalikes::{Alike, alike};
+use crate::program::numbering;
 use crate::program::path::{HasCuts, not_closed};
 use crate::program::repair::merged;
 use crate::text::TextEdit;
@@ -207,15 +206,12 @@ impl Document {
             .before(at)
             .map(|(_, entry)| entry)
             .find(|entry| entry.block().is_some());
-        own.checked_add(
-            own.checked_sub(before?.number()?)
-                .filter(|step| *step > 0)?,
-        )
+        own.checked_add(numbering::step(before?.number()?, own)?)
     }
 
     fn number_fixes(&self, range: &Range<usize>) -> Vec<TextFix> {
         let (places, blocks) = self.numbered(self.view.end);
-        let found = block_number::check(&blocks);
+        let found = numbering::check(&blocks);
         let Some((index, _, meant)) = found.into_iter().find(|(index, ..)| {
             places
                 .get(*index)
@@ -223,39 +219,21 @@ impl Document {
         }) else {
             return Vec::new();
         };
-        let mut fixes = Vec::new();
-        if let Some(meant) = meant
-            && let Some(edit) = places.get(index).map(|at| self.number_edit(*at, meant))
-        {
-            fixes.push(TextFix::text(
-                FixKind::SetNumber { number: meant },
-                true,
-                edit,
-            ));
-        }
-        let numbers = || blocks.iter().filter_map(|block| block.number);
-        if let (Some(first), Some(second)) = (numbers().next(), numbers().nth(1)) {
+        let edit = |at: At, number: u32| {
+            self.with_number(self.digits_before(at), self.range_of(at).start, number)
+        };
+        let own = meant.zip(places.get(index));
+        let own = own.map(|(meant, at)| (meant, edit(*at, meant)));
+        let mut numbers = blocks.iter().filter_map(|block| block.number);
+        let all = numbers.next().zip(numbers.next()).map(|(first, second)| {
             let step = second.saturating_sub(first).max(1);
-            let edit = places.iter().enumerate().filter_map(|(index, at)| {
+            let edits = places.iter().enumerate().filter_map(|(index, at)| {
                 let number = first.saturating_add(step.saturating_mul(u32::try_from(index).ok()?));
-                (self.entry(*at)?.number() != Some(number)).then(|| self.number_edit(*at, number))
+                (self.entry(*at)?.number() != Some(number)).then(|| edit(*at, number))
             });
-            let edit: Vec<TextEdit> = edit.collect();
-            fixes.push(
-                TextFix::text(FixKind::Renumber { first, step }, false, edit)
-                    .preferred_if(fixes.is_empty()),
-            );
-        }
-        fixes
-    }
-
-    /// Replaces the number of a block or word.
-    fn number_edit(&self, at: At, number: u32) -> TextEdit {
-        let start = self.range_of(at).start;
-        match self.digits_before(at) {
-            Some(digits) => number_edit(self.text.bytes(), digits, number),
-            None => TextEdit::new(start..start, format!("N{number} ")),
-        }
+            ([first, step], edits.collect())
+        });
+        numbering::fixes(own, all)
     }
 
     /// The digits of the number that a block or word has.

@@ -5,10 +5,11 @@ use super::super::entry::{Entry, What};
 use super::super::rules::{Counts, TextFix};
 use super::super::stretch::{Edge, Local, shape};
 use super::{At, Document, JoinedCut};
-use crate::finding::{Detail, Fault, Finding, FixKind};
+use crate::finding::{Detail, Fault, Finding};
 use crate::geometry::{Point, Segment, Vector};
 use crate::program::contours::PartAt;
 use crate::program::path::{may_be_odd, odd_joint, tolerance};
+use crate::program::repair::without_spur;
 use crate::text::TextEdit;
 use std::ops::Range;
 
@@ -157,25 +158,23 @@ impl Document {
             .block()?
             .travel()
             .plus(self.entry(back)?.block()?.travel());
-        let (mut edit, mut found) = (Vec::new(), Vec::new());
         for at in [out, back] {
-            let line = self.text.line_of(self.range_of(at).start);
-            let own = self.text.whole_line(line);
             let number = self.entry(at)?.line;
             let entries = self.entries_in(at.stretch).iter();
             if entries.filter(|entry| entry.line == number).count() > 1 {
                 return None;
             }
-            let own_text = self.text.bytes().get(self.range_of(at))?;
-            found.push(String::from_utf8_lossy(own_text).into_owned());
-            edit.push(TextEdit::new(own, ""));
         }
-        let kind = FixKind::Rewrite {
-            found: found.join(say!(and)),
-            meant: String::new(),
+        let edits = [out, back].map(|at| {
+            let line = self.text.line_of(self.range_of(at).start);
+            TextEdit::new(self.text.whole_line(line), "")
+        });
+        let shown = |at: At| {
+            let own = self.text.bytes().get(self.range_of(at));
+            String::from_utf8_lossy(own.unwrap_or_default()).into_owned()
         };
         both.is_within(tolerance(0))
-            .then(|| vec![TextFix::text(kind, false, edit)])
+            .then(|| vec![without_spur([out, back].map(shown), edits)])
     }
 }
 

@@ -2,12 +2,12 @@
 
 use super::super::around::StatedPoint;
 use super::super::entry::{Entry, Move, What};
-use super::super::rules::block_number::{self, Numbered, Numbering, Sequence};
 use super::super::rules::position_mismatch;
 use super::{At, Document};
 use crate::finding::{Fault, Finding};
 use crate::geometry::Vector;
 use crate::program::chunks::Reread;
+use crate::program::numbering::{self, Numbered, Numbering, Sequence};
 
 /// A block by its number in the program and its place, and by how much its end point is off, µm.
 pub(super) type OffPosition = (usize, At, [f64; 2]);
@@ -53,7 +53,7 @@ impl Document {
         let first = blocks
             .filter(|(_, entry)| entry.block().is_some())
             .map(|(_, entry)| entry.number())
-            .take(block_number::FIRST);
+            .take(numbering::FIRST);
         let mut last = None;
         let before = self.stretches.iter().map(|of| {
             let own = || of.entries.iter().rev().find_map(Entry::number);
@@ -65,7 +65,7 @@ impl Document {
             std::mem::replace(&mut last, next)
         });
         Numbers {
-            step: block_number::usual_step(&first.collect::<Vec<_>>()),
+            step: numbering::usual_step(&first.collect::<Vec<_>>()),
             before: before.collect(),
         }
     }
@@ -96,7 +96,7 @@ impl Document {
         };
         let head: Vec<Numbered> = from(0)
             .map(|(_, block)| block)
-            .take(block_number::FIRST)
+            .take(numbering::FIRST)
             .collect();
         let first = stretches()
             .filter(|stretch| self.stretches[*stretch].numbered > 0)

@@ -13,6 +13,7 @@ use crate::finding::{Axis, Fault, Finding};
 use crate::geometry::Vector;
 use crate::program::chunks::Reread;
 use crate::program::contours::{PartAt, Touched};
+use crate::program::numbering;
 use crate::program::of_cut::OfCut;
 use crate::program::path::{HasCuts, tolerance};
 use rustc_hash::FxHashMap;
@@ -94,33 +95,19 @@ impl Document {
         let gone = gone.take_while(|one| is_gone(one));
         let mut known: FxHashMap<u64, Blamed> =
             gone.map(|one| (one.mark, one.blamed.clone())).collect();
-        let (mut found, mut searched): (Vec<OfCut>, _) = (Vec::new(), Vec::new());
-        let mut heard = |begin: PartAt, findings: Vec<Finding>| {
-            let of_cut = |finding| OfCut::new(&self.stretches, begin, finding);
-            found.extend(findings.into_iter().filter_map(of_cut));
-        };
-        let mut judged = [0, 0];
-        for begin in self.view.contours.open_within(from..to) {
-            judged[0] += 1;
-            let Some(cut) = self.cut_from(begin) else {
-                continue;
-            };
-            let before = known.len();
-            let (findings, own) = self.judge_open(&cut, &mut known);
-            heard(begin, findings);
-            searched.extend(own);
-            judged[1] += known.len() - before;
-        }
         let contours = &self.view.contours;
-        for (cut, crossings) in contours.crossing_within(from..to, |cut| cut.parts[0]) {
-            judged[0] += 1;
-            if !self.is_odd(cut) {
-                let last = HasCuts::last_block(self, cut);
-                let findings = crossings.findings(&self.way(cut), last, &self.text);
-                heard(cut.parts[0], findings);
-            }
-        }
-        found.sort_by_key(OfCut::begin);
+        let (mut searched, mut searches) = (Vec::new(), 0);
+        let judged = contours.open_within(from..to).map(|begin| {
+            let before = known.len();
+            let cut = self.cut_from(begin);
+            let (findings, own) =
+                cut.map_or_else(Default::default, |cut| self.judge_open(&cut, &mut known));
+            searched.extend(own);
+            searches += known.len() - before;
+            (begin, findings)
+        });
+        let kept = (&self.stretches, contours);
+        let (found, asked) = OfCut::all(self, kept, from..to, judged, |cut| !self.is_odd(cut));
         OfCut::splice(&mut told.found, &touched, found);
         touched.splice(
             &mut told.searched,
@@ -129,9 +116,9 @@ impl Document {
             searched,
         );
         #[cfg(test)]
-        (told.judged = judged);
+        (told.judged = [asked, searches]);
         #[cfg(not(test))]
-        let _ = judged;
+        let _ = (asked, searches);
         self.view.told = told;
     }
 
@@ -274,8 +261,7 @@ impl Document {
         let steps = || {
             numbers
                 .windows(2)
-                .map(|pair| pair[1].saturating_sub(pair[0]))
-                .filter(|step| *step > 0)
+                .filter_map(|pair| numbering::step(pair[0], pair[1]))
         };
         steps()
             .min()

@@ -2,7 +2,6 @@
 
 mod correction;
 mod layout;
-mod numbers;
 mod rows;
 mod slot;
 mod split;
@@ -15,11 +14,12 @@ pub(in crate::program) use rows::Own;
 use super::Document;
 use super::block::{Motion, PartArc, Quadrant};
 use super::decode::decode;
-use super::encode::{ASIDE_TOLERANCE, END_TOLERANCE, Encoded, encode, point_of, snap};
+use super::encode::{ASIDE_TOLERANCE, Encoded, encode, point_of, runs_along, snap};
 use crate::finding::Finding;
 use crate::geometry::{Arc, Segment};
 use crate::program::encode::aside;
 use crate::program::grid::Node;
+use crate::program::numbering::numbered;
 use crate::program::path::{Cut, Trace};
 use crate::program::refactor::{
     At, Change, Content, Edits, News, Notation, Refactoring, Rewrite, Row, Sheet, Transform,
@@ -177,15 +177,14 @@ impl Notation for ThreeB {
         let decoded = decode(block, point_of(*from)).map_err(|_| beside())?;
         let apart =
             |share: f64| -> f64 { (decoded.point_at(share) - piece.point_at(share)).norm() };
-        let runs_along = if meant.exact {
+        let is_right = if meant.exact {
             [0.0, 0.5, 1.0]
                 .into_iter()
                 .all(|share| apart(share) <= EXACT)
         } else {
-            (decoded.end() - point_of(*to)).norm() <= END_TOLERANCE
-                && aside(&decoded, piece) <= ASIDE_TOLERANCE
+            runs_along(&decoded, piece, *to)
         };
-        if runs_along { Ok(()) } else { Err(beside()) }
+        if is_right { Ok(()) } else { Err(beside()) }
     }
 
     /// A program whose numbers counted its blocks keeps counting them.
@@ -195,18 +194,10 @@ impl Notation for ThreeB {
             blocks.all(|(step, ordinal)| step.number == Some(ordinal))
         };
         if counts(before) && !counts(&after.trace()) {
-            numbers::numbered(after)
+            numbered(after).unwrap_or_default()
         } else {
             Vec::new()
         }
-    }
-
-    fn numbered(document: &Document) -> Edits {
-        Ok(numbers::numbered(document))
-    }
-
-    fn without_numbers(document: &Document) -> Edits {
-        Ok(numbers::without_numbers(document))
     }
 
     fn own() -> Vec<Refactoring<ThreeB>> {

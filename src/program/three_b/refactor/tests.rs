@@ -1,13 +1,13 @@
 use super::ThreeB;
 use crate::geometry::{Arc, Point, Segment, direction};
+use crate::program::Language;
 use crate::program::path::cuts;
-use crate::program::refactor::{Sheet, proposals, scaled};
+use crate::program::refactor::{proposals, tests};
 use crate::program::three_b::Document;
 use crate::program::three_b::block::Node;
 use crate::program::three_b::encode::{encode, point_of, snap};
 use crate::program::three_b::layout::push_fields;
 use crate::settings::Effective;
-use crate::text::edited;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
@@ -17,35 +17,18 @@ fn read(text: &str) -> Document {
     Document::read(text.as_bytes().to_vec())
 }
 
-/// The program after a refactoring at the cursor `|`, or at line 0; the reason where it is refused.
 fn refactored(id: &str, text: &str) -> Result<String, String> {
-    let offset = text.find('|').unwrap_or(0);
-    let text = text.replacen('|', "", 1);
-    let document = read(&text);
-    let found = proposals::<ThreeB>(&document, &Effective::default(), offset..offset, &|known| {
-        known == id
-    });
-    match found.into_iter().next() {
-        None => Ok(text),
-        Some(proposal) => {
-            Ok(String::from_utf8(edited(text.as_bytes(), &proposal.edits?).unwrap()).unwrap())
-        }
-    }
+    tests::refactored(Language::ThreeB, id, text)
 }
 
 #[track_caller]
 fn check(id: &str, text: &str, expected: &str) {
-    assert_eq!(
-        refactored(&format!("refactor.rewrite.{id}"), text).as_deref(),
-        Ok(expected),
-        "{id} of {text}"
-    );
+    tests::check(Language::ThreeB, id, text, expected);
 }
 
 #[track_caller]
 fn refused(id: &str, text: &str, reason: &str) {
-    let found = refactored(&format!("refactor.rewrite.{id}"), text).expect_err(text);
-    assert!(found.contains(reason), "{id} of {text}: {found:?}");
+    tests::refused(Language::ThreeB, id, text, reason);
 }
 
 const HOLE: &str = "; R10\nN1 B9900B0B9900GXL1 ; in\nN2 B9900B0B19800GYNR1 ; half\nN3 B9900B0B19800GYNR3\nN4 B9900B0B9900GXL3\nDD\n";
@@ -153,12 +136,10 @@ fn programs_are_scaled_and_close_again() {
         "B10B0B10GXL1\nDD\n",
         "line 1: the block becomes shorter than 1 µm",
     );
-    let document = read("B10B0B10GXL1\n");
-    let settings = Effective::default();
-    let sheet = Sheet::<ThreeB>::new(&document, &settings, 0..0);
+    let scaled = |factor| tests::scaled_by(Language::ThreeB, "B10B0B10GXL1\n", factor);
     for factor in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e9] {
         assert!(
-            scaled(&sheet, factor).is_err_and(|reason| reason.contains("expected one between")),
+            scaled(factor).is_err_and(|reason| reason.contains("expected one between")),
             "{factor}"
         );
     }
@@ -329,7 +310,7 @@ proptest! {
     fn refactorings_change_the_path_exactly_as_they_say(contour in any_contour(), cursor in 0_usize..16) {
         let Some(text) = program_of(&contour) else { return Ok(()) };
         let (area, length) = measure(&text);
-        let run = |id: &str, text: &str| refactored(&format!("refactor.rewrite.{id}"), text);
+        let run = |id: &str, text: &str| refactored(id, text);
         let again = |id: &str, times: usize| (0..times).try_fold(text.clone(), |text, _| run(id, &text));
         // Area and length within the effect of 2 µm at each node.
         let blocks = text.lines().count() as f64;
@@ -429,7 +410,7 @@ proptest! {
         };
         for (id, scale) in [("reverse", 1.0), ("scale.inchToMm", 25.4), ("scale.mmToInch", 1.0 / 25.4), ("mirror.x", 1.0)] {
             // What becomes too short, or is not closed, is refused.
-            let Ok(after) = refactored(&format!("refactor.rewrite.{id}"), &text) else { continue };
+            let Ok(after) = refactored(id, &text) else { continue };
             let miss = (length(&after) - length(&text) * scale).abs();
             prop_assert!(miss <= 30.0 * scale.max(1.0), "{id}: {miss} µm\n{text}\n{after}");
         }
@@ -478,15 +459,6 @@ proptest! {
         copies in 1_usize..4,
         (start, length) in (0_usize..200, 0_usize..60),
     ) {
-        let text = text.repeat(copies);
-        let document = read(&text);
-        let start = start.min(text.len());
-        for proposal in proposals::<ThreeB>(&document, &Effective::default(), start..(start + length).min(text.len()), &|_| true) {
-            let Ok(edits) = proposal.edits else { continue };
-            prop_assert!(edits.windows(2).all(|pair| pair[0].range.end <= pair[1].range.start), "{}: {edits:?}", proposal.id);
-            prop_assert!(edits.iter().all(|edit| edit.range.start <= edit.range.end && edit.range.end <= text.len()), "{}", proposal.id);
-        }
-        let settings = Effective::default();
-        let _ = scaled(&Sheet::<ThreeB>::new(&document, &settings, 0..0), 2.0);
+        tests::are_edits_or_reasons(Language::ThreeB, &text.repeat(copies), start..start + length)?;
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! One of the three numbers is wrong, so nothing is said of J and G of that block: they may be right.
 
-use super::{BlockRule, Observation, Outlook, Site, Spot, TextFix, one_edit};
+use super::{BlockRule, Observation, Outlook, Site, Spot, TextFix};
 use crate::finding::{Fault, FixKind, Rule};
 use crate::program::repair::keys::is_slip;
 
@@ -37,6 +37,6 @@ fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
         found: format!("B{}", String::from_utf8_lossy(found)),
         meant: format!("B{new}"),
     };
-    let edit = vec![site.replace(place, new)];
-    vec![one_edit(kind, edit, is_plain, is_plain)]
+    let fix = TextFix::text(kind, is_plain, site.replace(place, new));
+    vec![fix.preferred_if(is_plain)]
 }

@@ -1,6 +1,6 @@
 //! `block-number-as-b`: `B25` before a block where the number `N25` was meant. The reader finds it; this is its repair.
 
-use super::{BlockRule, Site, TextFix, one_edit};
+use super::{BlockRule, Site, TextFix};
 use crate::finding::{Fault, FixKind, Rule};
 use crate::text::TextEdit;
 
@@ -15,6 +15,6 @@ fn fixes(site: &Site, _: &Fault) -> Vec<TextFix> {
         return Vec::new();
     };
     let n = if b == b'b' { "n" } else { "N" };
-    let edit = vec![TextEdit::new(site.range.start..site.range.start + 1, n)];
-    vec![one_edit(FixKind::NumberWithN, edit, true, true)]
+    let edit = TextEdit::new(site.range.start..site.range.start + 1, n);
+    vec![TextFix::text(FixKind::NumberWithN, true, edit)]
 }

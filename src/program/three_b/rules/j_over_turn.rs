@@ -1,6 +1,7 @@
 //! `j-over-turn`: J of an arc counts more than once round, 4R.
 
-use super::{BlockRule, J_TOLERANCE, Observation, Outlook, Site, Spot, TextFix, one_edit};
+use super::super::decode::J_TOLERANCE;
+use super::{BlockRule, Observation, Outlook, Site, Spot, TextFix};
 use crate::finding::{Fault, FixKind, Rule};
 use crate::program::three_b::block::Block;
 
@@ -33,10 +34,6 @@ fn fixes(site: &Site, _: &Fault) -> Vec<TextFix> {
         .filter(|&j| j > 0 && j <= turn)
         .find(|&j| (site.closes_with)(&[with(j)]));
     let j = closing.unwrap_or(turn);
-    vec![one_edit(
-        FixKind::SetJ { j },
-        site.made(&with(j)),
-        closing.is_some(),
-        closing.is_some(),
-    )]
+    let fix = site.fix(FixKind::SetJ { j }, &with(j), closing.is_some());
+    vec![fix.preferred_if(closing.is_some())]
 }

@@ -1,9 +1,8 @@
 //! `length-in-j`: J holds the length of the line, where the controller counts its projection.
 
 use super::projection::{Length, length};
-use super::{BlockRule, Observation, Outlook, Site, Spot, TextFix, one_edit};
-use crate::finding::{Axis, Fault, FixKind, Rule};
-use crate::program::three_b::block::Block;
+use super::{BlockRule, Observation, Outlook, Site, Spot, TextFix};
+use crate::finding::{Axis, Fault, Rule};
 
 pub(super) const RULE: BlockRule = BlockRule {
     rule: Rule::LengthInJ,
@@ -36,13 +35,5 @@ fn larger_axis(outlook: &Outlook) -> Axis {
 
 fn fixes(site: &Site, _: &Fault) -> Vec<TextFix> {
     let projection = site.block.x.max(site.block.y);
-    vec![one_edit(
-        FixKind::SetJ { j: projection },
-        site.made(&Block {
-            j: projection,
-            ..site.block
-        }),
-        true,
-        true,
-    )]
+    vec![site.set_j(projection, true)]
 }

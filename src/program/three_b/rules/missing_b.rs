@@ -1,6 +1,6 @@
 //! `missing-b`: one of a block's three `B` is not there. The reader finds it; this is its repair.
 
-use super::{BlockRule, Site, TextFix, one_edit};
+use super::{BlockRule, Site, TextFix};
 use crate::finding::{Fault, FixKind, Rule};
 use crate::program::three_b::fault::Flaw;
 use crate::program::three_b::parse::{Item, read_line};
@@ -28,6 +28,6 @@ fn fixes(site: &Site, _: &Fault) -> Vec<TextFix> {
     });
     let Some(at) = found else { return Vec::new() };
     let is_lower = line.contains(&b'b') && !line.contains(&b'B');
-    let edit = vec![TextEdit::new(at..at, if is_lower { "b" } else { "B" })];
-    vec![one_edit(FixKind::InsertB, edit, true, true)]
+    let edit = TextEdit::new(at..at, if is_lower { "b" } else { "B" });
+    vec![TextFix::text(FixKind::InsertB, true, edit)]
 }

@@ -1,6 +1,6 @@
 //! `missing-end`: nothing ends the program.
 
-use super::{TextFix, one_edit};
+use super::TextFix;
 use crate::finding::FixKind;
 use crate::text::{SourceText, TextEdit};
 
@@ -10,10 +10,6 @@ pub(in super::super) fn fixes(text: &SourceText, behind: usize, word: &str) -> V
     let line = text.line_of(behind);
     let range = text.line_range(line);
     let edit = TextEdit::new(range.end..range.end, format!("{line_end}{word}"));
-    vec![one_edit(
-        FixKind::AddEnd { word: word.into() },
-        vec![edit],
-        true,
-        true,
-    )]
+    let word = word.into();
+    vec![TextFix::text(FixKind::AddEnd { word }, true, edit)]
 }

@@ -18,21 +18,18 @@ mod wrong_j;
 mod wrong_quadrant;
 mod zero_block;
 
-pub(super) mod block_number;
 pub(super) mod missing_end;
 pub(super) mod position_mismatch;
 pub(super) mod text_after_end;
 
 use super::block::{Block, Motion, PartArc};
+use super::decode::J_TOLERANCE;
 use super::fault::{Flaw, SyntaxFault};
 use super::fields::Fields;
 use crate::finding::{Detail, Fault, Fix, FixKind, Rule};
 use crate::settings::{Compensation, Effective, SideSetting};
 use crate::text::TextEdit;
 use std::ops::Range;
-
-/// The largest deviation of J from the exact projection, µm: published programs stay within it.
-pub(super) const J_TOLERANCE: f64 = 2.0;
 
 /// This near to a tie of the two axes, µm, either G is accepted.
 pub(super) const TIE: i64 = 1;
@@ -241,6 +238,16 @@ impl Site<'_> {
         self.fields.changed(self.text, &self.block, new)
     }
 
+    /// The fix that puts another block in its place.
+    fn fix(&self, kind: FixKind, new: &Block, in_fix_all: bool) -> TextFix {
+        Fix::text(kind, in_fix_all, self.made(new))
+    }
+
+    fn set_j(&self, j: i64, in_fix_all: bool) -> TextFix {
+        let new = Block { j, ..self.block };
+        self.fix(FixKind::SetJ { j }, &new, in_fix_all)
+    }
+
     /// The line with its line end where the block stands alone in it, else the block.
     fn whole(&self) -> Range<usize> {
         let outside = |range: Range<usize>| self.text.get(range).unwrap_or_default();
@@ -267,9 +274,4 @@ impl Site<'_> {
 pub(super) fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
     let own = RULES.iter().find(|own| own.rule == fault.rule());
     own.map_or_else(Vec::new, |own| (own.fixes)(site, fault))
-}
-
-/// A fix that changes one thing, made by "fix all" only where the contour then closes.
-fn one_edit(kind: FixKind, edit: Vec<TextEdit>, preferred: bool, in_fix_all: bool) -> TextFix {
-    Fix::text(kind, in_fix_all, edit).preferred_if(preferred)
 }

@@ -8,7 +8,7 @@ use super::super::block::{Block, CountingAxis, Motion, Node};
 use super::super::decode::meant;
 use super::super::encode::{counted, line_block};
 use super::super::entry::{BlockEntry, Move, travel_of};
-use super::{TextFix, one_edit};
+use super::TextFix;
 use crate::finding::FixKind;
 use crate::geometry::{Arc, Point, Segment, Vector};
 use crate::program::three_b::fields::Fields;
@@ -108,20 +108,13 @@ pub(in super::super) fn fixes(site: &Mismatched<'_>) -> Vec<TextFix> {
     let block_first = block_closes && !site.closes;
     let mut fixes = Vec::new();
     if let Some((kind, edit)) = coordinates {
-        fixes.push(one_edit(
-            kind,
-            edit,
-            !block_first,
-            site.closes && !block_closes && site.goes_on == Some(false),
-        ));
+        let is_safe = site.closes && !block_closes && site.goes_on == Some(false);
+        fixes.push(TextFix::text(kind, is_safe, edit).preferred_if(!block_first));
     }
     if let Some((_, edit)) = block {
-        let fix = one_edit(
-            FixKind::FollowCoordinates,
-            edit,
-            block_first || fixes.is_empty(),
-            block_first && site.goes_on == Some(true),
-        );
+        let is_safe = block_first && site.goes_on == Some(true);
+        let fix = TextFix::text(FixKind::FollowCoordinates, is_safe, edit)
+            .preferred_if(block_first || fixes.is_empty());
         fixes.insert(if block_first { 0 } else { fixes.len() }, fix);
     }
     fixes

@@ -1,6 +1,7 @@
 //! The relation of a line's J to its X and Y.
 
-use super::{J_TOLERANCE, Outlook};
+use super::super::decode::J_TOLERANCE;
+use super::Outlook;
 use crate::program::three_b::block::{Block, CountingAxis, Motion};
 
 /// The meaning of a line's J.

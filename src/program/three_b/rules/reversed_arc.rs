@@ -1,6 +1,6 @@
 //! `reversed-arc`: the fixes for an arc that runs the wrong way round. Its joints reveal it ([`crate::program::path`]).
 
-use super::{BlockRule, Site, TextFix, one_edit};
+use super::{BlockRule, Site, TextFix};
 use crate::finding::{Fault, FixKind, Rule};
 use crate::geometry::{Arc, Point, Segment};
 use crate::program::three_b::block::{Block, Motion, Quadrant};
@@ -21,12 +21,8 @@ fn fixes(site: &Site, _: &Fault) -> Vec<TextFix> {
     };
     let is_safe = (site.closes_with)(&[other]);
     let name = other.motion.name();
-    vec![one_edit(
-        FixKind::SetMotion { name },
-        site.made(&other),
-        is_safe,
-        is_safe,
-    )]
+    let fix = site.fix(FixKind::SetMotion { name }, &other, is_safe);
+    vec![fix.preferred_if(is_safe)]
 }
 
 fn exchanged(block: &Block) -> Option<Block> {

@@ -1,12 +1,12 @@
 //! `text-after-end`: text behind the word that ends the program. The controller never reaches it.
 
-use super::{TextFix, one_edit};
+use super::TextFix;
 use crate::finding::FixKind;
 use crate::text::{SourceText, TextEdit};
 
 /// Removes all lines behind the one in which the program ends.
 pub(in super::super) fn fixes(text: &SourceText, end: usize) -> Vec<TextFix> {
     let kept = text.line_range(text.line_of(end)).end;
-    let edit = vec![TextEdit::new(kept..text.len(), "")];
-    vec![one_edit(FixKind::DeleteBehindEnd, edit, true, false)]
+    let edit = TextEdit::new(kept..text.len(), "");
+    vec![TextFix::text(FixKind::DeleteBehindEnd, false, edit)]
 }

@@ -1,7 +1,7 @@
 //! `too-many-digits`: a number with more digits than the controller has.
 
 use super::projection::is_misfit;
-use super::{BlockRule, Observation, Outlook, Site, Spot, TextFix, one_edit};
+use super::{BlockRule, Observation, Outlook, Site, Spot, TextFix};
 use crate::finding::{Fault, FixKind, Rule};
 use crate::geometry::Point;
 use crate::program::three_b::block::Node;
@@ -79,12 +79,7 @@ fn fixes(site: &Site, _: &Fault) -> Vec<TextFix> {
     let Ok(text) = String::from_utf8(text) else {
         return Vec::new();
     };
-    vec![one_edit(
-        FixKind::SplitBlock {
-            pieces: pieces.len(),
-        },
-        vec![site.replace(&site.range, text)],
-        true,
-        true,
-    )]
+    let pieces = pieces.len();
+    let edit = site.replace(&site.range, text);
+    vec![TextFix::text(FixKind::SplitBlock { pieces }, true, edit)]
 }

@@ -4,7 +4,7 @@
 //! nearer to the Y axis of its centre, Y where it lies nearer to the X axis. On the other axis, one µm of J is many µm
 //! of the way.
 
-use super::{ARC_TIE, BlockRule, Observation, Outlook, Site, Spot, TIE, TextFix, one_edit};
+use super::{ARC_TIE, BlockRule, Observation, Outlook, Site, Spot, TIE, TextFix};
 use crate::finding::{Axis, Fault, FixKind, Rule};
 use crate::geometry::{Point, Segment};
 use crate::program::three_b::block::{Block, Motion, Quadrant};
@@ -61,14 +61,7 @@ fn check(outlook: &Outlook) -> Option<Observation> {
 fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
     let axis = site.block.axis.other();
     let flipped = Block { axis, ..site.block };
-    let only_axis = |in_fix_all| {
-        one_edit(
-            FixKind::SetAxis { axis, j: None },
-            site.made(&flipped),
-            true,
-            in_fix_all,
-        )
-    };
+    let only_axis = |in_fix_all| site.fix(FixKind::SetAxis { axis, j: None }, &flipped, in_fix_all);
     if let Fault::AxisKeepsOpen { is_sure, .. } = fault {
         return vec![only_axis(*is_sure)];
     }
@@ -93,10 +86,8 @@ fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
     let same_end = counted(&arc, axis).round() as i64;
     let with_same_end = with_j(site, axis, same_end);
     if (site.closes_with)(&[flipped]) {
-        return vec![
-            only_axis(true),
-            one_edit(with_same_end.kind, with_same_end.edit, false, false),
-        ];
+        let other = TextFix::text(with_same_end.kind, false, with_same_end.edit);
+        return vec![only_axis(true), other.preferred_if(false)];
     }
     vec![with_same_end]
 }
@@ -119,10 +110,6 @@ fn with_j(site: &Site, axis: Axis, j: i64) -> TextFix {
         j,
         ..site.block
     };
-    one_edit(
-        FixKind::SetAxis { axis, j: Some(j) },
-        site.made(&made),
-        true,
-        (site.closes_with)(&[made]),
-    )
+    let closes = (site.closes_with)(&[made]);
+    site.fix(FixKind::SetAxis { axis, j: Some(j) }, &made, closes)
 }

@@ -4,7 +4,7 @@
 //! contour close decides.
 
 use super::projection::{Length, length};
-use super::{BlockRule, Counts, Observation, Outlook, Site, Spot, TextFix, one_edit};
+use super::{BlockRule, Counts, Observation, Outlook, Site, Spot, TextFix};
 use crate::finding::{Axis, Fault, FixKind, Rule};
 use crate::program::three_b::block::Block;
 
@@ -43,15 +43,7 @@ fn check(outlook: &Outlook) -> Option<Observation> {
 
 fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
     if let Fault::JKeepsOpen { meant, is_sure, .. } = *fault {
-        return vec![one_edit(
-            FixKind::SetJ { j: meant },
-            site.made(&Block {
-                j: meant,
-                ..site.block
-            }),
-            true,
-            is_sure,
-        )];
+        return vec![site.set_j(meant, is_sure)];
     }
     let Block { x, y, j, .. } = site.block;
     let projection = x.max(y);
@@ -73,24 +65,15 @@ fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
     let j_closes = (site.closes_with)(&[by_j]);
     let number_first = number_closes || (is_shifted && !j_closes);
     let field = if x >= y { Axis::X } else { Axis::Y };
-    let set_j = one_edit(
-        FixKind::SetJ { j: projection },
-        site.made(&by_j),
-        !number_first,
-        j_closes || j == 0,
-    );
-    let mut fixes = vec![set_j];
+    let set_j = site.set_j(projection, j_closes || j == 0);
+    let mut fixes = vec![set_j.preferred_if(!number_first)];
     if number_closes || is_shifted {
-        let edit = site.made(&by_number);
-        let set_number = one_edit(
-            FixKind::SetEnd {
-                axis: field,
-                value: j,
-            },
-            edit,
-            number_first,
-            number_closes,
-        );
+        let kind = FixKind::SetEnd {
+            axis: field,
+            value: j,
+        };
+        let set_number = site.fix(kind, &by_number, number_closes);
+        let set_number = set_number.preferred_if(number_first);
         fixes.insert(if number_first { 0 } else { 1 }, set_number);
         // The contour says which of the two is wrong.
         if number_closes && !j_closes {

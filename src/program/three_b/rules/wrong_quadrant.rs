@@ -3,7 +3,7 @@
 //! +X is `L1`, +Y `L2`, −X `L3`, −Y `L4`. Since a zero has no sign, the other quadrant at the same half axis leads to
 //! the same place; it is an error only where Z alone gives the direction, or where the contour does not close.
 
-use super::{BlockRule, Counts, Observation, Outlook, Site, Spot, TextFix, one_edit};
+use super::{BlockRule, Counts, Observation, Outlook, Site, Spot, TextFix};
 use crate::finding::{Axis, Fault, FixKind, Rule};
 use crate::program::three_b::block::{Block, Motion, Quadrant};
 
@@ -58,12 +58,8 @@ fn check(outlook: &Outlook) -> Option<Observation> {
 fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
     match fault {
         Fault::QuadrantKeepsOpen { meant, is_sure, .. } => {
-            vec![one_edit(
-                FixKind::SetMotion { name: meant },
-                site.made(&named(&site.block, meant)),
-                true,
-                *is_sure,
-            )]
+            let kind = FixKind::SetMotion { name: meant };
+            vec![site.fix(kind, &named(&site.block, meant), *is_sure)]
         }
         Fault::AxisQuadrant { expected, .. } | Fault::UnusualQuadrant { expected, .. } => {
             let is_fault = matches!(fault, Fault::AxisQuadrant { .. });
@@ -90,12 +86,10 @@ fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
                     .filter(|name| is_fault && *name != first),
             );
             let fix = |(index, name): (usize, &'static str)| {
-                one_edit(
-                    FixKind::SetMotion { name },
-                    site.made(&named(&site.block, name)),
-                    index == 0,
-                    index == 0 && is_fault && closing.is_some(),
-                )
+                let is_safe = index == 0 && is_fault && closing.is_some();
+                let made = named(&site.block, name);
+                let fix = site.fix(FixKind::SetMotion { name }, &made, is_safe);
+                fix.preferred_if(index == 0)
             };
             names.into_iter().enumerate().map(fix).collect()
         }

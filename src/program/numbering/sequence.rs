@@ -4,7 +4,7 @@ use crate::finding::Fault;
 
 /// A block's place in its program and its number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in super::super) struct Numbered {
+pub(in crate::program) struct Numbered {
     pub(crate) number: Option<u32>,
     /// The first block behind a pause: counting may begin again.
     pub(crate) is_after_pause: bool,
@@ -14,7 +14,7 @@ pub(in super::super) struct Numbered {
 
 /// How the blocks of a stretch are numbered.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(in super::super) enum Numbering {
+pub(in crate::program) enum Numbering {
     /// There is no block.
     #[default]
     Empty,
@@ -86,13 +86,13 @@ impl Numbering {
 }
 
 /// The number of blocks that determine the step.
-pub(in super::super) const FIRST: usize = 16;
+pub(in crate::program) const FIRST: usize = 16;
 
 /// The faults in the sequence: the index of each block concerned, and its intended number where that is plain.
 ///
 /// The step is the one that most of the first numbers have. Where fewer than three of four blocks have a number, or
 /// more than half of them are out of turn, the numbers follow another rule, and there is no finding.
-pub(in super::super) fn check(blocks: &[Numbered]) -> Vec<(usize, Fault, Option<u32>)> {
+pub(in crate::program) fn check(blocks: &[Numbered]) -> Vec<(usize, Fault, Option<u32>)> {
     let first = blocks.iter().find_map(|block| block.number);
     let Some(mut sequence) = Sequence::of(&blocks[..blocks.len().min(FIRST)], first) else {
         return Vec::new();
@@ -104,7 +104,7 @@ pub(in super::super) fn check(blocks: &[Numbered]) -> Vec<(usize, Fault, Option<
 }
 
 /// The sequence of a program's numbers, and its faults; `P` is a block's place.
-pub(in super::super) struct Sequence<P> {
+pub(in crate::program) struct Sequence<P> {
     step: u32,
     first: u32,
     before: Option<u32>,
@@ -213,13 +213,9 @@ impl<P> Sequence<P> {
 }
 
 /// The most frequent difference between consecutive numbers; the smaller one of two that are equally frequent.
-pub(in super::super) fn usual_step(numbers: &[Option<u32>]) -> Option<u32> {
-    let step = |pair: &[Option<u32>]| pair[1]?.checked_sub(pair[0]?);
-    let steps: Vec<u32> = numbers
-        .windows(2)
-        .filter_map(step)
-        .filter(|step| *step > 0)
-        .collect();
+pub(in crate::program) fn usual_step(numbers: &[Option<u32>]) -> Option<u32> {
+    let step = |pair: &[Option<u32>]| super::step(pair[0]?, pair[1]?);
+    let steps: Vec<u32> = numbers.windows(2).filter_map(step).collect();
     let count = |step: u32| steps.iter().filter(|other| **other == step).count();
     steps
         .iter()

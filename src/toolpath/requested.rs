@@ -10,7 +10,7 @@ use rustc_hash::FxHashMap;
 
 /// What settings and start marks give for one contour, in drawing units.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Wanted {
+pub(super) struct Requested {
     pub(crate) thread: Option<Point>,
     pub(crate) entry: Option<Point>,
     /// A mark for the nearest point of the contour, where no entry is given.
@@ -25,21 +25,10 @@ pub(super) fn wanted(
     outlines: &[Outline],
     chosen: &[usize],
     settings: &Effective,
-) -> Result<Vec<Wanted>, Refusal> {
-    let threads = points(
-        drawing,
-        outlines,
-        chosen,
-        settings.thread.as_ref(),
-        say!(thread_hole),
-    )?;
-    let entries = points(
-        drawing,
-        outlines,
-        chosen,
-        settings.entry.as_ref(),
-        say!(entry),
-    )?;
+) -> Result<Vec<Requested>, Refusal> {
+    let given = |setting, name| points(drawing, outlines, chosen, setting, name);
+    let threads = given(settings.thread.as_ref(), say!(thread_hole))?;
+    let entries = given(settings.entry.as_ref(), say!(entry))?;
     let said = own(drawing, outlines, settings);
     let marks = marks(drawing, outlines, usize::MAX).unwrap_or_default();
     let wanted =
@@ -54,7 +43,7 @@ pub(super) fn wanted(
                 let is_entry =
                     |mark: &&Mark| means_entry(drawing, &outlines[index], mark, settings);
                 let beside = mark.filter(is_entry).map(|mark| mark.at);
-                Wanted {
+                Requested {
                     thread: thread.or(if beside.is_some() {
                         None
                     } else {

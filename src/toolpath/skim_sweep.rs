@@ -6,11 +6,11 @@
 use super::corners::{
     AT_A_TIME, Element, Joining, Joint, Offsets, Way, between, goes_backwards, is_all_of, is_roll,
 };
-use super::kept::follows_of;
 use super::nest::Before;
 use super::proof::{Proof, There};
+use super::quick_tests::is_rest_about_foot;
+use super::reuse::follows_of;
 use super::ring::{is_point, meeting};
-use super::seen::is_rest_about_foot;
 use crate::geometry::{Point, Segment};
 use rayon::iter::{
     IndexedParallelIterator, IntoParallelIterator, IntoParallelRefIterator, ParallelExtend,

@@ -19,25 +19,25 @@ const AT_A_TIME: usize = 2048;
 
 /// For each wall those whose boxes come near its own.
 #[derive(Clone, Debug)]
-pub(super) struct About {
+pub(super) struct Vicinity {
     pub(super) reach: f64,
     /// Where those of each begin and end among `walls`; of a few that lies close to many they are the same.
     ranges: Vec<[u32; 2]>,
     walls: Vec<u32>,
 }
 
-impl About {
-    /// What lies within this distance of each, by the boxes of all; `None` where that is too much.
-    /// `few_near` adds those few whose box touches another, by the first of them and with that box.
+impl Vicinity {
+    /// What lies so far about each, by the boxes of all; `None` where that is too much. `few_near` adds those few whose box touches another, by
+    /// the first of them and with that box.
     pub(super) fn of(
         boxes: &[Bounds],
         reach: f64,
         few_near: impl Fn(&Bounds, &mut Vec<(u32, Bounds)>) + Sync,
-    ) -> Option<About> {
+    ) -> Option<Vicinity> {
         let (most, found) = (MOST_ABOUT * boxes.len().div_ceil(FAN), AtomicUsize::new(0));
         let part = |first: usize| {
             let last = (first + AT_A_TIME).min(boxes.len());
-            let mut about = About {
+            let mut about = Vicinity {
                 reach,
                 ranges: Vec::with_capacity(last - first),
                 walls: Vec::with_capacity(4 * (last - first)),
@@ -79,14 +79,14 @@ impl About {
             Some(about)
         };
         let firsts: Vec<usize> = (0..boxes.len()).step_by(AT_A_TIME).collect();
-        let parts: Vec<About> = match &firsts[..] {
+        let parts: Vec<Vicinity> = match &firsts[..] {
             [only] => vec![part(*only)?],
             several => several
                 .par_iter()
                 .map(|first| part(*first))
                 .collect::<Option<_>>()?,
         };
-        let mut about = About {
+        let mut about = Vicinity {
             reach,
             ranges: Vec::with_capacity(boxes.len()),
             walls: Vec::with_capacity(parts.iter().map(|part| part.walls.len()).sum()),

@@ -2,13 +2,13 @@
 //! that was asked, is not looked at again.
 
 use super::change::Change;
-use super::looks::{Looks, Verdict};
+use super::observations::{Observations, Verdict};
 use crate::geometry::Bounds;
 use crate::toolpath::Part;
 
 /// Two parts laid in each other as they were before an edit, under the same limits.
-pub(super) struct Since<'a> {
-    looks: &'a [Looks; 3],
+pub(super) struct Reuse<'a> {
+    observations: &'a [Observations; 3],
     /// Of the edges of both parts.
     edges: [Change; 2],
     /// The boxes of all that has changed, and the box of these.
@@ -16,13 +16,13 @@ pub(super) struct Since<'a> {
     all: Bounds,
 }
 
-impl<'a> Since<'a> {
+impl<'a> Reuse<'a> {
     /// `None` where too much has changed.
     pub(super) fn new(
-        looks: &'a [Looks; 3],
+        observations: &'a [Observations; 3],
         before: [&Part; 2],
         now: [&Part; 2],
-    ) -> Option<Since<'a>> {
+    ) -> Option<Reuse<'a>> {
         let mut changed = Vec::new();
         let mut of_edges = |before: &Part, now: &Part| {
             if std::ptr::eq(before, now) {
@@ -42,8 +42,8 @@ impl<'a> Since<'a> {
         let edges = [of_edges(before[0], now[0])?, of_edges(before[1], now[1])?];
         let mut all = Bounds::EMPTY;
         changed.iter().for_each(|bounds| all.merge(bounds));
-        Some(Since {
-            looks,
+        Some(Reuse {
+            observations,
             edges,
             changed,
             all,
@@ -58,8 +58,8 @@ impl<'a> Since<'a> {
             _ => [punch, plate],
         };
         Known {
-            since: self,
-            looks: &self.looks[which],
+            reuse: self,
+            observations: &self.observations[which],
             own,
             other,
             next: 0,
@@ -69,8 +69,8 @@ impl<'a> Since<'a> {
 
 /// What is known of one kind of looks, edge by edge.
 pub(super) struct Known<'a> {
-    since: &'a Since<'a>,
-    looks: &'a Looks,
+    reuse: &'a Reuse<'a>,
+    observations: &'a Observations,
     own: &'a Change,
     other: &'a Change,
     /// The verdict that comes next.
@@ -81,8 +81,8 @@ impl Known<'_> {
     /// What was asked about an edge, and what came of it, where that still holds. Edges are asked for in their order.
     pub(super) fn kept(&mut self, edge: usize) -> Option<(Bounds, Option<Verdict>)> {
         let was = self.own.was(edge)?;
-        let asked = *self.looks.asked.get(was)?;
-        let known = &self.looks.verdicts;
+        let asked = *self.observations.asked.get(was)?;
+        let known = &self.observations.verdicts;
         while known
             .get(self.next)
             .is_some_and(|known| (known.edge as usize) < was)
@@ -90,7 +90,7 @@ impl Known<'_> {
             self.next += 1;
         }
         let is_new = |changed: &Bounds| changed.touches(&asked);
-        if is_new(&self.since.all) && self.since.changed.iter().any(is_new) {
+        if is_new(&self.reuse.all) && self.reuse.changed.iter().any(is_new) {
             return None;
         }
         let verdict = known

@@ -6,33 +6,33 @@ use crate::geometry::{Arc, Point, Segment};
 
 /// A path that is travelled from one of its points on; a long one is not rearranged for that.
 #[derive(Default)]
-pub(super) struct Begun {
+pub(super) struct Rotated {
     path: Vec<Element>,
     first: usize,
     /// If the first element is entered in its middle, the part after the point, and the part before it, which comes last.
     split: Option<[Segment; 2]>,
 }
 
-impl Begun {
+impl Rotated {
     /// All of a path from its beginning on.
-    pub(super) fn whole(path: Vec<Element>) -> Begun {
-        Begun {
+    pub(super) fn whole(path: Vec<Element>) -> Rotated {
+        Rotated {
             path,
-            ..Begun::default()
+            ..Rotated::default()
         }
     }
 
     /// A closed path turned round so that it begins and ends in `point` of element `index`, which is split there.
-    pub(super) fn at(path: Vec<Element>, index: usize, point: Point) -> Begun {
+    pub(super) fn at(path: Vec<Element>, index: usize, point: Point) -> Rotated {
         let Some(&element) = path.get(index) else {
-            return Begun::whole(path);
+            return Rotated::whole(path);
         };
         if let (1, Segment::Arc(arc)) = (path.len(), element.geometry) {
             let turned = Arc {
                 radius: arc.radius,
                 ..Arc::about(arc.center, point, point, arc.sweep > 0.0)
             };
-            return Begun::whole(vec![Element {
+            return Rotated::whole(vec![Element {
                 geometry: Segment::Arc(turned),
                 ..element
             }]);
@@ -49,7 +49,7 @@ impl Begun {
                 (index, Some([behind, before]))
             }
         };
-        Begun { path, first, split }
+        Rotated { path, first, split }
     }
 
     /// Where it begins, or the way back along it.
@@ -154,7 +154,7 @@ mod tests {
         }) {
             let begun = || {
                 let point = path[index].geometry.point_at(share);
-                Begun::at(path.clone(), index, point)
+                Rotated::at(path.clone(), index, point)
             };
             let mut expected: Vec<PathSegment> = begun()
                 .into_path()
@@ -181,6 +181,6 @@ mod tests {
             let found = begun().into_segments(back, lead);
             assert_eq!(found, expected, "{index} {share} {back} {is_led}");
         }
-        assert_eq!(Begun::default().into_segments(true, None), []);
+        assert_eq!(Rotated::default().into_segments(true, None), []);
     }
 }
