@@ -2,7 +2,7 @@
 //! millions, and a lens enlarges a thousand times.
 
 use crate::geometry::{Arc, Bounds, Point, Segment};
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// The farthest coordinate that is written, and the largest radius, in the picture's units: more than ten sheets.
 pub(super) const FARTHEST: f64 = 10_000.0;
@@ -33,24 +33,29 @@ pub(super) fn parts(origin: Point, scale: f64, segment: Segment) -> Vec<Part> {
     }
     let mut shares = match &segment {
         Segment::Line(line) => {
-            let by = line.end - line.start;
-            let crossing = |axis: usize, edge: f64| (edge - line.start[axis]) / by[axis];
-            edges(&near)
-                .map(|(axis, edge)| crossing(axis, edge))
-                .to_vec()
+            let (start, by) = (line.start, line.end - line.start);
+            let (x, y) = (
+                |edge: f64| (edge - start.x) / by.x,
+                |edge: f64| (edge - start.y) / by.y,
+            );
+            let [left, right, low, high] = edges(&near);
+            vec![x(left), x(right), y(low), y(high)]
         }
-        Segment::Arc(arc) => edges(&near)
-            .into_iter()
-            .flat_map(|(axis, edge)| shares_at(arc, axis, edge))
-            .collect(),
+        Segment::Arc(arc) => {
+            let [left, right, low, high] = edges(&near);
+            let mut shares = shares_at_x(arc, left);
+            shares.extend(shares_at_x(arc, right));
+            shares.extend(shares_at_y(arc, low));
+            shares.extend(shares_at_y(arc, high));
+            shares
+        }
     };
     shares.retain(|share| *share > 0.0 && *share < 1.0);
     shares.extend([0.0, 1.0]);
     shares.sort_by(f64::total_cmp);
     shares.dedup();
     let mut parts = Vec::new();
-    for pair in shares.windows(2) {
-        let (from, to) = (pair[0], pair[1]);
+    for (from, to) in shares.iter().copied().zip(shares.iter().copied().skip(1)) {
         let middle = segment.point_at((from + to) / 2.0);
         let [start, end] = [from, to].map(|share| clamped(segment.point_at(share), &near));
         if middle != clamped(middle, &near) {
@@ -81,31 +86,41 @@ fn is_flat(scale: f64, segment: &Segment) -> bool {
         .is_some_and(|arc| arc.radius * scale > FLATTEST)
 }
 
-/// The lines of a box's edges, by their axis.
-fn edges(of: &Bounds) -> [(usize, f64); 4] {
-    [(0, of.min.x), (0, of.max.x), (1, of.min.y), (1, of.max.y)]
+/// The edges of a box: left and right, low and high.
+fn edges(of: &Bounds) -> [f64; 4] {
+    [of.min.x, of.max.x, of.min.y, of.max.y]
 }
 
 fn clamped(point: Point, within: &Bounds) -> Point {
-    let on = |axis: usize| point[axis].clamp(within.min[axis], within.max[axis]);
-    Point::new(on(0), on(1))
+    Point::new(
+        point.x.clamp(within.min.x, within.max.x),
+        point.y.clamp(within.min.y, within.max.y),
+    )
 }
 
 /// Where an arc has this coordinate, as shares of its sweep from 0 on.
-fn shares_at(arc: &Arc, axis: usize, edge: f64) -> Vec<f64> {
-    let across = (edge - arc.center[axis]) / arc.radius;
-    if across.is_nan() || across.abs() > 1.0 {
-        return Vec::new();
-    }
-    let angles = match axis {
-        0 => [across.acos(), -across.acos()],
-        _ => [across.asin(), std::f64::consts::PI - across.asin()],
-    };
-    let share = |angle: f64| {
+fn shares_at_x(arc: &Arc, x: f64) -> Vec<f64> {
+    let across = ((x - arc.center.x) / arc.radius).acos();
+    shares_at(arc, [across, -across])
+}
+
+/// The same of the other coordinate.
+fn shares_at_y(arc: &Arc, y: f64) -> Vec<f64> {
+    let up = ((y - arc.center.y) / arc.radius).asin();
+    shares_at(arc, [up, PI - up])
+}
+
+/// No number is an angle that the arc does not reach.
+fn shares_at(arc: &Arc, angles: [f64; 2]) -> Vec<f64> {
+    let share = |angle: &f64| {
         let turned = (angle - arc.start_angle) * arc.sweep.signum();
         turned.rem_euclid(TAU) / arc.sweep.abs()
     };
-    angles.map(share).to_vec()
+    angles
+        .iter()
+        .filter(|angle| angle.is_finite())
+        .map(share)
+        .collect()
 }
 
 #[cfg(test)]

@@ -13,6 +13,9 @@ pub(super) const ASIDE_TOLERANCE: f64 = 2.5;
 /// The largest sagitta of a chord that replaces a piece of an arc too large for a language, µm.
 const CHORD_SAGITTA: f64 = 0.5;
 
+/// A piece of more blocks is not written: it is a kilometre and more.
+const MOST_PIECES: i64 = 100_000;
+
 /// How a language can write an arc.
 pub(super) enum Attempt<B> {
     Made(B),
@@ -32,6 +35,8 @@ pub(super) trait Encoder {
     fn step(&self) -> f64;
     /// The straight cuts for this many steps.
     fn lines(&self, longest: i64) -> i64;
+    /// An arc of a larger radius, in steps, is written as chords.
+    fn largest_radius(&self) -> f64;
     fn line(&self, piece: Segment, from: Node, to: Node) -> Self::Block;
     fn arc(&self, arc: &Arc, from: Node, to: Node, full_turn: bool) -> Attempt<Self::Block>;
 
@@ -54,22 +59,36 @@ const AT_A_TIME: usize = 64;
 /// Blocks, each with the number of its piece, as many in a list as one core takes at a time.
 pub(super) type Numbered<B> = Vec<Vec<(usize, B)>>;
 
-/// The blocks of pieces; the error is the first piece that cannot be written.
+/// Why pieces are not written.
+pub(super) enum Unwritten<'a> {
+    /// No block leads along this one.
+    Misses(&'a Piece),
+    /// They take more blocks than there is room for.
+    TooMany,
+}
+
+/// The blocks of pieces, if they are no more than `most` straight cuts.
 pub(super) fn encode_all<'a, E>(
     encoder: &E,
     pieces: &'a [Piece],
-) -> Result<Numbered<E::Block>, &'a Piece>
+    most: usize,
+) -> Result<Numbered<E::Block>, Unwritten<'a>>
 where
     E: Encoder + Sync,
     E::Block: Send,
 {
+    let mut left = most;
+    for piece in pieces {
+        let count = count_of(encoder, piece).ok_or(Unwritten::TooMany)?;
+        left = left.checked_sub(count).ok_or(Unwritten::TooMany)?;
+    }
     let of = |chunk: usize| {
         let (mut made, mut own) = (Vec::with_capacity(2 * AT_A_TIME), Vec::new());
         let first = chunk * AT_A_TIME;
         for (nth, piece) in pieces.iter().enumerate().skip(first).take(AT_A_TIME) {
             encoder
                 .encode(&piece.segment, piece.from, piece.to, &mut own)
-                .ok_or(piece)?;
+                .ok_or(Unwritten::Misses(piece))?;
             made.extend(own.drain(..).map(|block| (nth, block)));
         }
         Ok(made)
@@ -77,6 +96,21 @@ where
     each(pieces.len().div_ceil(AT_A_TIME), 2, of)
         .into_iter()
         .collect()
+}
+
+/// The straight cuts of a piece: an arc that fits into a block is none. `None` beyond all counting.
+fn count_of<E: Encoder>(encoder: &E, piece: &Piece) -> Option<usize> {
+    let count = match &piece.segment {
+        Segment::Line(_) => {
+            let (dx, dy) = (piece.to.x - piece.from.x, piece.to.y - piece.from.y);
+            encoder.lines(dx.abs().max(dy.abs()))
+        }
+        Segment::Arc(arc) if arc.radius > encoder.largest_radius() => {
+            chord_count(arc, CHORD_SAGITTA / encoder.step())?
+        }
+        Segment::Arc(_) => 0,
+    };
+    usize::try_from(count).ok().filter(|_| count <= MOST_PIECES)
 }
 
 fn encode<E: Encoder + ?Sized>(
@@ -101,6 +135,7 @@ fn encode<E: Encoder + ?Sized>(
         })?,
         Attempt::Chords => {
             let count = chord_count(arc, CHORD_SAGITTA / encoder.step())?;
+            let count = Some(count).filter(|count| *count <= MOST_PIECES)?;
             in_pieces(piece, from, to, count, |piece, from, to| {
                 straight(encoder, &piece, from, to, blocks)
             })?;
@@ -133,16 +168,11 @@ fn straight<E: Encoder + ?Sized>(
     if longest == 0 {
         return Some(());
     }
-    in_pieces(
-        piece,
-        from,
-        to,
-        encoder.lines(longest),
-        |piece, from, to| {
-            blocks.push(encoder.line(piece, from, to));
-            Some(())
-        },
-    )
+    let count = Some(encoder.lines(longest)).filter(|count| *count <= MOST_PIECES)?;
+    in_pieces(piece, from, to, count, |piece, from, to| {
+        blocks.push(encoder.line(piece, from, to));
+        Some(())
+    })
 }
 
 /// The largest distance of a written line or arc from its piece, µm; as an error, that of the two middles counted in,

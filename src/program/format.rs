@@ -74,7 +74,8 @@ impl Format {
         self.write_noting(paths, unit_mm, settings, None, go_on)
     }
 
-    /// The same; `notes` are taken of every block, not of milling.
+    /// The same to be compared: it is not written where it is far too long. `notes` are taken of every block, not of
+    /// milling.
     pub(crate) fn write_noting(
         self,
         paths: &[WirePath],
@@ -87,7 +88,7 @@ impl Format {
             Format::ThreeB => three_b::write_with(paths, unit_mm, settings, notes, go_on),
             Format::FourB => three_b::write_four_b(paths, unit_mm, settings, notes, go_on),
             Format::Iso => iso::write_with(paths, unit_mm, settings, notes, go_on),
-            Format::Milling => iso::write_milled(paths, unit_mm, settings, go_on),
+            Format::Milling => iso::write_milled(paths, unit_mm, settings, notes.is_some(), go_on),
         }
     }
 }

@@ -91,6 +91,26 @@ const GAP: f64 = 1.5;
 /// Pieces that are handed to a writer at a time.
 const PIECES: usize = 4096;
 
+/// The most blocks of a program: no control, and no person, takes as many.
+pub(super) const MOST_BLOCKS: usize = 2_000_000;
+/// A program for a comparison has at most this many blocks for each segment of its paths, and as many more.
+const MOST_FOR_EACH: usize = 16;
+const MORE: usize = 1_000;
+
+/// The room for blocks in a program along these paths; less where it is only `noted`, to be compared.
+pub(super) fn room(paths: &[WirePath], noted: bool) -> usize {
+    let segments: usize = paths.iter().map(|path| path.segments.len()).sum();
+    match noted {
+        true => MOST_BLOCKS.min(MOST_FOR_EACH * segments + MORE),
+        false => MOST_BLOCKS,
+    }
+}
+
+/// A program along the path would have more blocks than there is room for.
+pub(super) fn too_many_blocks() -> ProofError {
+    ProofError::Refused(say!(the_program_would_have_too_many_blocks, MOST_BLOCKS))
+}
+
 /// A piece of a path between two nodes, which are its snapped ends.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Piece {

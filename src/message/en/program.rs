@@ -157,4 +157,5 @@ declare! {
     of_profile(name, why) => "profile {name}: {why}";
     its_lines_change_heights(line) => "its lines change how heights are meant in {line:?}";
     a_layer_is_finer(layer, step) => "milling.layer is {layer} mm, finer than the numbers of the profile, {step} mm: expected a thicker layer, or more decimals";
+    the_program_would_have_too_many_blocks(most) => "the program would have more than {most} blocks: no machine takes as many";
 }

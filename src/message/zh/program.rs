@@ -157,4 +157,5 @@ translate! {
     of_profile(name, why) => "profile {name}：{why}";
     its_lines_change_heights(line) => "它的行改变了 {line:?} 中高度的含义";
     a_layer_is_finer(layer, step) => "milling.layer 是 {layer} mm，比 profile 的最小单位 {step} mm 还小：每层应厚一些，或增加小数位数";
+    the_program_would_have_too_many_blocks(most) => "程序将超过 {most} 个程序段：没有机床能接受";
 }

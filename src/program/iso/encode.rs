@@ -41,6 +41,10 @@ impl Encoder for Moves {
         1
     }
 
+    fn largest_radius(&self) -> f64 {
+        LARGEST_RADIUS
+    }
+
     fn line(&self, piece: Segment, from: Node, to: Node) -> Encoded {
         Encoded {
             motion: Motion::Line,
@@ -52,7 +56,7 @@ impl Encoder for Moves {
     }
 
     fn arc(&self, arc: &Arc, from: Node, to: Node, full_turn: bool) -> Attempt<Encoded> {
-        if arc.radius > LARGEST_RADIUS {
+        if arc.radius > self.largest_radius() {
             return Attempt::Chords;
         }
         if full_turn && !self.full_circles {

@@ -9,7 +9,8 @@ use super::write::Lines;
 use crate::geometry::Segment;
 use crate::program::grid::Node;
 use crate::program::write::{
-    Piece, ProofError, Proved, ProvedProgram, Writer, node_of, nothing_to_write, scaled,
+    MOST_BLOCKS, Piece, ProofError, Proved, ProvedProgram, Writer, node_of, nothing_to_write,
+    scaled, too_many_blocks,
 };
 use crate::settings::{Coordinates, Effective};
 use crate::toolpath::milling::{Floor, Layers, Step};
@@ -18,12 +19,17 @@ use crate::toolpath::{Milled, MilledContour, Source, WirePath};
 /// The height above the surface of the ways between contours, mm.
 const CLEARANCE: f64 = 1.0;
 
+/// The most blocks of a program to be compared.
+const MOST_NOTED: usize = 200_000;
+
 /// Writes the electrode's paths as one program and proves it. `unit_mm` is the drawing's unit in mm; `go_on` gets the
-/// number of contours done and of all, and ends the work with `false`.
+/// number of contours done and of all, and ends the work with `false`. A program that is only `noted`, to be compared,
+/// is not written where it is long.
 pub(crate) fn write_milled(
     paths: &[WirePath],
     unit_mm: f64,
     settings: &Effective,
+    noted: bool,
     go_on: &mut dyn FnMut(usize, usize) -> bool,
 ) -> Proved<ProvedProgram> {
     let electrode = settings.electrode().map_err(ProofError::Refused)?;
@@ -37,6 +43,7 @@ pub(crate) fn write_milled(
     let (mut fed_before, mut worn) = (0.0, 0.0);
     let mut contours = Vec::with_capacity(paths.len());
     let mut tool: Option<Tool> = None;
+    let mut room = if noted { MOST_NOTED } else { MOST_BLOCKS };
     for (done, path) in paths.iter().enumerate() {
         let way = Way::of(path, unit_mm, per_mm);
         let layers = Layers {
@@ -48,6 +55,8 @@ pub(crate) fn write_milled(
         if layers.length * per_mm < 1.0 {
             return Err(nothing_to_write());
         }
+        let blocks = layers.blocks(way.pieces.len());
+        room = room.checked_sub(blocks).ok_or_else(too_many_blocks)?;
         let first = node_of(path.begin() * (unit_mm * per_mm))?;
         let mut over = match tool.take() {
             None => {

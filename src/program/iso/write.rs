@@ -8,13 +8,13 @@ use super::machine::Machine;
 use super::moves::{CenterRule, MICROMETRE, Place, Reading, micrometres, to_center};
 use super::read::words_of;
 use crate::finding::Side;
-use crate::program::encode::encode_all;
+use crate::program::encode::{Unwritten, encode_all};
 use crate::program::grid::Node;
 use crate::program::notes::Notes;
 use crate::program::path::{Kind, Step};
 use crate::program::write::{
     Piece, ProofError, Proved, ProvedProgram, Writer, cuts, nothing_to_write, push_number,
-    push_places, walk, way,
+    push_places, room, too_many_blocks, walk, way,
 };
 use crate::settings::{Coordinates, Effective, LineEnd, NumberUnit, Profile, Zero};
 use crate::toolpath::{Source, WirePath, each};
@@ -39,6 +39,7 @@ pub(crate) fn write_with(
     go_on: &mut dyn FnMut(usize, usize) -> bool,
 ) -> Proved<ProvedProgram> {
     let mut lines = Lines::of(settings)?;
+    lines.room = room(paths, notes.is_some());
     lines.notes = notes;
     if let Some(notes) = &mut lines.notes {
         notes.writing = lines.reading.writing();
@@ -76,6 +77,8 @@ pub(super) struct Lines<'a> {
     /// The totals so far, in steps.
     pub(super) made: ProvedProgram,
     notes: Option<&'a mut Notes>,
+    /// The most blocks.
+    room: usize,
 }
 
 impl Writer for Lines<'_> {
@@ -115,12 +118,12 @@ impl Writer for Lines<'_> {
             step: self.step_um(),
             full_circles: self.profile.full_circles,
         };
-        let encoded = encode_all(&moves, pieces).map_err(|piece| {
-            ProofError::Mismatch(say!(
-                no_moves_within_tolerance_lead_from_to,
-                piece.from,
-                piece.to
-            ))
+        let left = self.room.saturating_sub(self.made.blocks);
+        let encoded = encode_all(&moves, pieces, left).map_err(|unwritten| match unwritten {
+            Unwritten::Misses(Piece { from, to, .. }) => {
+                ProofError::Mismatch(say!(no_moves_within_tolerance_lead_from_to, from, to))
+            }
+            Unwritten::TooMany => too_many_blocks(),
         })?;
         let mut left = encoded.into_iter().flatten().peekable();
         let mut steps = Vec::with_capacity(2 * pieces.len());
@@ -220,6 +223,7 @@ impl<'a> Lines<'a> {
             motion: None,
             made: ProvedProgram::default(),
             notes: None,
+            room: room(&[], false),
         })
     }
 

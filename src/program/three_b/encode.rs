@@ -61,6 +61,11 @@ impl Encoder for Blocks {
         }
     }
 
+    /// Its centre needs more digits than a block has.
+    fn largest_radius(&self) -> f64 {
+        2.0 * self.largest as f64
+    }
+
     fn line(&self, piece: Segment, from: Node, to: Node) -> (Encoded, Decoded) {
         let block = line_block(from, to);
         let encoded = Encoded {
@@ -73,8 +78,7 @@ impl Encoder for Blocks {
     }
 
     fn arc(&self, arc: &Arc, from: Node, to: Node, full_turn: bool) -> Attempt<Self::Block> {
-        // Its centre needs more digits than a block has.
-        if arc.radius > 2.0 * self.largest as f64 {
+        if arc.radius > self.largest_radius() {
             return Attempt::Chords;
         }
         match arc_block(arc, from, to, full_turn) {

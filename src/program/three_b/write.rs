@@ -11,12 +11,13 @@ use super::proof::{Proof, check_line};
 use super::words::{Word, Words};
 use crate::finding::{Side, Unwritable};
 use crate::geometry::{Segment, Vector, turn};
-use crate::program::encode::encode_all;
+use crate::program::encode::{Unwritten, encode_all};
 use crate::program::grid::point_of;
 use crate::program::notes::Notes;
 use crate::program::path::{Kind, Step, is_tight_in_four_b};
 use crate::program::write::{
-    Piece, ProofError, Proved, ProvedProgram, Writer, cuts, nothing_to_write, scaled, walk, way,
+    Piece, ProofError, Proved, ProvedProgram, Writer, cuts, nothing_to_write, room, scaled,
+    too_many_blocks, walk, way,
 };
 use crate::settings::Effective;
 use crate::toolpath::{PathSegment, Source, WirePath, each};
@@ -39,7 +40,7 @@ pub(crate) fn write_with(
     notes: Option<&mut Notes>,
     go_on: &mut dyn FnMut(usize, usize) -> bool,
 ) -> Proved<ProvedProgram> {
-    let mut blocks = Blocks::new(settings, None, notes);
+    let mut blocks = Blocks::new(settings, None, notes, paths);
     walk(paths, unit_mm * 1000.0, 1.0, go_on, &mut blocks)?;
     blocks.finish(cuts(paths))
 }
@@ -85,6 +86,7 @@ pub(crate) fn write_four_b(
             direction: None,
         }),
         notes,
+        &paths,
     );
     walk(&paths, 1.0, 1.0, go_on, &mut blocks)?;
     blocks.finish(cuts(&paths))
@@ -151,6 +153,8 @@ struct Blocks<'a> {
     made: ProvedProgram,
     proof: Proof,
     notes: Option<&'a mut Notes>,
+    /// The most blocks.
+    room: usize,
     /// The table moves without the wire.
     is_jump: bool,
 }
@@ -189,12 +193,13 @@ impl Writer for Blocks<'_> {
 
     fn pieces(&mut self, pieces: &[Piece]) -> Proved {
         let largest = self.settings.largest_number();
-        let encoded = encode_all(&encode::Blocks { largest }, pieces).map_err(|piece| {
-            ProofError::Mismatch(say!(
-                no_blocks_within_tolerance_lead_from_to,
-                piece.from,
-                piece.to
-            ))
+        let left = self.room.saturating_sub(self.made.blocks);
+        let encoded = encode_all(&encode::Blocks { largest }, pieces, left);
+        let encoded = encoded.map_err(|unwritten| match unwritten {
+            Unwritten::Misses(Piece { from, to, .. }) => {
+                ProofError::Mismatch(say!(no_blocks_within_tolerance_lead_from_to, from, to))
+            }
+            Unwritten::TooMany => too_many_blocks(),
         })?;
         // 4B's radius is the block's own.
         let largest = self.part.is_none().then_some(largest);
@@ -268,9 +273,11 @@ impl<'a> Blocks<'a> {
         settings: &'a Effective,
         part: Option<Part>,
         notes: Option<&'a mut Notes>,
+        paths: &[WirePath],
     ) -> Blocks<'a> {
         Blocks {
             part,
+            room: room(paths, notes.is_some()),
             notes,
             is_jump: false,
             settings,

@@ -91,6 +91,18 @@ impl Layers {
         }
     }
 
+    /// No more blocks than these are written for the layers along a way of so many pieces.
+    pub(crate) fn blocks(&self, pieces: usize) -> usize {
+        let feeds = match self.electrode.compensation {
+            WearCompensation::Linear => self.length / self.electrode.step,
+            WearCompensation::None | WearCompensation::Uniform => 0.0,
+        };
+        // A feed divides a piece; as a number of blocks what is beyond counting is the largest.
+        let of_layer = (2.0 * feeds) as usize;
+        let of_layer = of_layer.saturating_add(pieces + 2);
+        self.electrode.layers().saturating_mul(of_layer)
+    }
+
     /// Hands out the steps of all layers in order; returns the feed for the wear up to their end, with that of the
     /// contours before.
     pub(crate) fn each<E>(&self, step: &mut dyn FnMut(Step) -> Result<(), E>) -> Result<f64, E> {
