@@ -468,7 +468,7 @@ fn a_program_without_end_is_refused() {
     let far = 9e8;
     desk.write(
         "far.dxf",
-        &drawing(1, &[[0.0, 0.0], [far, 0.0], [far, far], [0.0, far]]),
+        drawing(1, &[[0.0, 0.0], [far, 0.0], [far, far], [0.0, far]]),
     );
     desk.write(
         "far.3b",
@@ -486,7 +486,7 @@ fn a_program_without_end_is_refused() {
     check(&desk, "check far.3b", 0, &[]);
     desk.write(
         "far.iso",
-        &"G01 X999999999. Y0\nG01 X-999999999. Y0\n".repeat(9),
+        "G01 X999999999. Y0\nG01 X-999999999. Y0\n".repeat(9),
     );
     let refused =
         &["!far.iso: the program would have more than 2000000 blocks: no machine takes as many"];
@@ -496,7 +496,7 @@ fn a_program_without_end_is_refused() {
         1,
         refused,
     );
-    desk.write("line.dxf", &drawing(0, &[[0.0, 0.0], [1000.0, 0.0]]));
+    desk.write("line.dxf", drawing(0, &[[0.0, 0.0], [1000.0, 0.0]]));
     desk.write(
         "wedm.toml",
         "[milling]\ntool-diameter = 1\ngap = 0.05\nlayer = 0.001\ndepth = 1\nwear = 0.02\nwear-compensation = \"linear\"\nstep = 0.001\n",

@@ -58,6 +58,8 @@ pub(in crate::program) struct Tangle<'a> {
     pub(crate) piece: &'a dyn Fn(usize) -> Option<Segment>,
     pub(crate) count: usize,
     pub(crate) margin: f64,
+    /// The piece after the last one, where that is of another pass.
+    pub(crate) next: Option<Segment>,
     /// How far beside the last pass its tab is cut, µm.
     pub(crate) aside: f64,
     /// Pieces that have been gone through.
@@ -68,6 +70,7 @@ pub(in crate::program) struct Tangle<'a> {
 pub(in crate::program) fn crossings(pieces: &[Segment], arcs: usize) -> Vec<Crossing> {
     let way = Tangle {
         aside: 0.0,
+        next: None,
         piece: &|index| pieces.get(index).copied(),
         count: pieces.len(),
         margin: margin(arcs),

@@ -365,6 +365,7 @@ fn search(way: &PartedWay<'_>, known: &mut Known) -> Found {
         count,
         margin: margin(way.totals().arcs),
         aside: aside_at_stop(way),
+        next: None,
         steps: Cell::new(0),
     }
     .crossings(near);
@@ -383,6 +384,7 @@ fn crossings_of_pass(way: &PartedWay<'_>, pass: &Range<usize>, aside: f64) -> Of
         count: pass.len(),
         margin: margin(way.arcs_in(&pass)),
         aside,
+        next: way.piece(pass.end),
         steps: Cell::new(0),
     }
     .all_crossings()

@@ -134,6 +134,7 @@ pub(super) fn crosses_itself(way: &HeldWay) -> bool {
             count: own.len(),
             margin: margin(arcs),
             aside: 0.0,
+            next: None,
             steps: Cell::new(0),
         }
         .all_crossings();

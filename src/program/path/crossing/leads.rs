@@ -1,7 +1,7 @@
 //! Where the way meets its own leads: in the scrap, where nothing of the part is cut.
 
 use super::{BESIDE, Tangle};
-use crate::geometry::Point;
+use crate::geometry::{Point, Segment};
 
 /// This many blocks may follow the closing point of a way.
 const MOST_BEYOND: usize = 8;
@@ -81,20 +81,18 @@ impl Tangle<'_> {
             let Some(step) = self.at(index) else {
                 return false;
             };
-            let goes_back = |other: Option<usize>| {
-                let other = other.and_then(|other| self.at(other));
-                other.is_some_and(|other| {
-                    (other.start() - step.end())
-                        .norm()
-                        .max((other.end() - step.start()).norm())
-                        <= self.margin
-                })
+            let before = index.checked_sub(1).and_then(|before| self.at(before));
+            let behind = match index + 1 == self.count {
+                true => self.next,
+                false => self.at(index + 1),
             };
-            // The one before the first of a pass, or behind its last, is of another pass.
-            let is_end = index == 0 || index + 1 == self.count;
+            let goes_back = |other: Segment| {
+                let [from, to] = [step.start() - other.end(), step.end() - other.start()];
+                from.norm().max(to.norm()) <= self.margin
+            };
             step.as_arc().is_none()
                 && step.length() <= BESIDE
-                && (is_end || goes_back(index.checked_sub(1)) || goes_back(Some(index + 1)))
+                && [before, behind].into_iter().flatten().any(goes_back)
         };
         first <= 1 && is_step(second) || second + 2 >= self.count && is_step(first)
     }
