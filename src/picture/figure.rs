@@ -1,8 +1,9 @@
 //! The drawing itself: areas, contours, entities that are not cut, the wire's path and the faults on it.
 
 use super::marks;
+use super::numbers::number;
 use super::reach::FARTHEST;
-use super::sheet::{Frame, Sheet, escaped, named, number, path_data};
+use super::sheet::{Frame, Sheet, escaped, named, path_data};
 use super::style::class_of;
 use super::subject::{Subject, is_other};
 use crate::drawing::{Entity, EntityId, Geometry, Role};

@@ -1,7 +1,8 @@
 //! A punch in its plate, as the wire leaves them: the places where clearance is missing are marked and enlarged.
 
 use super::marks;
-use super::sheet::{Frame, MARGIN, SHEET_WIDTH, Sheet, named, number, path_data};
+use super::numbers::number;
+use super::sheet::{Frame, MARGIN, SHEET_WIDTH, Sheet, named, path_data};
 use super::style;
 use super::window::{Window, Windows};
 use crate::drawing::Drawing;
@@ -107,17 +108,15 @@ pub(crate) fn fit_svg(drawing: &Drawing, fit: &Fit, unit_mm: f64) -> String {
 /// The plate as background with its opening, the punch in it.
 fn outlines(sheet: &mut Sheet, fit: &Fit, frame: &Frame) {
     for pair in &fit.pairs {
-        for (attributes, outline) in [
-            (r#"class="void""#, &pair.plate),
-            (r#"class="ground""#, &pair.punch),
-            (r#"class="wire""#, &pair.plate),
-            (r#"class="contour""#, &pair.punch),
+        let [plate, punch] = [&pair.plate, &pair.punch]
+            .map(|outline| path_data(frame, outline.iter().copied(), true));
+        for (attributes, data) in [
+            (r#"class="void""#, &plate),
+            (r#"class="ground""#, &punch),
+            (r#"class="wire""#, &plate),
+            (r#"class="contour""#, &punch),
         ] {
-            sheet.path(
-                attributes,
-                &path_data(frame, outline.iter().copied(), true),
-                "",
-            );
+            sheet.path(attributes, data, "");
         }
     }
 }

@@ -1,6 +1,7 @@
 //! The first faults enlarged, each with the circle of the correction beside the arc that is too tight for it.
 
-use super::sheet::{Frame, MARGIN, Sheet, named, number, path_data};
+use super::numbers::number;
+use super::sheet::{Frame, MARGIN, Sheet, named, path_data};
 use super::style::class_of;
 use super::subject::{Fault, Subject};
 use super::window::{Window, Windows};

@@ -1,6 +1,7 @@
 //! Numbered marks beside the faults, thread holes, starting points and texts.
 
-use super::sheet::{Frame, MARGIN, SHEET_WIDTH, Sheet, escaped, named, number};
+use super::numbers::number;
+use super::sheet::{Frame, MARGIN, SHEET_WIDTH, Sheet, escaped, named};
 use super::style::class_of;
 use super::subject::{Fault, Subject};
 use crate::geometry::{Point, Vector, direction};

@@ -12,6 +12,7 @@ mod figure;
 mod fit;
 mod lens;
 mod marks;
+mod numbers;
 mod program;
 mod reach;
 mod sheet;

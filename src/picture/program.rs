@@ -3,7 +3,8 @@
 //! Every block is a path whose `data-line` is its line in the text, from 0, in the order in which the machine runs
 //! them; beyond [`MOST_BLOCKS`] consecutive blocks share a path with the line of the first.
 
-use super::sheet::{Frame, MARGIN, SHEET_WIDTH, Sheet, number, path_data};
+use super::numbers::number;
+use super::sheet::{Frame, MARGIN, SHEET_WIDTH, Sheet, path_data};
 use super::style::{self, JUMP, THREAD, WIRE, class_of};
 use super::{marks, titled};
 use crate::finding::Severity;

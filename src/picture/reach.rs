@@ -19,9 +19,9 @@ pub(super) enum Part {
     Far(Segment),
 }
 
-/// The parts of a segment, in its direction; `origin` is where the picture's coordinates are 0, `scale` its units in
+/// Hands out the parts of a segment, in its direction; `origin` is where the picture's coordinates are 0, `scale` its units in
 /// one of the drawing.
-pub(super) fn parts(origin: Point, scale: f64, segment: Segment) -> Vec<Part> {
+pub(super) fn each_part(origin: Point, scale: f64, segment: Segment, each: &mut impl FnMut(Part)) {
     let near = Bounds {
         min: origin,
         max: origin,
@@ -29,7 +29,7 @@ pub(super) fn parts(origin: Point, scale: f64, segment: Segment) -> Vec<Part> {
     .grown(FARTHEST / scale);
     let bounds = segment.bounds();
     if bounds.merged(&near) == near && !is_flat(scale, &segment) {
-        return vec![Part::Near(segment)];
+        return each(Part::Near(segment));
     }
     let mut shares = match &segment {
         Segment::Line(line) => {
@@ -54,17 +54,16 @@ pub(super) fn parts(origin: Point, scale: f64, segment: Segment) -> Vec<Part> {
     shares.extend([0.0, 1.0]);
     shares.sort_by(f64::total_cmp);
     shares.dedup();
-    let mut parts = Vec::new();
     for (from, to) in shares.iter().copied().zip(shares.iter().copied().skip(1)) {
         let middle = segment.point_at((from + to) / 2.0);
         let [start, end] = [from, to].map(|share| clamped(segment.point_at(share), &near));
         if middle != clamped(middle, &near) {
-            parts.push(Part::Far(Segment::line(start, end)));
+            each(Part::Far(Segment::line(start, end)));
             continue;
         }
         let own = segment.part(from, to);
         if !is_flat(scale, &own) {
-            parts.push(Part::Near(match own {
+            each(Part::Near(match own {
                 Segment::Line(_) => Segment::line(start, end),
                 arc => arc,
             }));
@@ -75,9 +74,8 @@ pub(super) fn parts(origin: Point, scale: f64, segment: Segment) -> Vec<Part> {
             clamped(segment.point_at(from + (to - from) * share), &near)
         };
         let chords = (0..CHORDS).map(|chord| Segment::line(at(chord), at(chord + 1)));
-        parts.extend(chords.map(Part::Near));
+        chords.map(Part::Near).for_each(&mut *each);
     }
-    parts
 }
 
 fn is_flat(scale: f64, segment: &Segment) -> bool {
@@ -140,13 +138,13 @@ mod tests {
     }
 
     fn drawn(segments: &[Segment], scale: f64) -> Vec<Segment> {
-        let parts = segments
-            .iter()
-            .flat_map(|segment| parts(Point::origin(), scale, *segment));
-        let all = parts.map(|part| match part {
-            Part::Near(segment) | Part::Far(segment) => segment,
-        });
-        all.collect()
+        let mut all = Vec::new();
+        for segment in segments {
+            each_part(Point::origin(), scale, *segment, &mut |part| match part {
+                Part::Near(segment) | Part::Far(segment) => all.push(segment),
+            });
+        }
+        all
     }
 
     proptest! {

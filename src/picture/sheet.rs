@@ -1,6 +1,7 @@
 //! The sheet as SVG: the layout, geometry as path data, and how elements, numbers and texts are written.
 
-use super::reach::{FARTHEST, Part, parts};
+use super::numbers::{number, push_thousandths, thousandths};
+use super::reach::{FARTHEST, Part, each_part};
 use crate::geometry::{Bounds, Point, Segment};
 use crate::message::columns;
 use std::f64::consts::PI;
@@ -155,54 +156,66 @@ pub(super) fn path_data(
     segments: impl IntoIterator<Item = Segment>,
     close: bool,
 ) -> String {
-    let mut data = String::new();
-    let mut pen = String::new();
-    for part in segments
-        .into_iter()
-        .flat_map(|segment| parts(frame.origin, frame.scale, segment))
-    {
-        let segment = match part {
-            Part::Near(segment) => segment,
-            Part::Far(along) if close => along,
+    let mut path = PathData::default();
+    for segment in segments {
+        each_part(frame.origin, frame.scale, segment, &mut |part| match part {
+            Part::Near(segment) => path.push(frame, &segment),
+            Part::Far(along) if close => path.push(frame, &along),
             // A line that leaves the sheet comes back to it in another place.
-            Part::Far(_) => {
-                pen.clear();
-                continue;
-            }
-        };
-        let start = pair(frame, segment.start());
-        if pen.is_empty() {
-            let _ = write!(data, "M{start}");
-        } else if pen != start {
-            let _ = write!(data, "L{start}");
+            Part::Far(_) => path.pen = None,
+        });
+    }
+    if close && !path.data.is_empty() {
+        path.data.push('Z');
+    }
+    path.data
+}
+
+/// Path data, and where its pen stands.
+#[derive(Default)]
+struct PathData {
+    data: String,
+    pen: Option<[i64; 2]>,
+}
+
+impl PathData {
+    fn push(&mut self, frame: &Frame, segment: &Segment) {
+        let data = &mut self.data;
+        let start = place(frame, segment.start());
+        match self.pen {
+            None => push_place(data, 'M', start),
+            Some(stands) if stands != start => push_place(data, 'L', start),
+            Some(_) => {}
         }
-        pen = match segment {
-            Segment::Line(line) => {
-                let end = pair(frame, line.end);
-                let _ = write!(data, "L{end}");
-                end
-            }
+        let end = place(frame, segment.end());
+        match segment {
+            Segment::Line(_) => push_place(data, 'L', end),
             Segment::Arc(arc) => {
                 let pieces = (arc.sweep.abs() / (0.9 * PI)).ceil().max(1.0);
                 let radius = number(arc.radius * frame.scale);
                 let direction = u8::from(arc.sweep > 0.0);
                 for piece in 1..=pieces as u32 {
-                    let end = pair(frame, arc.point_at(f64::from(piece) / pieces));
-                    let _ = write!(data, "A{radius} {radius} 0 0 {direction} {end}");
+                    let to = place(frame, arc.point_at(f64::from(piece) / pieces));
+                    let _ = write!(data, "A{radius} {radius} 0 0 {direction}");
+                    push_place(data, ' ', to);
                 }
-                pair(frame, arc.end)
             }
-        };
+        }
+        self.pen = Some(end);
     }
-    if close && !data.is_empty() {
-        data.push('Z');
-    }
-    data
 }
 
-fn pair(frame: &Frame, point: Point) -> String {
+/// A place of the drawing in the frame's local coordinates, in thousandths.
+fn place(frame: &Frame, point: Point) -> [i64; 2] {
     let (x, y) = frame.local(point);
-    format!("{} {}", number(x), number(y))
+    [x, y].map(thousandths)
+}
+
+fn push_place(data: &mut String, before: char, [x, y]: [i64; 2]) {
+    data.push(before);
+    push_thousandths(data, x);
+    data.push(' ');
+    push_thousandths(data, y);
 }
 
 /// As much of a text as fits in this many columns.
@@ -224,17 +237,6 @@ fn shortened(text: &str, most: usize) -> String {
 pub(super) fn named(class: &str, handle: &str, segment: usize) -> String {
     let handle = escaped(handle);
     format!(r#"class="{class}" data-handle="{handle}" data-segment="{segment}""#)
-}
-
-/// At most three decimals, without trailing zeros and without a minus before zero.
-pub(super) fn number(value: f64) -> String {
-    let text = format!("{value:.3}");
-    let short = text.trim_end_matches('0').trim_end_matches('.');
-    if short == "-0" {
-        "0".into()
-    } else {
-        short.into()
-    }
 }
 
 /// Text for XML: markup characters replaced, characters that XML forbids left out.

@@ -1,6 +1,7 @@
 //! Colours of light and dark viewers, the legend and the scale bar.
 
-use super::sheet::{MARGIN, SHEET_WIDTH, Sheet, escaped, number};
+use super::numbers::number;
+use super::sheet::{MARGIN, SHEET_WIDTH, Sheet, escaped};
 use crate::finding::Severity;
 use crate::message::columns;
 use std::collections::BTreeSet;

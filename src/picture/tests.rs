@@ -1,4 +1,5 @@
-use super::sheet::{number, path_data};
+use super::numbers::number;
+use super::sheet::path_data;
 use super::*;
 use crate::drawing::{Contour, Entity, EntityId, Geometry, Kind, Role, Unit, Vertex};
 use crate::finding::{Detail, Place, Rule, Severity, Side, SmallRadius};

@@ -1,6 +1,7 @@
 //! The window that enlarges one place, in a row of them below the figure, and the text below it.
 
-use super::sheet::{Frame, MARGIN, SHEET_WIDTH, Sheet, escaped, number};
+use super::numbers::number;
+use super::sheet::{Frame, MARGIN, SHEET_WIDTH, Sheet, escaped};
 use crate::geometry::Point;
 
 /// The gap between neighbours in a row.
