@@ -4,7 +4,7 @@
 //! written to after the answer has been read and parsed; for what an editor asks, and in rows that say "read", until the answer has been read
 //! whole.
 //! `-- --quick` makes fewer rounds; `-- NAME …` runs only the sessions whose names hold one of these: "start", "5 MB", "50 MB",
-//! "program", "3B", "ISO", "beside", "drawing", "generate".
+//! "program", "3B", "ISO", "beside", "drawing", "fit", "generate".
 
 mod generated;
 #[allow(dead_code)]
@@ -87,6 +87,9 @@ fn main() {
     }
     if is_chosen("drawing") {
         drawing_session(rounds);
+    }
+    if is_chosen("fit") {
+        fit_session(rounds / 4);
     }
     if is_chosen("generate") {
         generate_session(if quick { 200 } else { 1000 });
@@ -585,6 +588,65 @@ fn drawing_session(rounds: usize) {
         "polyline of 1,000,000 vertices: one moves",
         moves.collect(),
         "p50 1 ms",
+    );
+    client.shut_down();
+}
+
+/// A contour of 10,000 segments that is cut twice: whether its parts fit, with the picture of it, and an edit of it.
+fn fit_session(rounds: usize) {
+    let uri = "cad:///pair";
+    let mut client = Client::start_with(
+        capabilities(),
+        json!({
+            "wire-diameter": 0.18,
+            "gap": 0.01,
+            "pair": { "drawn-as": "punch", "clearance": 0.01 },
+        }),
+    );
+    // The wire rounds its concave corners, but for those of fillets.
+    let outline = |count: usize| -> Vec<[f64; 3]> {
+        let turn = std::f64::consts::TAU / count as f64;
+        let radius = count as f64 * 0.2;
+        let vertex = |at: usize| {
+            let (sin, cos) = (at as f64 * turn).sin_cos();
+            [
+                radius * cos,
+                radius * sin,
+                if at.is_multiple_of(2) { 0.0 } else { 0.3 },
+            ]
+        };
+        (0..count).map(vertex).collect()
+    };
+    let entity =
+        json!({ "handle": "2A", "type": "polyline", "closed": true, "vertices": outline(10_000) });
+    client.open_drawing(uri, json!([entity]));
+    let request =
+        |client: &mut Client| timed(|| client.request("wedm/fit", json!({ "uri": uri }))).1;
+    let whole = request(&mut client);
+    row("fit of 10,000 segments, first request", vec![whole], "");
+    client.skips_results.store(true, Ordering::Release);
+    row(
+        "fit of 10,000 segments, read",
+        (0..rounds).map(|_| request(&mut client)).collect(),
+        "p50 20 ms",
+    );
+    client.skips_results.store(false, Ordering::Release);
+    let mut version = 1;
+    let moves = (0..rounds).map(|round| {
+        version += 1;
+        let [x, y, _] = outline(10_000)[0];
+        let vertex = json!([x + if round % 2 == 0 { 0.001 } else { 0.0 }, y]);
+        let splice = json!([{ "handle": "2A", "vertices": { "start": 0, "deleteCount": 1, "insert": [vertex] } }]);
+        timed(|| {
+            client.change_drawing(uri, version, splice);
+            client.diagnostics(uri, version)
+        })
+        .1
+    });
+    row(
+        "fit of 10,000 segments: one vertex moves",
+        moves.collect(),
+        "p50 5 ms",
     );
     client.shut_down();
 }

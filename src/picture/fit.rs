@@ -108,8 +108,8 @@ pub(crate) fn fit_svg(drawing: &Drawing, fit: &Fit, unit_mm: f64) -> String {
 /// The plate as background with its opening, the punch in it.
 fn outlines(sheet: &mut Sheet, fit: &Fit, frame: &Frame) {
     for pair in &fit.pairs {
-        let [plate, punch] = [&pair.plate, &pair.punch]
-            .map(|outline| path_data(frame, outline.iter().copied(), true));
+        let data = |outline: &[Segment]| path_data(frame, outline.iter().copied(), true);
+        let (plate, punch) = rayon::join(|| data(&pair.plate), || data(&pair.punch));
         for (attributes, data) in [
             (r#"class="void""#, &plate),
             (r#"class="ground""#, &punch),
