@@ -58,7 +58,9 @@ pub(super) fn each_part(origin: Point, scale: f64, segment: Segment, each: &mut 
         let middle = segment.point_at((from + to) / 2.0);
         let [start, end] = [from, to].map(|share| clamped(segment.point_at(share), &near));
         if middle != clamped(middle, &near) {
-            each(Part::Far(Segment::line(start, end)));
+            if start != end {
+                each(Part::Far(Segment::line(start, end)));
+            }
             continue;
         }
         let own = segment.part(from, to);

@@ -1,6 +1,6 @@
 //! What others have named or made: names that would steer a terminal, files that are none, files that change or belong to somebody.
 
-use super::{Desk, Ended};
+use super::{Desk, Ended, check};
 use std::process::Command;
 
 /// A name with an end of line, a colour, a conceal, a cursor movement, a C1 control and a turn of direction in it.
@@ -333,4 +333,62 @@ mod unix {
             "{left:?}"
         );
     }
+}
+
+/// A kilometre in numbers of six digits, and layers of a micrometre: what no machine takes is refused before it is
+/// written, and beside a program it is not written to be compared.
+#[test]
+fn a_program_without_end_is_refused() {
+    let desk = Desk::new();
+    let vertex = |[x, y]: [f64; 2]| format!("10\n{x}\n20\n{y}\n");
+    let drawing = |closed: u8, vertices: &[[f64; 2]]| {
+        let vertices: String = vertices.iter().copied().map(vertex).collect();
+        format!(
+            "0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n70\n{closed}\n{vertices}0\nENDSEC\n0\nEOF\n"
+        )
+    };
+    let far = 9e8;
+    desk.write(
+        "far.dxf",
+        drawing(1, &[[0.0, 0.0], [far, 0.0], [far, far], [0.0, far]]),
+    );
+    desk.write(
+        "far.3b",
+        "B1000B0B1000GXL1\nB0B1000B1000GYL2\nB1000B0B1000GXL3\nB0B1000B1000GYL4\nDD\n",
+    );
+    let refused = &[
+        "!error: far.dxf: the program would have more than 2000000 blocks: no machine takes as many",
+    ];
+    check(
+        &desk,
+        "generate far.dxf --side opening --format 3b -o out.3b",
+        1,
+        refused,
+    );
+    check(&desk, "check far.3b", 0, &[]);
+    desk.write(
+        "far.iso",
+        "G01 X999999999. Y0\nG01 X-999999999. Y0\n".repeat(9),
+    );
+    let refused =
+        &["!far.iso: the program would have more than 2000000 blocks: no machine takes as many"];
+    check(
+        &desk,
+        "convert far.iso --force --format 3b -o out.3b",
+        1,
+        refused,
+    );
+    desk.write("line.dxf", drawing(0, &[[0.0, 0.0], [1000.0, 0.0]]));
+    desk.write(
+        "wedm.toml",
+        "[milling]\ntool-diameter = 1\ngap = 0.05\nlayer = 0.001\ndepth = 1\nwear = 0.02\nwear-compensation = \"linear\"\nstep = 0.001\n",
+    );
+    let refused =
+        &["!line.dxf: the program would have more than 2000000 blocks: no machine takes as many"];
+    check(
+        &desk,
+        "generate line.dxf --format milling -o out.iso",
+        1,
+        refused,
+    );
 }
