@@ -286,12 +286,12 @@ fn the_python_client_has_every_key() {
         (
             "ContourSettings",
             "drawings.NAME.contours.HANDLE.",
-            "What is said of one contour of one drawing.",
+            "Settings for one contour of one drawing.",
         ),
         (
             "DrawingSettings",
             "drawings.NAME.",
-            "What is said of one drawing.",
+            "Settings for one drawing.",
         ),
         (
             "Settings",
@@ -331,7 +331,7 @@ fn the_python_client_has_every_key() {
     }
     hold(
         "clients/python/src/wedm_client/settings.py",
-        "by the handle of one of its entities.\"\"\"\n",
+        "by the handle of an entity of each contour.\"\"\"\n",
         "\n\ndef to_json",
         &text,
     );

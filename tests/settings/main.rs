@@ -39,7 +39,7 @@ fn schema_of(row: &Row) -> Value {
     for part in row.key.split('.') {
         schema = resolved(&protocol, &schema);
         schema = match part {
-            "NAME" => schema["additionalProperties"].clone(),
+            "NAME" | "HANDLE" => schema["additionalProperties"].clone(),
             part => schema["properties"][camel_case(part)].clone(),
         };
     }

@@ -105,10 +105,10 @@ class Profile(TypedDict, total=False):
 class ContourSettings(TypedDict, total=False):
     """Settings for one contour of one drawing."""
 
-    side: Place
-    thread: Place
-    entry: Place
-    order: Place
+    side: Literal["opening", "punch", "both", "left", "right", "ignore"]
+    thread: Sequence[float]
+    entry: Sequence[float]
+    order: int
 
 
 class DrawingSettings(TypedDict, total=False):
