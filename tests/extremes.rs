@@ -6,7 +6,7 @@ use std::sync::Arc;
 use wedm::document::{Document, Source};
 use wedm::finding::Edit;
 use wedm::program::{self, Language};
-use wedm::settings::{Budget, Effective};
+use wedm::settings::{Budget, Effective, Settings, SideSetting};
 
 /// More than `format!` takes as a width.
 const WIDE: usize = 70_000;
@@ -195,6 +195,47 @@ fn what_lies_side_by_side_by_the_thousand_is_compared_within_bounds_and_what_was
         panic!("one finding is expected")
     };
     assert!(sentence.contains("not compared"), "{sentence}");
+}
+
+#[test]
+fn offsets_that_cross_themselves_everywhere_are_left_out_together_and_said() {
+    let gear = |number: usize| {
+        let vertex = |at: usize| {
+            let (sin, cos) = (std::f64::consts::TAU * at as f64 / 600.0).sin_cos();
+            let radius = if at.is_multiple_of(2) { 10.0 } else { 9.0 };
+            let (x, y) = (30.0 * number as f64 + radius * cos, radius * sin);
+            format!("10\n{x}\n20\n{y}\n")
+        };
+        let vertices: String = (0..600).map(vertex).collect();
+        format!("0\nLWPOLYLINE\n90\n600\n70\n1\n{vertices}")
+    };
+    let left_out = |correction: f64| {
+        let settings = Settings {
+            side: Some(SideSetting::Opening),
+            correction: Some(correction),
+            ..Settings::default()
+        };
+        let granted = Budget::default();
+        let budget = Budget {
+            looks: granted.looks / 4,
+            ..granted
+        };
+        let settings = Effective {
+            budget,
+            ..Effective::of(&settings)
+        };
+        let mut document = drawing_under((0..8).map(gear), settings);
+        let said = said(&mut document).into_iter();
+        let said = said.filter(|(rule, it)| *rule == "not-judged" && it.contains("offset"));
+        said.map(|(_, sentence)| sentence).collect::<Vec<_>>()
+    };
+    assert_eq!(left_out(0.01), [""; 0]);
+    let [sentence] = &left_out(8.5)[..] else {
+        panic!("one finding is expected")
+    };
+    // The first ones are looked at.
+    let count = sentence.rsplit(' ').next().map(str::parse::<usize>);
+    assert!(matches!(count, Some(Ok(2..=7))), "{sentence}");
 }
 
 #[test]

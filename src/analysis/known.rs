@@ -4,7 +4,7 @@ use super::notable::Kind;
 use super::report::Report;
 use crate::drawing::{Contour, ContourIndex, Drawing, RUN, Role};
 use crate::finding::{Finding, Severity, Side};
-use crate::rules::lost_pocket::Lost;
+use crate::rules::lost_pocket::Checked;
 use crate::rules::{AtHand, LOCAL_RULES, Limits, LocalRule, Observation, Outlook};
 use crate::settings::Effective;
 use std::iter::once;
@@ -311,7 +311,14 @@ fn row_of(side: Option<Side>) -> usize {
 pub(crate) struct Answer {
     /// The question: the side, and whether there is a neck.
     pub(crate) asked: (Side, bool),
-    pub(crate) lost: Vec<Lost>,
+    pub(crate) checked: Checked,
     /// Why there is no path, where nothing is lost; `None` until it has been asked.
     pub(crate) misfit: Option<Option<Box<Finding>>>,
+}
+
+impl Answer {
+    /// True where it is known that the offset loses nothing.
+    pub(crate) fn loses_nothing(&self) -> bool {
+        self.checked.lost.as_ref().is_some_and(Vec::is_empty)
+    }
 }

@@ -72,9 +72,7 @@ pub(super) struct ToldAside {
 impl Pairs {
     /// No observations yet, with the looks allowed for a drawing of this many segments and all later edits of it.
     pub(crate) fn new(budget: &Budget, segments: usize) -> Pairs {
-        let granted = budget
-            .looks
-            .saturating_add(budget.looks_of_a_segment.saturating_mul(segments as u64));
+        let granted = budget.granted(segments);
         Pairs {
             granted,
             left: granted,

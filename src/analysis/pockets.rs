@@ -4,9 +4,9 @@ use super::Analysis;
 use super::known::Answer;
 use super::report::Report;
 use crate::drawing::{ContourKey, Drawing, Outline, Role};
-use crate::finding::{Detail, Finding, Place, Rule, Side};
+use crate::finding::{Detail, Finding, NotJudged, Place, Rule, Side};
 use crate::geometry::Point;
-use crate::rules::lost_pocket::{self, Lost};
+use crate::rules::lost_pocket::{self, Checked, Lost};
 use crate::settings::Compensation;
 use crate::toolpath;
 
@@ -28,6 +28,10 @@ impl Analysis {
         }
         // Where the rules that find them are off, a neck is assumed, and a crossing is not.
         let necks_are_told = is_on(Rule::NarrowSlot);
+        let lengths = ordered.iter().filter_map(|&key| self.chains.get(key));
+        let segments: usize = lengths.map(|contour| contour.len()).sum();
+        let granted = self.settings.budget.granted(segments);
+        let (mut left, mut left_out) = (granted, Vec::new());
         for (&key, &side) in ordered.iter().zip(sides) {
             let Some(side) = side.filter(|_| !self.pairs.seen.crossings.contains_key(&key)) else {
                 continue;
@@ -36,39 +40,54 @@ impl Analysis {
                 side,
                 !necks_are_told || self.pairs.seen.slots.contains_key(&key),
             );
-            if self
-                .lost
-                .get(&key)
-                .is_none_or(|answer| answer.asked != asked)
+            if let Some(answer) = self.lost.get(&key)
+                && (answer.asked != asked
+                    || answer.checked.lost.is_none() && answer.checked.looks <= left)
             {
+                self.lost.remove(&key);
+            }
+            if !self.lost.contains_key(&key) {
                 let Some(outlook) = self.outlook(drawing, key) else {
                     continue;
                 };
-                let lost = lost_pocket::check(&outlook, side, asked.1);
-                self.lost.insert(
-                    key,
-                    Answer {
-                        asked,
-                        lost,
-                        misfit: None,
-                    },
-                );
+                let answer = Answer {
+                    asked,
+                    checked: lost_pocket::check(&outlook, side, asked.1, (granted, left)),
+                    misfit: None,
+                };
+                self.lost.insert(key, answer);
             }
+            // The looks are those of a fresh analysis, whatever is known already.
+            let looks = self.lost.get(&key).map_or(0, |it| it.checked.looks);
+            let Some(rest) = left.checked_sub(looks) else {
+                left_out.push(key);
+                continue;
+            };
+            left = rest;
             // Where findings are only counted, to judge a fix, these are left out: they take too
             // long to find.
             if report.shows_findings()
                 && self
                     .lost
                     .get(&key)
-                    .is_some_and(|answer| answer.lost.is_empty() && answer.misfit.is_none())
+                    .is_some_and(|answer| answer.loses_nothing() && answer.misfit.is_none())
             {
                 let misfit = self.misfit(drawing, key, side).map(Box::new);
                 if let Some(answer) = self.lost.get_mut(&key) {
                     answer.misfit = Some(misfit);
                 }
             }
-            let (Some(Answer { lost, misfit, .. }), Some(outlook)) =
-                (self.lost.get(&key), self.outlook(drawing, key))
+            let (
+                Some(Answer {
+                    checked:
+                        Checked {
+                            lost: Some(lost), ..
+                        },
+                    misfit,
+                    ..
+                }),
+                Some(outlook),
+            ) = (self.lost.get(&key), self.outlook(drawing, key))
             else {
                 continue;
             };
@@ -138,6 +157,16 @@ impl Analysis {
                     );
                 }
             }
+        }
+        if let Some(&first) = left_out.first()
+            && report.counts(Rule::NotJudged, None)
+            && let Some(place) = self.outlook(drawing, first).and_then(|it| it.place(0))
+        {
+            let what = NotJudged::Offsets {
+                contours: left_out.len(),
+            };
+            let detail = Detail::NotJudged(what);
+            report.add(Rule::NotJudged, None, place, detail, Vec::new());
         }
     }
 

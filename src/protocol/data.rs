@@ -278,7 +278,9 @@ impl FindingData {
 /// How much was left out, where that is counted.
 fn left_out(what: &NotJudged) -> Option<usize> {
     match *what {
-        NotJudged::Pairs { count } | NotJudged::Crossings { blocks: count } => Some(count),
+        NotJudged::Pairs { count }
+        | NotJudged::Offsets { contours: count }
+        | NotJudged::Crossings { blocks: count } => Some(count),
         NotJudged::Reference { copies, .. } => usize::try_from(copies).ok(),
         NotJudged::Curve { arcs, .. } => Some(arcs),
         NotJudged::Calls { .. } => None,

@@ -11,7 +11,7 @@
 
 use super::{Outlook, small_radius};
 use crate::finding::Side;
-use crate::geometry::{Bounds, Point, Segment, left_normal};
+use crate::geometry::{Bounds, Point, Segment, left_normal, looks_of_offset};
 use cavalier_contours::polyline::{PlineSource, PlineSourceMut, Polyline};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -28,12 +28,34 @@ pub(crate) enum Lost {
     Pocket { near: Point, index: usize },
 }
 
+/// What is known of the offset of a contour.
+#[derive(Clone, Debug)]
+pub(crate) struct Checked {
+    /// The looks that it takes, beyond the granted ones one more than these.
+    pub(crate) looks: u64,
+    /// What it loses; `None` where it would have taken more looks than were left.
+    pub(crate) lost: Option<Vec<Lost>>,
+}
+
+impl Checked {
+    /// Nothing is lost, and nothing had to be looked at.
+    const SOUND: Checked = Checked {
+        looks: 0,
+        lost: Some(Vec::new()),
+    };
+}
+
 /// What the offset to `side` of a contour loses. `has_neck` says that two of its walls form a narrow slot; without one
-/// the offset is lost as a whole or not at all.
-pub(crate) fn check(outlook: &Outlook, side: Side, has_neck: bool) -> Vec<Lost> {
+/// the offset is lost as a whole or not at all. Of the looks `granted` to all contours, `left` are left for this one.
+pub(crate) fn check(
+    outlook: &Outlook,
+    side: Side,
+    has_neck: bool,
+    (granted, left): (u64, u64),
+) -> Checked {
     let contour = outlook.contour;
     if !contour.closed || contour.len() > MOST_SEGMENTS {
-        return Vec::new();
+        return Checked::SOUND;
     }
     let segments: Vec<Segment> = contour
         .segments(outlook.drawing)
@@ -45,9 +67,17 @@ pub(crate) fn check(outlook: &Outlook, side: Side, has_neck: bool) -> Vec<Lost> 
     // An outline that holds no disc of radius c has less area than its length times c.
     let may_collapse = inward && twice_area.abs() / 2.0 <= length * correction;
     if !has_neck && !may_collapse {
-        return Vec::new();
+        return Checked::SOUND;
     }
-    let Some(loops) = offset(&segments, correction * side.sign()) else {
+    let looks = looks_of_offset(&segments, correction * side.sign(), granted);
+    let lost = (looks <= left).then(|| lost(outlook, side, &segments));
+    Checked { looks, lost }
+}
+
+fn lost(outlook: &Outlook, side: Side, segments: &[Segment]) -> Vec<Lost> {
+    let correction = outlook.limits.correction;
+    let inward = outlook.index.twice_area() * side.sign() > 0.0;
+    let Some(loops) = offset(segments, correction * side.sign()) else {
         return Vec::new();
     };
     let clear = |point: Point| clearance(outlook, point, correction).is_none();

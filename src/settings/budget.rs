@@ -14,6 +14,14 @@ pub struct Budget {
     pub most_seen: usize,
 }
 
+impl Budget {
+    /// The looks at a drawing of so many segments.
+    pub(crate) fn granted(&self, segments: usize) -> u64 {
+        let of_segments = self.looks_of_a_segment.saturating_mul(segments as u64);
+        self.looks.saturating_add(of_segments)
+    }
+}
+
 impl Default for Budget {
     fn default() -> Self {
         Budget {
