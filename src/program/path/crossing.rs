@@ -66,17 +66,25 @@ pub(in crate::program) struct Tangle<'a> {
     pub(crate) steps: Cell<usize>,
 }
 
-/// The crossings of a way that is held as a whole.
-pub(in crate::program) fn crossings(pieces: &[Segment], arcs: usize) -> Vec<Crossing> {
+/// The crossings of a way that is held as a whole. No more than `left` pieces are read to follow it, and at most [`MOST_STEPS`]: what was
+/// read is taken from `left`.
+pub(in crate::program) fn crossings(
+    pieces: &[Segment],
+    arcs: usize,
+    left: &mut usize,
+) -> Vec<Crossing> {
+    let read_already = MOST_STEPS.saturating_sub(*left);
     let way = Tangle {
         aside: 0.0,
         next: None,
         piece: &|index| pieces.get(index).copied(),
         count: pieces.len(),
         margin: margin(arcs),
-        steps: Cell::new(0),
+        steps: Cell::new(read_already),
     };
-    way.all_crossings().0
+    let found = way.all_crossings().0;
+    *left = left.saturating_sub(way.steps.get() - read_already);
+    found
 }
 
 /// The most boxes that are compared with each other among this many pieces. A way that does not coincide with itself

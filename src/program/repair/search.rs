@@ -14,6 +14,10 @@ use crate::geometry::{Point, Segment, Vector};
 /// The most repairs that are returned.
 const HANDED_OUT: usize = 4;
 
+/// The most pieces that one search reads to find out whether its changes cross themselves: of a way that lies on itself again and again,
+/// each change would take as many. Other ways take a few for each place where they come near themselves.
+const MOST_FOLLOWED: usize = 200_000;
+
 /// Shorter blocks are not lost, but rounding, µm.
 const SHORTEST: f64 = 10.0;
 
@@ -133,9 +137,9 @@ pub(in crate::program) trait Contour {
         true
     }
 
-    /// Whether the way crosses itself.
-    fn crosses(&self, _change: Option<&Change<Self::Meant>>) -> bool {
-        false
+    /// Whether the way crosses itself; `None` where more than the pieces `left` would be read to find out. What is read is taken from them.
+    fn crosses(&self, _change: Option<&Change<Self::Meant>>, _left: &mut usize) -> Option<bool> {
+        Some(false)
     }
 }
 
@@ -196,7 +200,8 @@ fn fillings(gap: Vector, headings: Option<[Vector; 2]>) -> impl Iterator<Item = 
 fn ranked<C: Contour>(contour: &C, mut judged: Vec<Judged<C>>) -> Vec<Repair<C::Meant>> {
     judged.sort_by(|(a, _), (b, _)| a.left.cmp(&b.left).then(a.cost.total_cmp(&b.cost)));
     judged.truncate(contour.finalists());
-    let crosses_now = !judged.is_empty() && contour.crosses(None);
+    let mut left = MOST_FOLLOWED;
+    let crosses_now = !judged.is_empty() && contour.crosses(None, &mut left) == Some(true);
     // Of changes with the same way the plainest comes first; ways that still cross themselves come last.
     let (mut kept, mut leads, mut crossing) = (Vec::<Judged<C>>::new(), Vec::new(), Vec::new());
     let (mut is_either, mut outside) = (false, None);
@@ -218,7 +223,12 @@ fn ranked<C: Contour>(contour: &C, mut judged: Vec<Judged<C>>) -> Vec<Repair<C::
         if !is_held && outside.is_some() {
             continue;
         }
-        match (is_held, contour.crosses(Some(&change))) {
+        let Some(crosses) = contour.crosses(Some(&change), &mut left) else {
+            // The others are not known, so that none is sure.
+            is_either = true;
+            break;
+        };
+        match (is_held, crosses) {
             (true, false) => {
                 kept.push((verdict, change));
                 leads.push(lead);
@@ -265,12 +275,28 @@ fn is_sure<C: Contour>(kept: &[Judged<C>], outside: Option<Verdict>) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::cell::Cell;
 
     /// Candidates by their result (first letter), the remaining evidence and their cost; `?` is not offered, and `x`
     /// crosses itself.
     struct Toy {
         meant: Vec<(&'static str, usize, f64)>,
         twin: Option<f64>,
+        /// What is read to find out whether a change crosses itself.
+        followed: usize,
+        /// What has been read for it.
+        read: Cell<usize>,
+    }
+
+    impl Toy {
+        fn of(meant: Vec<(&'static str, usize, f64)>, twin: Option<f64>) -> Toy {
+            Toy {
+                meant,
+                twin,
+                followed: 1,
+                read: Cell::new(0),
+            }
+        }
     }
 
     impl Contour for Toy {
@@ -331,14 +357,17 @@ mod tests {
         fn holds(&self, change: &Change<Self::Meant>) -> bool {
             self.lead(change) != Some(b'?')
         }
-        fn crosses(&self, change: Option<&Change<Self::Meant>>) -> bool {
-            change.is_none_or(|change| self.lead(change) == Some(b'x'))
+        fn crosses(&self, change: Option<&Change<Self::Meant>>, left: &mut usize) -> Option<bool> {
+            let read = self.followed.min(*left);
+            self.read.set(self.read.get() + read);
+            *left -= read;
+            (*left > 0).then(|| change.is_none_or(|change| self.lead(change) == Some(b'x')))
         }
     }
 
     fn check(meant: &[(&'static str, usize, f64)], twin: Option<f64>, expected: &str) {
         let meant = meant.to_vec();
-        let found = search(&Toy { meant, twin }, &mut 100);
+        let found = search(&Toy::of(meant, twin), &mut 100);
         let shown = |repair: &Repair<(&'static str, usize)>| {
             let name = match &repair.change {
                 Change::Replace { meant, .. } | Change::Insert { meant, .. } => meant.0,
@@ -370,10 +399,27 @@ mod tests {
     }
 
     #[test]
+    fn no_more_is_followed_than_may_be_and_nothing_is_sure_then() {
+        const NAMES: [&str; 10] = ["a", "b", "c", "d", "e", "f", "g", "h", "i", "j"];
+        for (followed, expected) in [(1_000, 4), (80_000, 1), (400_000, 0)] {
+            let meant = (0..10).map(|cost| (NAMES[cost], 0, 2.0 * cost as f64));
+            let toy = Toy {
+                followed,
+                ..Toy::of(meant.collect(), None)
+            };
+            let found = search(&toy, &mut 100);
+            assert_eq!(found.len(), expected, "{followed}");
+            assert!(toy.read.get() <= MOST_FOLLOWED);
+            let is_sure = found.iter().any(|repair| repair.is_sure);
+            assert_eq!(is_sure, followed == 1_000);
+        }
+    }
+
+    #[test]
     fn no_more_is_run_than_may_be() {
         let meant = vec![("a", 0, 1.0), ("b", 0, 2.0), ("c", 0, 3.0)];
         let mut left = 2;
-        let found = search(&Toy { meant, twin: None }, &mut left);
+        let found = search(&Toy::of(meant, None), &mut left);
         assert_eq!((found.len(), left), (2, 0));
     }
 }

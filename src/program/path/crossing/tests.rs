@@ -13,7 +13,7 @@ fn check(points: &[(f64, f64)], expected: &[&str]) {
             .windows(2)
             .map(|pair| Segment::line(pair[0], pair[1]))
             .collect();
-        let found: Vec<String> = crossings(&pieces, 0)
+        let found: Vec<String> = crossings(&pieces, 0, &mut usize::MAX.clone())
             .iter()
             .map(|one| format!("{}x{}", one.first, one.second))
             .collect();

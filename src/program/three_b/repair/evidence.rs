@@ -241,9 +241,13 @@ fn ways(items: &[Item]) -> impl Iterator<Item = (Segment, Move)> {
     })
 }
 
-pub(super) fn crosses_itself(items: &[Item], arcs: usize) -> bool {
+pub(super) fn crosses_itself(items: &[Item], arcs: usize, left: &mut usize) -> Option<bool> {
+    if *left == 0 {
+        return None;
+    }
     let pieces: Vec<Segment> = ways(items).map(|(way, _)| way).collect();
-    !crossings_of(&pieces, arcs).is_empty()
+    let crosses = !crossings_of(&pieces, arcs, left).is_empty();
+    (crosses || *left > 0).then_some(crosses)
 }
 
 fn is_closed(items: &[Item]) -> bool {

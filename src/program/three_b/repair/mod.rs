@@ -336,9 +336,9 @@ impl Contour for Suspect<'_> {
             || !matches!(change, Change::Insert { .. } | Change::Exchange { .. })
     }
 
-    fn crosses(&self, change: Option<&Change>) -> bool {
+    fn crosses(&self, change: Option<&Change>, left: &mut usize) -> Option<bool> {
         let changed = change.map(|change| self.with(change));
-        crosses_itself(changed.as_ref().unwrap_or(&self.items), self.arcs)
+        crosses_itself(changed.as_ref().unwrap_or(&self.items), self.arcs, left)
     }
 }
 
