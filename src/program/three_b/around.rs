@@ -221,6 +221,9 @@ pub(super) fn two_numbers(text: &[u8]) -> Option<[f64; 2]> {
     stated_point(text).map(|point| point.at)
 }
 
+/// A coordinate beyond this, mm, is none: no machine is so large, and sums of it in µm stay far from overflow.
+const FARTHEST_COORDINATE: f64 = 1e9;
+
 /// `x , y`, `x y`, `X=x Y=y`, in brackets or not, and nothing else.
 pub(super) fn stated_point(text: &[u8]) -> Option<StatedPoint> {
     if text.len() < FARTHEST {
@@ -243,7 +246,8 @@ pub(super) fn point_in(text: &[u8]) -> Option<StatedPoint> {
     let mut number = || {
         let field = fields.next()?.trim_end_matches("mm");
         decimals = decimals.min(field.split_once('.').map_or(0, |(_, places)| places.len()));
-        field.parse::<f64>().ok().filter(|value| value.is_finite())
+        let value = field.parse::<f64>().ok()?;
+        (value.abs() <= FARTHEST_COORDINATE).then_some(value)
     };
     let at = [number()?, number()?];
     fields.next().is_none().then_some(StatedPoint {

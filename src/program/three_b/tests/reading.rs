@@ -146,3 +146,29 @@ fn a_block_that_leads_nowhere_says_why() {
         }
     }
 }
+
+#[test]
+fn coordinates_beyond_any_machine_are_none() {
+    let with = |stated: &str| {
+        format!(
+            "; Start Point = 0 , 0\nB10000B0B10000GXL1 ; 10 , 0\nB0B10000B10000GYL2 ; 10 , 10\nB10000B0B10000GXL3 ; {stated}\nB0B10000B10000GYL4 ; 0 , 0\nDD\n"
+        )
+    };
+    let rules = |stated: &str| -> Vec<&str> {
+        let document = crate::program::three_b::Document::read(with(stated).into_bytes());
+        let findings = document.findings();
+        // The fixes are asked for, too.
+        let _: Vec<_> = findings.iter().map(|it| document.fixes(it)).collect();
+        findings.iter().map(|finding| finding.rule.name()).collect()
+    };
+    for far in [
+        "0 , -1e17",
+        "1e300 , 10",
+        "-9300000000000000 , 10",
+        "0 , 1.1e9",
+    ] {
+        assert_eq!(rules(far), [""; 0], "{far}");
+    }
+    assert!(!rules("0 , 1e9").is_empty());
+    assert_eq!(rules("0 , 10"), [""; 0]);
+}
