@@ -221,10 +221,12 @@ const LARGER: i32 = 3;
 const FACTOR: f64 = 1.25;
 const LONG: f64 = 60.0;
 
-/// The radii of a corner's transition, the smallest first, µm.
+/// The radii of a corner's transition, the smallest first, µm. They end at [`LONG`]: one that is 0 grows all the same, and where there is no
+/// turn there are no larger ones.
 fn sizes(radius: f64, angle: f64) -> impl Iterator<Item = f64> {
     let larger = (0..=LARGER).map(move |more| radius + f64::from(more));
-    let grown = std::iter::successors(Some(radius), |radius| Some((radius * FACTOR).ceil()));
+    let first = (angle != 0.0).then_some(radius.max(1.0));
+    let grown = std::iter::successors(first, |radius| Some((radius * FACTOR).ceil()));
     let grown = grown.skip_while(move |own| *own <= radius + f64::from(LARGER));
     larger.chain(grown.take_while(move |own| own * angle.abs() <= LONG))
 }
@@ -340,4 +342,24 @@ fn transition(before: &Segment, behind: &Segment, angle: f64, radius: f64) -> Op
             .norm()
             .total_cmp(&(b.arc.center - corner).norm())
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_radii_of_a_transition_end_whatever_the_first_and_the_turn() {
+        for radius in [0.0, 0.3, 1.0, 3.0, 100.0] {
+            for angle in [0.0, 1e-3, -0.5, 3.0] {
+                let sizes: Vec<f64> = sizes(radius, angle).take(1_000).collect();
+                assert!(sizes.len() < 1_000, "{radius} {angle}");
+                assert!(sizes.is_sorted(), "{sizes:?}");
+            }
+        }
+        assert_eq!(
+            sizes(0.0, 10.0).collect::<Vec<_>>(),
+            [0.0, 1.0, 2.0, 3.0, 4.0, 5.0]
+        );
+    }
 }
