@@ -6,6 +6,13 @@ use crate::finding::Side;
 
 use super::moves::{Bend, Course, Move, Place, Reading, added, apart, bend_about};
 
+/// The largest coordinate or way that a line may give, nm: 10 km, which is 10 m where µm were read as mm. No machine travels so far, and
+/// the sum of hundreds of thousands of lines still has room in an `i64`.
+const FARTHEST: i64 = 10_000_000_000_000;
+
+/// The same in mm.
+pub(super) const FARTHEST_MM: i64 = FARTHEST / 1_000_000;
+
 /// The modal state, and the wire's position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Machine {
@@ -139,9 +146,9 @@ impl Machine {
 
     /// The same; returns the move as its words say it, and where it begins.
     pub(crate) fn steer(&mut self, block: &Block, reading: &Reading) -> Option<Steered> {
-        if let Some(inch) = block.inch {
-            self.inch = inch;
-        }
+        self.inch = block.inch.unwrap_or(self.inch);
+        // Whether a line is followed hangs on its words alone, not on where the wire is.
+        let is_unread = block.broken || self.leads_too_far(block, reading);
         if let Some(incremental) = block.incremental {
             self.incremental = incremental;
         }
@@ -165,10 +172,10 @@ impl Machine {
         let feeds_down = block.z.is_some_and(|z| z.mantissa < 0) && self.motion != Motion::Rapid;
         self.mills |= feeds_down && !block.sets_position && !block.takes_coordinates;
         let moved = if block.sets_position {
-            self.set_position(block, reading);
+            self.set_position(block, reading, is_unread);
             None
         } else {
-            self.travel(block, reading)
+            self.travel(block, reading, is_unread)
         };
         self.behind = match (&moved, self.behind) {
             (Some(moved), _) if moved.said.is_cut() => Behind::Cut,
@@ -188,9 +195,25 @@ impl Machine {
         moved
     }
 
+    /// True for a line whose X or Y, in the units of this state or its own, is more than [`FARTHEST`].
+    pub(super) fn leads_too_far(&self, block: &Block, reading: &Reading) -> bool {
+        let inch = block.inch.unwrap_or(self.inch);
+        let is_too_far = |number: Number| {
+            // With so few digits it is not, whatever the unit.
+            number.mantissa.unsigned_abs() > 390_000
+                && reading.length(number, inch).unsigned_abs() > FARTHEST.unsigned_abs()
+        };
+        let coordinates = [block.x, block.y].into_iter().flatten();
+        !block.takes_coordinates && { coordinates }.any(is_too_far)
+    }
+
     /// G92. At the beginning, and where the wire has not moved since a stop, it sets the wire's position: the wire was
     /// taken there by hand. Else the wire stays where it is and the zero moves.
-    fn set_position(&mut self, block: &Block, reading: &Reading) {
+    fn set_position(&mut self, block: &Block, reading: &Reading, is_unread: bool) {
+        if is_unread && !block.broken {
+            self.lost = [true, true];
+            return;
+        }
         for (axis, number) in [block.x, block.y].into_iter().enumerate() {
             if let Some(number) = number {
                 let stated = reading.length(number, self.inch);
@@ -208,11 +231,11 @@ impl Machine {
         }
     }
 
-    fn travel(&mut self, block: &Block, reading: &Reading) -> Option<Steered> {
+    fn travel(&mut self, block: &Block, reading: &Reading, is_unread: bool) -> Option<Steered> {
         if block.takes_coordinates {
             return None;
         }
-        if block.broken {
+        if is_unread {
             self.lost = [true, true];
         }
         let is_arc = self.motion.is_arc();
@@ -226,7 +249,11 @@ impl Machine {
         let cut_short = self.cut_short.take();
         let mut to = from;
         let mut found = self.lost;
-        for (axis, coordinate) in [length(block.x), length(block.y)].into_iter().enumerate() {
+        let coordinates = match is_unread && !block.broken {
+            true => [None; 2],
+            false => [length(block.x), length(block.y)],
+        };
+        for (axis, coordinate) in coordinates.into_iter().enumerate() {
             match coordinate {
                 Some(by) if self.incremental => to[axis] = from[axis].wrapping_add(by),
                 Some(at) => {
@@ -237,11 +264,11 @@ impl Machine {
             }
         }
         let was_lost = self.lost != [false, false];
-        self.lost = if block.broken { [true, true] } else { found };
+        self.lost = if is_unread { [true, true] } else { found };
         self.at = to;
         self.moved = true;
         let switches = self.switches.take();
-        if was_lost || block.broken {
+        if was_lost || is_unread {
             return None;
         }
         let bend = match (length(block.i), length(block.j), length(block.r)) {

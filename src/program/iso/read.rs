@@ -169,8 +169,8 @@ impl Stretch {
         }
         self.evidence.numbers(&block);
         self.fixed |= block.sets_position;
-        let torn = self.after.torn;
-        let behind = self.after.behind;
+        let (torn, behind) = (self.after.torn, self.after.behind);
+        self.faults.extend(self.too_far(&block, range));
         let steered = self.after.steer(&block, &self.reading);
         // A line that says where to go fixes the position even where it makes no move because the
         // position before it is unknown.

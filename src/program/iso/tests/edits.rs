@@ -47,6 +47,25 @@ fn a_place_behind_a_line_that_cannot_be_read_does_not_move_with_what_stands_befo
 }
 
 #[test]
+fn a_line_that_leads_too_far_in_one_unit_only_is_read_as_if_afresh() {
+    let steps = "G01 X3. Y1.\n".repeat(30);
+    for place in 0..60 {
+        let comments = "(plate)\n".repeat(place);
+        let text = format!(
+            "G21\nG92 X0 Y0\nG91\n{steps}{comments}G01 X500000. Y0\n{steps}{comments}G90 G01 X40. Y9.\n{steps}M02\n"
+        );
+        let mut document = read(&text);
+        document.edit(1..3, "20");
+        assert_as_afresh(&document, &format!("{place} lines between, in inches"));
+        let at = document.text().line_start(5) + "G01 X".len();
+        document.edit(at..at, "9999999");
+        assert_as_afresh(&document, &format!("{place} lines between, from far away"));
+        document.edit(1..3, "21");
+        assert_as_afresh(&document, &format!("{place} lines between, in mm"));
+    }
+}
+
+#[test]
 fn the_first_centre_that_does_not_tell_is_where_it_is_however_the_text_was_edited() {
     // The first line with I and J follows one that cannot be read, so its arc is not known.
     for place in 0..60 {

@@ -403,3 +403,27 @@ fn an_arc_that_ends_in_the_zero_is_about_a_center_by_its_coordinates() {
     let sentence = told.map(|finding| crate::finding::sentence(finding, 1.0));
     assert!(sentence.is_some_and(|told| told.contains("own coordinates")));
 }
+
+#[test]
+fn a_line_that_leads_beyond_any_machine_is_named_and_not_followed() {
+    let end = |text: &str| {
+        let steps = read(text).trace().steps;
+        steps.last().map(|step| [step.end.x, step.end.y])
+    };
+    let lines = "G01 X999999999. Y0\n".repeat(400);
+    let text = format!("G20\nG91\nG92 X0 Y0\n{lines}M02\n");
+    let expected: Vec<(usize, &str)> = (4..404).map(|line| (line, "too-many-digits")).collect();
+    check(&text, &expected);
+    assert_eq!(end(&text), Some([0.0, 0.0]));
+    let called = "G20\nG91\nG92 X0 Y0\nM98 P100 L400\nM02\nO100\nG01 X999999999. Y0\nM99\n";
+    check(called, &[(7, "too-many-digits")]);
+    assert_eq!(end(called), Some([0.0, 0.0]));
+    check("G92 X999999999. Y0\nG90\nM02\n", &[(1, "too-many-digits")]);
+    // A place says where the wire is again; the unit of the line itself counts.
+    let found = faults(
+        "G90\nG92 X0 Y0\nG20 G01 X500000.\nG21 G01 X9999999.\nG01 X1.\nM02\n",
+        &Effective::default(),
+    );
+    let beyond = found.iter().filter(|(_, rule)| *rule == "too-many-digits");
+    assert_eq!(beyond.collect::<Vec<_>>(), [&(3, "too-many-digits")]);
+}
