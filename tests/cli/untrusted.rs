@@ -368,7 +368,7 @@ fn a_program_without_end_is_refused() {
     check(&desk, "check far.3b", 0, &[]);
     desk.write(
         "far.iso",
-        "G01 X999999999. Y0\nG01 X-999999999. Y0\n".repeat(9),
+        "G01 X9000000. Y0\nG01 X-9000000. Y0\n".repeat(200),
     );
     let refused =
         &["!far.iso: the program would have more than 2000000 blocks: no machine takes as many"];
