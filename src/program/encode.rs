@@ -1,8 +1,8 @@
 //! From a line or arc of the path to blocks between nodes of the grid: every language cuts it into pieces in the same
 //! way.
 
-use super::grid::{Node, chord_count, in_pieces, largest_distance, sagitta, snap};
-use super::write::Piece;
+use super::grid::{MOST_PIECES, Node, chord_count, in_pieces, largest_distance, sagitta, snap};
+use super::write::{Piece, ProofError, Proved, too_many_blocks};
 use crate::geometry::{Arc, Segment};
 use crate::toolpath::each;
 use std::f64::consts::PI;
@@ -12,9 +12,6 @@ pub(super) const ASIDE_TOLERANCE: f64 = 2.5;
 
 /// The largest sagitta of a chord that replaces a piece of an arc too large for a language, µm.
 const CHORD_SAGITTA: f64 = 0.5;
-
-/// A piece of more blocks is not written: it is a kilometre and more.
-const MOST_PIECES: i64 = 100_000;
 
 /// How a language can write an arc.
 pub(super) enum Attempt<B> {
@@ -59,28 +56,23 @@ const AT_A_TIME: usize = 64;
 /// Blocks, each with the number of its piece, as many in a list as one core takes at a time.
 pub(super) type Numbered<B> = Vec<Vec<(usize, B)>>;
 
-/// Why pieces are not written.
-pub(super) enum Unwritten<'a> {
-    /// No block leads along this one.
-    Misses(&'a Piece),
-    /// They take more blocks than there is room for.
-    TooMany,
-}
-
-/// The blocks of pieces, if they are no more than `most` straight cuts.
-pub(super) fn encode_all<'a, E>(
+/// The blocks of pieces. Refused where they take more than `most` straight cuts; `misses` says that no block leads along
+/// a piece.
+pub(super) fn encode_all<E>(
     encoder: &E,
-    pieces: &'a [Piece],
+    pieces: &[Piece],
     most: usize,
-) -> Result<Numbered<E::Block>, Unwritten<'a>>
+    misses: impl Fn(&Piece) -> String + Sync,
+) -> Proved<Numbered<E::Block>>
 where
     E: Encoder + Sync,
     E::Block: Send,
 {
     let mut left = most;
     for piece in pieces {
-        let count = count_of(encoder, piece).ok_or(Unwritten::TooMany)?;
-        left = left.checked_sub(count).ok_or(Unwritten::TooMany)?;
+        let count = count_of(encoder, piece);
+        let rest = count.and_then(|count| left.checked_sub(count));
+        left = rest.ok_or_else(too_many_blocks)?;
     }
     let of = |chunk: usize| {
         let (mut made, mut own) = (Vec::with_capacity(2 * AT_A_TIME), Vec::new());
@@ -88,7 +80,7 @@ where
         for (nth, piece) in pieces.iter().enumerate().skip(first).take(AT_A_TIME) {
             encoder
                 .encode(&piece.segment, piece.from, piece.to, &mut own)
-                .ok_or(Unwritten::Misses(piece))?;
+                .ok_or_else(|| ProofError::Mismatch(misses(piece)))?;
             made.extend(own.drain(..).map(|block| (nth, block)));
         }
         Ok(made)
@@ -98,19 +90,26 @@ where
         .collect()
 }
 
-/// The straight cuts of a piece: an arc that fits into a block is none. `None` beyond all counting.
+/// The straight cuts of a piece: an arc that fits into a block is none. `None` beyond [`MOST_PIECES`].
 fn count_of<E: Encoder>(encoder: &E, piece: &Piece) -> Option<usize> {
     let count = match &piece.segment {
-        Segment::Line(_) => {
-            let (dx, dy) = (piece.to.x - piece.from.x, piece.to.y - piece.from.y);
-            encoder.lines(dx.abs().max(dy.abs()))
-        }
+        Segment::Line(_) => straight_cuts(encoder, steps_between(piece.from, piece.to))?,
         Segment::Arc(arc) if arc.radius > encoder.largest_radius() => {
             chord_count(arc, CHORD_SAGITTA / encoder.step())?
         }
         Segment::Arc(_) => 0,
     };
-    usize::try_from(count).ok().filter(|_| count <= MOST_PIECES)
+    usize::try_from(count).ok()
+}
+
+/// The straight cuts for this many steps; `None` beyond [`MOST_PIECES`].
+fn straight_cuts<E: Encoder + ?Sized>(encoder: &E, longest: i64) -> Option<i64> {
+    Some(encoder.lines(longest)).filter(|count| *count <= MOST_PIECES)
+}
+
+/// The steps along the axis on which two nodes are farther apart.
+fn steps_between(from: Node, to: Node) -> i64 {
+    (to.x - from.x).abs().max((to.y - from.y).abs())
 }
 
 fn encode<E: Encoder + ?Sized>(
@@ -135,7 +134,6 @@ fn encode<E: Encoder + ?Sized>(
         })?,
         Attempt::Chords => {
             let count = chord_count(arc, CHORD_SAGITTA / encoder.step())?;
-            let count = Some(count).filter(|count| *count <= MOST_PIECES)?;
             in_pieces(piece, from, to, count, |piece, from, to| {
                 straight(encoder, &piece, from, to, blocks)
             })?;
@@ -164,11 +162,11 @@ fn straight<E: Encoder + ?Sized>(
     to: Node,
     blocks: &mut Vec<E::Block>,
 ) -> Option<()> {
-    let longest = (to.x - from.x).abs().max((to.y - from.y).abs());
+    let longest = steps_between(from, to);
     if longest == 0 {
         return Some(());
     }
-    let count = Some(encoder.lines(longest)).filter(|count| *count <= MOST_PIECES)?;
+    let count = straight_cuts(encoder, longest)?;
     in_pieces(piece, from, to, count, |piece, from, to| {
         blocks.push(encoder.line(piece, from, to));
         Some(())

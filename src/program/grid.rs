@@ -208,7 +208,10 @@ pub(crate) fn sagitta(arc: &Arc) -> f64 {
     arc.radius * (1.0 - (arc.sweep.abs() / 2.0).min(PI).cos())
 }
 
-/// The number of chords of an arc that each stay within `sagitta` of it; `None` beyond what a program can hold.
+/// The most blocks along one line or arc of a path: more are a kilometre and more.
+pub(crate) const MOST_PIECES: i64 = 100_000;
+
+/// The number of chords of an arc that each stay within `sagitta` of it; `None` beyond [`MOST_PIECES`].
 pub(crate) fn chord_count(arc: &Arc, sagitta: f64) -> Option<i64> {
     let half_step = (1.0 - (sagitta / arc.radius).min(1.0)).acos();
     // Where the radius is so large that the step vanishes in rounding, s = l² / 8r gives it.
@@ -219,7 +222,8 @@ pub(crate) fn chord_count(arc: &Arc, sagitta: f64) -> Option<i64> {
     };
     let length = arc.radius * arc.sweep.abs();
     let count = (arc.sweep.abs() / step).ceil();
-    (count.is_finite() && length.is_finite() && count <= 1e7).then_some((count as i64).max(1))
+    (count.is_finite() && length.is_finite() && count <= MOST_PIECES as f64)
+        .then_some((count as i64).max(1))
 }
 
 #[cfg(test)]

@@ -8,13 +8,13 @@ use super::machine::Machine;
 use super::moves::{CenterRule, MICROMETRE, Place, Reading, micrometres, to_center};
 use super::read::words_of;
 use crate::finding::Side;
-use crate::program::encode::{Unwritten, encode_all};
+use crate::program::encode::encode_all;
 use crate::program::grid::Node;
 use crate::program::notes::Notes;
 use crate::program::path::{Kind, Step};
 use crate::program::write::{
-    Piece, ProofError, Proved, ProvedProgram, Writer, cuts, nothing_to_write, push_number,
-    push_places, room, too_many_blocks, walk, way,
+    MOST_BLOCKS, Piece, ProofError, Proved, ProvedProgram, Writer, cuts, nothing_to_write,
+    push_number, push_places, room, walk, way,
 };
 use crate::settings::{Coordinates, Effective, LineEnd, NumberUnit, Profile, Zero};
 use crate::toolpath::{Source, WirePath, each};
@@ -119,11 +119,8 @@ impl Writer for Lines<'_> {
             full_circles: self.profile.full_circles,
         };
         let left = self.room.saturating_sub(self.made.blocks);
-        let encoded = encode_all(&moves, pieces, left).map_err(|unwritten| match unwritten {
-            Unwritten::Misses(Piece { from, to, .. }) => {
-                ProofError::Mismatch(say!(no_moves_within_tolerance_lead_from_to, from, to))
-            }
-            Unwritten::TooMany => too_many_blocks(),
+        let encoded = encode_all(&moves, pieces, left, |Piece { from, to, .. }| {
+            say!(no_moves_within_tolerance_lead_from_to, from, to)
         })?;
         let mut left = encoded.into_iter().flatten().peekable();
         let mut steps = Vec::with_capacity(2 * pieces.len());
@@ -223,7 +220,7 @@ impl<'a> Lines<'a> {
             motion: None,
             made: ProvedProgram::default(),
             notes: None,
-            room: room(&[], false),
+            room: MOST_BLOCKS,
         })
     }
 

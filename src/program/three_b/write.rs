@@ -11,13 +11,13 @@ use super::proof::{Proof, check_line};
 use super::words::{Word, Words};
 use crate::finding::{Side, Unwritable};
 use crate::geometry::{Segment, Vector, turn};
-use crate::program::encode::{Unwritten, encode_all};
+use crate::program::encode::encode_all;
 use crate::program::grid::point_of;
 use crate::program::notes::Notes;
 use crate::program::path::{Kind, Step, is_tight_in_four_b};
 use crate::program::write::{
-    Piece, ProofError, Proved, ProvedProgram, Writer, cuts, nothing_to_write, room, scaled,
-    too_many_blocks, walk, way,
+    Piece, ProofError, Proved, ProvedProgram, Writer, cuts, nothing_to_write, room, scaled, walk,
+    way,
 };
 use crate::settings::Effective;
 use crate::toolpath::{PathSegment, Source, WirePath, each};
@@ -194,13 +194,12 @@ impl Writer for Blocks<'_> {
     fn pieces(&mut self, pieces: &[Piece]) -> Proved {
         let largest = self.settings.largest_number();
         let left = self.room.saturating_sub(self.made.blocks);
-        let encoded = encode_all(&encode::Blocks { largest }, pieces, left);
-        let encoded = encoded.map_err(|unwritten| match unwritten {
-            Unwritten::Misses(Piece { from, to, .. }) => {
-                ProofError::Mismatch(say!(no_blocks_within_tolerance_lead_from_to, from, to))
-            }
-            Unwritten::TooMany => too_many_blocks(),
-        })?;
+        let encoded = encode_all(
+            &encode::Blocks { largest },
+            pieces,
+            left,
+            |Piece { from, to, .. }| say!(no_blocks_within_tolerance_lead_from_to, from, to),
+        )?;
         // 4B's radius is the block's own.
         let largest = self.part.is_none().then_some(largest);
         let mut lines = Vec::with_capacity(encoded.iter().map(Vec::len).sum());
