@@ -317,6 +317,11 @@ pub(crate) struct Answer {
 }
 
 impl Answer {
+    /// True for an answer to just this question, or that there is none within the looks that are `left`.
+    pub(crate) fn answers(&self, asked: (Side, bool), left: u64) -> bool {
+        self.asked == asked && (self.checked.lost.is_some() || self.checked.looks > left)
+    }
+
     /// True where it is known that the offset loses nothing.
     pub(crate) fn loses_nothing(&self) -> bool {
         self.checked.lost.as_ref().is_some_and(Vec::is_empty)

@@ -40,13 +40,9 @@ impl Analysis {
                 side,
                 !necks_are_told || self.pairs.seen.slots.contains_key(&key),
             );
-            if let Some(answer) = self.lost.get(&key)
-                && (answer.asked != asked
-                    || answer.checked.lost.is_none() && answer.checked.looks <= left)
-            {
-                self.lost.remove(&key);
-            }
-            if !self.lost.contains_key(&key) {
+            let answer = self.lost.get(&key);
+            let is_known = answer.is_some_and(|answer| answer.answers(asked, left));
+            if !is_known {
                 let Some(outlook) = self.outlook(drawing, key) else {
                     continue;
                 };
