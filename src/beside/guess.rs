@@ -8,7 +8,7 @@ use super::against_reference::{Told, against_reference};
 use super::cache::Guess;
 use super::drawn::Drawn;
 use super::measure;
-use super::passes::corrections;
+use super::passes::{corrections, shortness};
 use super::reference::{Reference, Under};
 use super::sides::Sides;
 use super::tabs::{tabs, threads};
@@ -295,7 +295,7 @@ impl<'a> Search<'a> {
         };
         let longer = measure::longer_ways(self.traced, &reference.traced);
         let mut guesses: Vec<Under> = longer.into_iter().filter_map(of).collect();
-        guesses.sort_by_key(|guess| !is_round(guess.settings.correction));
+        guesses.sort_by_key(|guess| shortness(guess.settings.correction));
         guesses
     }
 
@@ -409,11 +409,6 @@ impl<'a> Search<'a> {
         }
         guesses
     }
-}
-
-/// Whether a setting is a number of hundredths, or of halves of them, mm.
-fn is_round(mm: f64) -> bool {
-    (mm * 200.0 - (mm * 200.0).round()).abs() < 1e-6
 }
 
 fn correct(settings: &mut Effective, corrections: &[f64]) {

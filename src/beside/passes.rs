@@ -19,6 +19,12 @@ fn rounded(mm: f64, to: f64) -> f64 {
     ((mm / to).round() * to * 1e4).round() / 1e4
 }
 
+/// Sorts lengths, mm: a shorter number comes first.
+pub(super) fn shortness(mm: f64) -> (bool, bool) {
+    let places = (mm * 1e3).round() as i64;
+    (places % 5 != 0, places % 10 != 0)
+}
+
 /// The radii of a program's arcs, µm; of 4B, which holds the part's contour, those that the drawing does not have.
 fn radii(drawn: &Drawn, traced: &Traced) -> Vec<f64> {
     let scale = drawn.unit_mm * 1e3;
@@ -81,9 +87,7 @@ pub(super) fn corrections(drawn: &Drawn, traced: &Traced) -> Vec<Vec<f64>> {
             single.push(mm);
         }
     }
-    // A shorter number first.
-    let places = |mm: &f64| (*mm * 1e3).round() as i64;
-    single.sort_by_key(|mm| (places(mm) % 5 != 0, places(mm) % 10 != 0));
+    single.sort_by_key(|mm| shortness(*mm));
     let mut all: Vec<Vec<f64>> = single.into_iter().map(|mm| vec![mm]).collect();
     let own = drawn.settings.each_correction();
     if own.len() == 1 {
