@@ -632,22 +632,18 @@ fn fit_session(rounds: usize) {
     );
     client.skips_results.store(false, Ordering::Release);
     let mut version = 1;
-    let moves = (0..rounds).map(|round| {
+    let mut edits = Edits::default();
+    let [x, y, _] = outline(10_000)[0];
+    for round in 0..rounds {
         version += 1;
-        let [x, y, _] = outline(10_000)[0];
         let vertex = json!([x + if round % 2 == 0 { 0.001 } else { 0.0 }, y]);
         let splice = json!([{ "handle": "2A", "vertices": { "start": 0, "deleteCount": 1, "insert": [vertex] } }]);
-        timed(|| {
+        edits.time(&mut client, uri, |client| {
             client.change_drawing(uri, version, splice);
-            client.diagnostics(uri, version)
-        })
-        .1
-    });
-    row(
-        "fit of 10,000 segments: one vertex moves",
-        moves.collect(),
-        "p50 5 ms",
-    );
+            version
+        });
+    }
+    edits.rows("fit of 10,000 segments: one vertex moves", "p50 5 ms");
     client.shut_down();
 }
 

@@ -16,6 +16,7 @@ use crate::analysis::Analysis;
 use crate::beside::{Beside, Drawn, Traced};
 use crate::drawing::{Delta, Drawing, DrawingEdit, EntityId, Outline, Role};
 use crate::finding::{self, Detail, Edit, Finding, Fix, FixKind, Keep, Place, Rule, Telling};
+use crate::fit::Laid;
 use crate::program;
 use crate::settings::{self, Effective};
 use crate::text::{Again, SourceText, TextEdit};
@@ -184,6 +185,11 @@ impl Document {
             outlines,
             settings: self.settings().clone(),
         })
+    }
+
+    /// All pairs of a drawing, each laid in the other, where that is known already.
+    pub(crate) fn laid(&self) -> Option<Laid> {
+        self.analysis.laid(self.drawing()?)
     }
 
     /// Replaces a range of bytes of the text. Does nothing for a drawing without text.

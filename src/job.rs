@@ -240,11 +240,14 @@ pub(crate) fn picture_of_program(document: &Document, program: &program::Documen
     picture::program_svg(&program.trace(), &faults, name, program.mills())
 }
 
-/// Whether the parts of a drawing fit.
-pub fn fit(snapshot: &Snapshot, watch: &dyn Watch) -> Result<Fit, Refusal> {
+/// Whether the parts of a drawing fit, of which this is the snapshot; what its findings have shown of that is not worked out again.
+pub fn fit(document: &Document, snapshot: &Snapshot, watch: &dyn Watch) -> Result<Fit, Refusal> {
     let (drawing, outlines) = (&snapshot.drawing, &snapshot.outlines);
     let goes_on = || watch.is_wanted();
-    Ok(fit::fit(drawing, outlines, &snapshot.settings, &goes_on)?)
+    Ok(match document.laid() {
+        Some(laid) => laid.compared(drawing, outlines, &snapshot.settings)?,
+        None => fit::fit(drawing, outlines, &snapshot.settings, &goes_on)?,
+    })
 }
 
 /// The wire's paths of the contours that hold one of `handles`, or of all, with the thread holes, and on request with the contours that all passes leave.

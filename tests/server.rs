@@ -15,6 +15,8 @@ mod contradictions;
 mod drawings;
 #[path = "server/end.rs"]
 mod end;
+#[path = "server/fits.rs"]
+mod fits;
 #[path = "server/flood.rs"]
 mod flood;
 #[path = "server/handshake.rs"]

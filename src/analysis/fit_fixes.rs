@@ -1,11 +1,9 @@
 //! Repairs of corners in which a punch and its plate bind.
 
 use super::Analysis;
-use super::fits::Fitted;
-use super::own_walls::Own;
-use crate::drawing::{ContourKey, Drawing, DrawingEdit, Outline};
+use crate::drawing::{Drawing, DrawingEdit};
 use crate::finding::{Finding, Fix, FixKind, Place, Side};
-use crate::fit::{self, Held, SegmentOf, Spot};
+use crate::fit::{Fitted, Held, SegmentOf, Spot};
 use crate::geometry::Point;
 use crate::rules::small_radius::{self, Travel};
 use crate::settings::Partners;
@@ -90,19 +88,8 @@ impl Analysis {
         let both = match self.settings.partners()? {
             Partners::CutTwice(_) => [at, at],
             Partners::Drawn => {
-                let mut walls_of = |index: usize, outline: &Outline| {
-                    let known = self.walls.get(&keys[index]).filter(|own| own.is_new());
-                    let known = known.map(|own| own.walls.clone());
-                    known.unwrap_or_else(|| fit::walls_of(drawing, &outline.contour))
-                };
-                let is_new = |key: &ContourKey| self.walls.get(key).is_some_and(Own::is_new);
-                let known = |both: [usize; 2]| {
-                    let both = both.map(|index| keys[index]);
-                    both.iter().all(is_new) && self.beside.contains(&both)
-                };
-                let settings = &self.settings;
-                let (drawn, _) = fit::partners(drawing, outlines, settings, &mut walls_of, &known);
-                drawn.pairs.into_iter().find(|pair| pair.contains(&at))?
+                let mut pairs = self.drawn_partners(drawing).pairs.into_iter();
+                pairs.find(|pair| pair.contains(&at))?
             }
         };
         if let Some(answer) = self.fits.get(&(keys[both[0]], keys[both[1]]))

@@ -6,7 +6,7 @@ use super::own_walls::Own;
 use super::report::Report;
 use crate::drawing::{ContourKey, Drawing, Outline, Role};
 use crate::finding::{Cause, Detail, Misfit, Place, Rule, Severity, Side};
-use crate::fit::{self, Held, SegmentOf, Spot};
+use crate::fit::{self, Fitted, Laid, SegmentOf, Spot};
 use crate::settings::{Compensation, Partners};
 use crate::toolpath::Part;
 use std::ops::Range;
@@ -22,20 +22,6 @@ pub(crate) struct Answer {
     pub(super) known: Option<Arc<Fitted>>,
     /// One of the two has been edited since: what still holds need not be checked again.
     pub(super) is_old: bool,
-}
-
-/// A punch and its plate, one laid in the other.
-#[derive(Clone, Debug)]
-pub(crate) struct Fitted {
-    parts: [Arc<Part>; 2],
-    pub(super) held: Held,
-}
-
-impl Fitted {
-    /// Where less clearance is left than there should be.
-    pub(super) fn spots(&self) -> impl Iterator<Item = Spot> {
-        self.held.spots(self.parts.each_ref().map(|part| &**part))
-    }
 }
 
 /// What the wire leaves of a contour.
@@ -179,6 +165,47 @@ impl Analysis {
         }
     }
 
+    /// All pairs, each laid in the other, where that is known and nothing has been edited since.
+    pub(crate) fn laid(&self, drawing: &Drawing) -> Option<Laid> {
+        let outlines = self.outlines(drawing);
+        let keys = self.in_machining_order(drawing);
+        let (pairs, alone) = match self.asked_partners()? {
+            Partners::CutTwice(_) => {
+                let twice = (0..outlines.len()).filter(|&at| fit::is_cut_twice(&outlines[at]));
+                (twice.map(|at| [at; 2]).collect(), Vec::new())
+            }
+            Partners::Drawn => {
+                let drawn = self.drawn_partners(drawing);
+                (drawn.pairs, drawn.alone)
+            }
+        };
+        let known = |pair: [usize; 2]| {
+            let [one, other] = pair.map(|index| keys.get(index).copied());
+            let answer = self.fits.get(&(one?, other?))?;
+            let known = answer.known.clone().filter(|_| !answer.is_old)?;
+            Some((pair, known))
+        };
+        let pairs = pairs.into_iter().map(known).collect::<Option<_>>()?;
+        Some(Laid { pairs, alone })
+    }
+
+    /// Which contours are partners where both are drawn; what is known of their walls is used.
+    pub(super) fn drawn_partners(&self, drawing: &Drawing) -> fit::Drawn {
+        let outlines = self.outlines(drawing);
+        let keys = self.in_machining_order(drawing);
+        let mut walls_of = |index: usize, outline: &Outline| {
+            let known = self.walls.get(&keys[index]).filter(|own| own.is_new());
+            let known = known.map(|own| own.walls.clone());
+            known.unwrap_or_else(|| fit::walls_of(drawing, &outline.contour))
+        };
+        let is_new = |key: &ContourKey| self.walls.get(key).is_some_and(Own::is_new);
+        let known = |both: [usize; 2]| {
+            let both = both.map(|index| keys[index]);
+            both.iter().all(is_new) && self.beside.contains(&both)
+        };
+        fit::partners(drawing, outlines, &self.settings, &mut walls_of, &known).0
+    }
+
     /// What is known of two partners, neither of which crosses itself; worked out if necessary.
     pub(super) fn fit_of(
         &mut self,
@@ -299,14 +326,14 @@ impl Analysis {
             .fits
             .get(&(one, other))
             .and_then(|answer| answer.known.as_deref());
-        let before = old.map(|old| (old.parts.each_ref().map(|part| &**part), &old.held));
+        let before = old.map(|old| (old.both(), &old.held));
         match settings.partners()? {
             Partners::CutTwice(_) => {
                 let before_each = ROLES.map(|role| left(one, role).map(|left| &*left.part));
                 let walls = walls(one);
                 let parts = fit::cut_twice_parts(drawing, punch, settings, walls, before_each);
                 let parts = parts.ok()?;
-                let held = fit::cut_twice(drawing, parts.each_ref(), settings, false, before);
+                let held = fit::cut_twice(drawing, parts.each_ref(), settings, before);
                 let parts = parts.map(Arc::new);
                 Some(Fitted { parts, held })
             }
@@ -328,7 +355,7 @@ impl Analysis {
                 let parts = [punch_part?, plate_part?];
                 let both = parts.each_ref().map(|part| &**part);
                 let outlines = [punch, plate];
-                let held = fit::drawn_pair(drawing, outlines, both, settings, false, before);
+                let held = fit::drawn_pair(drawing, outlines, both, settings, before);
                 Some(Fitted { parts, held })
             }
         }
@@ -344,7 +371,7 @@ impl Analysis {
         let Some(fitted) = self.fit_of(drawing, both) else {
             return;
         };
-        let Fitted { parts, held } = &*fitted;
+        let held = &fitted.held;
         let (rounding, wanted) = (
             self.limits.tolerances.report,
             self.settings.pair.clearance.unwrap_or(0.0) / self.limits.unit_mm,
@@ -355,7 +382,7 @@ impl Analysis {
                 return Some(spot.of.clone());
             }
             let wide = self.wide(wanted, spot.clearance);
-            let corner = held.corner_near(parts.each_ref().map(|part| &**part), spot.at, wide);
+            let corner = held.corner_near(fitted.both(), spot.at, wide);
             corner.cloned()
         };
         let arc_radius = |(entity, segment): SegmentOf| {

@@ -43,7 +43,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         .beside(&arguments.common.settings_with(&arguments.program));
     let (opened, snapshot) = files::drawing_to_use(path, target, &arguments.common, &last)?;
     let unit_mm = opened.document.unit_mm();
-    let fit = match job::fit(&snapshot, &()) {
+    let fit = match job::fit(&opened.document, &snapshot, &()) {
         Ok(fit) => fit,
         Err(refusal) => {
             let advice = |errors| say!(the_fit_is_not_known, path.display(), errors);

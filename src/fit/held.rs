@@ -23,8 +23,6 @@ pub(super) struct Limits {
     pub rounding: f64,
     /// What is left beside walls that are followed on both sides; `None` where both parts are drawn, and each place is looked at.
     pub(crate) along_walls: Option<f64>,
-    /// The remaining clearance is wanted even where nothing is missing.
-    pub(crate) asks_least: bool,
 }
 
 /// The result for two parts, one laid in the other.
@@ -67,16 +65,12 @@ pub(super) fn held(
         which => observations(which, reuse, parts, limits),
     });
     let (unless, apart) = all_apart(parts, names, limits);
-    let mut held = Held {
+    Held {
         unless,
         observations,
         apart,
         names: names.clone(),
-    };
-    if limits.asks_least && held.clearances().next().is_none() {
-        held.unless = more_than_wanted(parts, names, limits);
     }
-    held
 }
 
 /// What is left where no edge stands too far out, and what stands for all walls where that is less than there should be.
@@ -107,10 +101,18 @@ pub(super) fn all_apart(
 }
 
 impl Held {
-    /// The least clearance all round.
+    /// The least clearance all round, at most the required one.
     pub(crate) fn least(&self) -> f64 {
         let clearances = self.clearances().map(|(_, clearance)| clearance);
         clearances.fold(self.unless, f64::min)
+    }
+
+    /// The least clearance all round of the parts that were compared, also where nothing is missing of the required one.
+    pub(super) fn least_left(&self, parts: [&Part; 2], limits: &Limits) -> f64 {
+        match self.clearances().next() {
+            Some(_) => self.least(),
+            None => more_than_wanted(parts, &self.names, limits),
+        }
     }
 
     /// Where less is left than there should be, and what, in the order of the outline of the punch, then of that of the plate.
@@ -200,7 +202,6 @@ fn more_than_wanted(parts: [&Part; 2], names: &[Arc<str>; 2], limits: &Limits) -
     let least = |clearance: f64| {
         let more = Limits {
             clearance,
-            asks_least: false,
             ..*limits
         };
         let held = held(parts, names, &more, None);

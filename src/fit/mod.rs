@@ -7,22 +7,23 @@
 mod change;
 mod follow;
 mod held;
+mod laid;
 mod observations;
 mod partners;
 mod penetration;
 mod reuse;
 
 pub(crate) use held::Held;
+pub(crate) use laid::{Fitted, Laid};
 pub use partners::Drawn;
 pub(crate) use partners::{changed_since, partners, reach, still_beside, walls_of};
 
 use crate::drawing::{Contour, Drawing, EntityId, Outline, Role, wire_side};
 use crate::geometry::{Point, Segment, Side};
-use crate::settings::{Effective, Partners, Use};
+use crate::settings::{Effective, Use};
 use crate::toolpath::{Cutting, Moved, Part, Refusal, Walls, part};
 use held::Limits;
 use reuse::Reuse;
-use rustc_hash::FxHashMap;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -53,7 +54,7 @@ pub struct Spot {
 /// One part laid in the other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pair {
-    /// The least clearance all round; the required one where none is missing and the surplus is not asked for.
+    /// The least clearance all round.
     pub least: f64,
     /// Where less is left than there should be, in the order of the outline of the punch, then of that of the plate.
     pub spots: Vec<Spot>,
@@ -72,19 +73,6 @@ pub struct Fit {
     pub alone: Vec<(SegmentOf, Arc<str>)>,
     /// How far two outlines may overlap by rounding.
     pub rounding: f64,
-}
-
-impl Pair {
-    fn of(held: Held, parts: [&Part; 2]) -> Pair {
-        let outline = |part: &Part| part.edges.iter().map(|edge| edge.geometry).collect();
-        let (spots, [punch, plate]) = rayon::join(|| held.all_spots(parts), || parts.map(outline));
-        Pair {
-            least: held.least(),
-            spots,
-            punch,
-            plate,
-        }
-    }
 }
 
 /// Two parts laid in each other before an edit, under the same settings, and what came of it.
@@ -112,66 +100,8 @@ pub fn fit(
     settings: &Effective,
     goes_on: &(dyn Fn() -> bool + Sync),
 ) -> Result<Fit, Refusal> {
-    let (partners_are, clearance) = settings
-        .fit()
-        .map_err(|missing| Refusal::Sentence(say!(whether_it_fits_needs, missing.listed())))?;
-    let unit_mm = settings.unit_of(drawing).mm;
-    let mut fit = Fit {
-        clearance: clearance / unit_mm,
-        pairs: Vec::new(),
-        alone: Vec::new(),
-        rounding: settings.tolerances.report / unit_mm,
-    };
-    match partners_are {
-        Partners::CutTwice(_) => {
-            let twice = outlines.iter().filter(|outline| is_cut_twice(outline));
-            for outline in twice {
-                let parts = cut_twice_parts(drawing, outline, settings, None, [None; 2])?;
-                if !goes_on() {
-                    return Err(Refusal::Cancelled);
-                }
-                let parts = parts.each_ref();
-                let held = cut_twice(drawing, parts, settings, true, None);
-                fit.pairs.push(Pair::of(held, parts));
-            }
-        }
-        Partners::Drawn => {
-            let mut walls: FxHashMap<usize, Arc<Walls>> = FxHashMap::default();
-            let mut walls_of = |index: usize, outline: &Outline| {
-                let walls = walls.entry(index);
-                let walls = walls.or_insert_with(|| walls_of(drawing, &outline.contour));
-                walls.clone()
-            };
-            let (drawn, _) = partners(drawing, outlines, settings, &mut walls_of, &|_| false);
-            for &[punch, plate] in &drawn.pairs {
-                let walls = [punch, plate].map(|index| walls_of(index, &outlines[index]));
-                let (punch, plate) = (&outlines[punch], &outlines[plate]);
-                let part_of = |outline: &Outline, role: Role, walls: &Walls| {
-                    drawn_part(drawing, outline, role, settings, Some(walls), None)
-                };
-                let parts = rayon::join(
-                    || part_of(punch, Role::Punch, &walls[0]),
-                    || part_of(plate, Role::Opening, &walls[1]),
-                );
-                if !goes_on() {
-                    return Err(Refusal::Cancelled);
-                }
-                let parts = [&parts.0?, &parts.1?];
-                let held = drawn_pair(drawing, [punch, plate], parts, settings, true, None);
-                fit.pairs.push(Pair::of(held, parts));
-            }
-            let first = |index: &usize| {
-                let segment = outlines[*index].contour.segment(drawing, 0)?;
-                let place = (segment.entity, segment.segment);
-                Some((place, name_of(drawing, &outlines[*index].contour, settings)))
-            };
-            fit.alone = drawn.alone.iter().filter_map(first).collect();
-        }
-    }
-    if fit.pairs.is_empty() && fit.alone.is_empty() {
-        return Err(Refusal::Sentence(say!(no_contour_is_of_a_pair).into()));
-    }
-    Ok(fit)
+    let laid = Laid::of(drawing, outlines, settings, goes_on)?;
+    laid.compared(drawing, outlines, settings)
 }
 
 /// True for a contour that is cut once from inside and once from outside.
@@ -208,19 +138,15 @@ pub(crate) fn cut_twice_parts(
     Ok([parts.0?, parts.1?])
 }
 
-/// The two, one laid in the other. `asks_least`: how much is left where nothing is missing, too.
+/// The two, one laid in the other.
 pub(crate) fn cut_twice(
     drawing: &Drawing,
     parts: [&Part; 2],
     settings: &Effective,
-    asks_least: bool,
     before: Option<Before>,
 ) -> Held {
     let names = [Use::Punch.name().into(), Use::Plate.name().into()];
-    let limits = Limits {
-        asks_least,
-        ..limits(drawing, settings, true)
-    };
+    let limits = limits(drawing, settings, true);
     let reuse = before.and_then(|(before, held)| Reuse::new(&held.observations, before, parts));
     held::held(parts, &names, &limits, reuse.as_ref())
 }
@@ -236,7 +162,6 @@ fn limits(drawing: &Drawing, settings: &Effective, is_cut_twice: bool) -> Limits
         clearance,
         rounding: settings.tolerances.report / unit_mm,
         along_walls: is_cut_twice.then(apart),
-        asks_least: false,
     }
 }
 
@@ -314,14 +239,10 @@ pub(crate) fn drawn_pair(
     outlines: [&Outline; 2],
     parts: [&Part; 2],
     settings: &Effective,
-    asks_least: bool,
     before: Option<Before>,
 ) -> Held {
     let names = outlines.map(|it| name_of(drawing, &it.contour, settings));
-    let limits = Limits {
-        asks_least,
-        ..limits(drawing, settings, false)
-    };
+    let limits = limits(drawing, settings, false);
     let reuse = before.and_then(|(before, held)| Reuse::new(&held.observations, before, parts));
     held::held(parts, &names, &limits, reuse.as_ref())
 }

@@ -107,16 +107,23 @@ pub(crate) fn fit_svg(drawing: &Drawing, fit: &Fit, unit_mm: f64) -> String {
 
 /// The plate as background with its opening, the punch in it.
 fn outlines(sheet: &mut Sheet, fit: &Fit, frame: &Frame) {
-    for pair in &fit.pairs {
+    for (index, pair) in fit.pairs.iter().enumerate() {
         let data = |outline: &[Segment]| path_data(frame, outline.iter().copied(), true);
         let (plate, punch) = rayon::join(|| data(&pair.plate), || data(&pair.punch));
-        for (attributes, data) in [
-            (r#"class="void""#, &plate),
-            (r#"class="ground""#, &punch),
-            (r#"class="wire""#, &plate),
-            (r#"class="contour""#, &punch),
+        let [plate_id, punch_id] = ["plate", "punch"].map(|part| format!("fit-{part}-{index}"));
+        sheet.0.reserve(plate.len() + punch.len());
+        sheet.line(format_args!("<defs>"));
+        for (id, data) in [(&plate_id, &plate), (&punch_id, &punch)] {
+            sheet.path(&format!(r#"id="{id}""#), data, "");
+        }
+        sheet.line(format_args!("</defs>"));
+        for (class, id) in [
+            ("void", &plate_id),
+            ("ground", &punch_id),
+            ("wire", &plate_id),
+            ("contour", &punch_id),
         ] {
-            sheet.path(attributes, data, "");
+            sheet.line(format_args!(r##"<use class="{class}" href="#{id}"/>"##));
         }
     }
 }

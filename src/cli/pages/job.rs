@@ -2,7 +2,7 @@
 
 use super::super::fit::of_least;
 use super::html::{cell, more, number, table, text};
-use crate::document::Snapshot;
+use crate::document::{Document, Snapshot};
 use crate::job;
 use crate::message::readable;
 use crate::picture;
@@ -93,9 +93,13 @@ pub(super) fn facts(facts: &[String]) -> String {
 }
 
 /// Whether punch and plate go into each other, where a clearance is set: the sentence, the places and the picture.
-pub(super) fn fit(snapshot: &Snapshot, unit_mm: f64) -> Option<Result<Fit, String>> {
+pub(super) fn fit(
+    document: &Document,
+    snapshot: &Snapshot,
+    unit_mm: f64,
+) -> Option<Result<Fit, String>> {
     snapshot.settings.pair.clearance?;
-    let found = job::fit(snapshot, &()).map_err(|refusal| refusal.sentence(unit_mm));
+    let found = job::fit(document, snapshot, &()).map_err(|refusal| refusal.sentence(unit_mm));
     Some(found.map(|fit| {
         let svg = picture::fit_svg(&snapshot.drawing, &fit, unit_mm);
         Fit::new(&snapshot.drawing, &fit, svg, unit_mm)

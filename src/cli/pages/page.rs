@@ -119,7 +119,7 @@ impl Page {
             paths,
             holes: planned.holes.iter().map(hole).collect(),
             work,
-            fit: of_job::fit(&snapshot, unit_mm),
+            fit: of_job::fit(&opened.document, &snapshot, unit_mm),
             milling: milling.unwrap_or_default(),
             program,
             format,

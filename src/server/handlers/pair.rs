@@ -10,10 +10,10 @@ use tower_lsp::jsonrpc::Result;
 
 pub(in crate::server) fn fit(context: &RequestContext, _: OptionsOf) -> Result<Fit> {
     let task = Task::of(context)?;
-    let fit =
-        job::fit(&task.snapshot, context).map_err(|refusal| task.refused(context, &refusal))?;
+    let fit = job::fit(&task.document, &task.snapshot, context);
+    let fit = fit.map_err(|refusal| task.refused(context, &refusal))?;
     let drawing = &task.snapshot.drawing;
-    let svg = picture::fit_svg(&task.snapshot.drawing, &fit, task.unit_mm());
+    let svg = picture::fit_svg(drawing, &fit, task.unit_mm());
     Ok(Fit::new(drawing, &fit, svg, task.unit_mm()))
 }
 
