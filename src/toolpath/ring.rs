@@ -35,7 +35,13 @@ impl Pieces {
 /// element that it is of. Right wherever corners do not reach past their neighbours; whether it is, `proof` says. `None`
 /// where nothing is left or neighbours do not meet.
 pub(super) fn trimmed(raw: &Raw) -> Option<Pieces> {
-    Ring::new(raw).resolve()
+    trimmed_from(raw, 0)
+}
+
+/// The same of elements that are a stretch of a contour, which begins with the element `first` of them: what is used up is looked for
+/// in the order of the contour.
+pub(super) fn trimmed_from(raw: &Raw, first: usize) -> Option<Pieces> {
+    Ring::new(raw, first).resolve()
 }
 
 /// The elements round a contour, from which what is used up is taken out.
@@ -47,10 +53,12 @@ struct Ring<'a> {
     after: Vec<u32>,
     alive: Vec<bool>,
     count: usize,
+    /// With which element the contour begins.
+    first: usize,
 }
 
 impl<'a> Ring<'a> {
-    fn new(raw: &'a Raw<'a>) -> Ring<'a> {
+    fn new(raw: &'a Raw<'a>, first: usize) -> Ring<'a> {
         let count = raw.len();
         let last = count.saturating_sub(1) as u32;
         Ring {
@@ -60,6 +68,7 @@ impl<'a> Ring<'a> {
             after: (1..=last).chain([0]).collect(),
             alive: vec![true; count],
             count,
+            first,
         }
     }
 
@@ -84,13 +93,17 @@ impl<'a> Ring<'a> {
         if self.count < 2 {
             return None;
         }
-        for &(index, center) in &self.raw.tight {
+        let (before, behind) = {
+            let tight = &self.raw.tight;
+            tight.split_at(tight.partition_point(|(index, _)| *index < self.first))
+        };
+        for &(index, center) in behind.iter().chain(before) {
             self.remove(index, center)?;
         }
         Some(())
     }
 
-    /// The elements that do not run forward between what is settled, from the last to the first. The others are looked at again only beside
+    /// The elements that do not run forward between what is settled, from the last of the contour to its first. The others are looked at again only beside
     /// what goes.
     fn not_forward(&self) -> Vec<usize> {
         let settled = |index: usize| match self.joints[index] {
@@ -104,11 +117,12 @@ impl<'a> Ring<'a> {
         let is_fine = each(self.raw.len(), AT_A_TIME, |index| {
             !self.alive[index] || runs_forward(index)
         });
-        let all = (0..self.raw.len()).rev();
+        let all = (0..self.first).rev();
+        let all = all.chain((self.first..self.raw.len()).rev());
         all.filter(|&index| !is_fine[index]).collect()
     }
 
-    /// Looks at what is `waiting`, the last first, and at what stands beside what goes.
+    /// Looks at what is `waiting`, what stands last in it first, and at what stands beside what goes.
     fn resolve_beside(mut self, mut waiting: Vec<usize>) -> Option<Pieces> {
         while let Some(index) = waiting.pop() {
             if !self.alive[index] {
@@ -323,7 +337,7 @@ mod tests {
                 joining: &joining,
             });
             let told = |path: Option<Pieces>| format!("{path:?}");
-            let mut one_by_one = Ring::new(&raw);
+            let mut one_by_one = Ring::new(&raw, 0);
             let one_by_one = match one_by_one.remove_tight() {
                 Some(()) => {
                     let all = (0..raw.len()).rev().collect();

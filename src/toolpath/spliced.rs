@@ -1,7 +1,7 @@
 //! The path beside a contour of which an edit has changed a stretch: as it was, but for the pieces beside that stretch.
 //!
-//! Neighbours are cut with each other, and what they use up goes: where three elements that follow each other are all there, what goes on one
-//! side of them does not depend on the other side. So the stretch is made by itself, with some
+//! Neighbours are cut with each other, and what they use up goes: where three elements that follow each other are all there, or only one between
+//! two of them is gone, which these two have used up, what goes on one side of them does not depend on the other side. So the stretch is made by itself, with some
 //! walls about it, from three such elements to three others that are what they were.
 
 use super::clearance::Walls;
@@ -9,7 +9,7 @@ use super::corners::{Element, Joining, Offsets, Raw};
 use super::offset::Wall;
 use super::open_contour::there_and_back;
 use super::reuse::{Kept, which_it_is};
-use super::ring::trimmed;
+use super::ring::trimmed_from;
 use crate::geometry::Segment;
 use std::ops::Range;
 
@@ -62,10 +62,6 @@ impl Splice {
         let (last, right) = all.find_map(|piece| parted(piece).filter(|_| on_right(&piece)))?;
         let is_behind = |piece: usize| stretch.first + stretch.place(piece) >= count;
         let goes_over_the_end = is_behind(last) != is_behind(first);
-        // What goes there may hang on what is looked at first.
-        if goes_over_the_end && !stretch.goes_at_once(first, last) {
-            return None;
-        }
         let new = stretch.pieces.get(first + 1..last)?.iter();
         let new: Vec<Element> = new
             .map(|(_, element)| Element {
@@ -172,7 +168,12 @@ impl Stretch {
             tangents: own.tangents(),
             joining,
         });
-        let pieces = trimmed(&raw)?;
+        // What goes may hang on what is looked at first: that of all walls begins with the first wall.
+        let begin = walls
+            .len()
+            .checked_sub(first)
+            .filter(|begin| *begin < count);
+        let pieces = trimmed_from(&raw, begin.map_or(0, |wall| raw.first_of(wall)))?;
         let pieces = pieces.pairs().filter(|(_, piece)| piece.wall < count);
         let pieces: Vec<(usize, Element)> = pieces.collect();
         let is_sorted = pieces.is_sorted_by(|a, b| a.0 < b.0);
@@ -199,21 +200,8 @@ impl Stretch {
             is_same.then_some(at)
         };
         let (before, at, behind) = (was(piece - 1)?, was(piece)?, was(piece + 1)?);
-        let raw = self.pieces[piece].0;
-        let stand_together =
-            self.pieces[piece - 1].0 + 1 == raw && raw + 1 == self.pieces[piece + 1].0;
+        let raw = [piece - 1, piece, piece + 1].map(|piece| self.pieces[piece].0);
+        let stand_together = raw.windows(2).all(|pair| pair[1] - pair[0] <= 2);
         (stand_together && before + 1 == at && at + 1 == behind).then_some(at)
-    }
-
-    /// True where between two pieces elements have gone only one by one, two others between any two of them: each goes by what stands about
-    /// it, and it is all the same which is looked at first.
-    fn goes_at_once(&self, from: usize, to: usize) -> bool {
-        let mut last = 1;
-        self.pieces[from..=to].windows(2).all(|pair| {
-            let step = pair[1].0 - pair[0].0;
-            let is_fine = step == 1 || step == 2 && last == 1;
-            last = step;
-            is_fine
-        })
     }
 }
