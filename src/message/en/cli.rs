@@ -50,7 +50,7 @@ declare! {
     spark_gap_mm => "spark gap, mm";
     passes_along_each_contour => "passes along each contour";
     what_the_machine_reads(names) => "what the machine reads: {names}";
-    settings_of_wedm => "Settings of wedm for the drawings in this folder and below. What stands behind # holds without being said.";
+    settings_of_wedm => "Settings of wedm for the drawings in this folder and below. What follows # is the default.";
     written_file(path) => "{path} written";
     at_point(x, y) => "at {x:.3}, {y:.3}";
     with_its_places(what, places) => "{what} ({places})";

@@ -105,7 +105,7 @@ declare! {
     takes_too_many_arcs_for_its_size(kind, times) => "{kind} takes too many arcs for its size: it is drawn within {times} times arc-fit, not within arc-fit";
     has_no_length_or_numbers_beyond_all_measure(kind) => "{kind} has no length, or numbers beyond all measure: it is not drawn";
     takes_more_arcs_than_are_drawn(kind, most) => "{kind} takes more than {most} arcs, which is beyond all measure for what it is made of: it is not drawn";
-    what_stands_behind_eof_is_not_read => "what stands behind EOF is not read";
+    what_stands_behind_eof_is_not_read => "what comes after EOF is not read";
     the_text_ends_inside_this(what) => "the text ends inside this {what}";
     the_text_ends_after_group_code_expected_its_value(code) => "the text ends after group code {code}, expected its value";
     the_text_ends_inside_a_section_expected_endsec => "the text ends inside a section, expected ENDSEC";

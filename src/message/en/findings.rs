@@ -53,7 +53,7 @@ declare! {
     a_path_that_goes_through_itself => "A path that goes through itself";
     a_cut_that_does_not_close => "A cut that does not close";
     a_program_without_its_end => "A program without its end";
-    text_behind_the_end_of_a_program => "Text behind the end of a program";
+    text_behind_the_end_of_a_program => "Text after the end of a program";
     a_block_number_that_stands_twice_is_out_of_turn_or_missing => "A block number that stands twice, is out of turn or missing";
     the_file_is_damaged => "The file is damaged";
     a_setting_does_not_fit => "A setting does not fit";
@@ -64,7 +64,7 @@ declare! {
     the_block_does_not_follow_its_drawing(segment, handle, drawing, off) => "block does not follow segment {segment} of {handle} in {drawing}: it ends {off} mm from where the drawing has it";
     the_contour_does_not_begin_where_its_drawing_has_it(handle, drawing, off) => "contour begins {off} mm from where {drawing} has it ({handle})";
     the_way_does_not_lead_where_its_drawing_has_it(drawing, off) => "way of the wire in, out or between contours leads {off} mm from where {drawing} and its settings have it";
-    the_coordinates_are_not_where_its_drawing_has_the_end(drawing, off) => "coordinates behind the block are {off} mm from where {drawing} has its end";
+    the_coordinates_are_not_where_its_drawing_has_the_end(drawing, off) => "coordinates after the block are {off} mm from where {drawing} has its end";
     the_contour_is_left_before_it_is_cut_all_round(segment, handle, drawing) => "contour is left here although {drawing} goes on with segment {segment} of {handle}";
     no_contour_of_the_drawing_is_like_this(drawing) => "no contour of {drawing} is like this one at any correction of the program";
     the_program_does_not_follow_this_segment(program, line, off) => "{program} does not follow this segment: its line {line} ends {off} mm from where the drawing has it; write the program anew if the drawing has changed";
@@ -171,7 +171,7 @@ declare! {
     number_all_blocks_from_n_on(first) => "Number all blocks from N{first} on";
     number_all_blocks_from_n_on_in_steps(first, step) => "Number all blocks from N{first} on, in steps of {step}";
     end_the_program_with(word) => "End the program with {word}";
-    delete_what_stands_behind_the_end => "Delete what stands behind the end";
+    delete_what_stands_behind_the_end => "Delete what follows the end";
     cut_there_g01_instead_of_the_rapid => "Cut there (G01) instead of the rapid";
     take_i_and_j_as_other_controls_do(radius) => "Take I and J as other controls do, and write them as this program does (R {radius} mm)";
     put_the_sign_of_i_and_j_right(radius) => "Put the sign of I and J right (R {radius} mm)";
@@ -206,7 +206,7 @@ declare! {
     word_without_number(column, letter) => "column {column}: {letter} has no number";
     expression_for_a_number(column, letter, shown) => "column {column}: {letter} is `{shown}`, an expression: where the wire goes from here is known to the control alone";
     word_is_no_number(column, letter, shown) => "column {column}: {letter} is `{shown}`, expected a number with one decimal point";
-    coordinate_beyond_any_machine(most) => "X or Y is more than {most} mm, farther than any machine travels: the line is not followed, and where the wire is behind it is unknown";
+    coordinate_beyond_any_machine(most) => "X or Y is more than {most} mm, farther than any machine travels: the line is not followed, and where the wire is after it is not known";
     number_of_too_many_digits(column, digits) => "column {column}: found a number of {digits} digits, expected at most 9";
     comment_is_not_closed(column) => "column {column}: the comment is not closed, expected `)`";
     letter_o_in_a_number(column) => "column {column}: found the letter O in a number, expected a zero";
@@ -214,11 +214,11 @@ declare! {
     only_looks_like_ascii(column, shown) => "column {column}: found `{shown}`, which only looks like what a control reads: expected letters, digits and spaces of ASCII";
     no_word(column, shown) => "column {column}: found `{shown}`, expected a word such as G01 or X1.5, or a comment";
     the_program_lacks_its_end(word) => "the program has no end, expected {word}: the machine waits, or runs what it held before";
-    text_behind_which_ends_the_program(word) => "text behind {word}, which ends the program: the machine does not run it";
+    text_behind_which_ends_the_program(word) => "text after {word}, which ends the program: the machine does not run it";
     block_number_n_stands_twice(number) => "block number N{number} stands twice";
     block_number_n_is_out_of_turn_expected_n(number, expected) => "block number N{number} is out of turn, expected N{expected}";
     the_block_has_no_number_expected_n(expected) => "the block has no number, expected N{expected}";
-    the_coordinates_are_not_where_the_block_ends(distance, x, y) => "the coordinates behind the block are {distance} mm from where it ends (X {x:+.3}, Y {y:+.3})";
+    the_coordinates_are_not_where_the_block_ends(distance, x, y) => "the coordinates after the block are {distance} mm from where it ends (X {x:+.3}, Y {y:+.3})";
     the_wire_crosses_its_own_path(line, x, y) => "the wire crosses its own path of line {line} here, at ({x:.3}, {y:.3}) mm from the contour's start: it cuts the part in two";
     thousands_of_entities_lie_on_each_other(count) => "thousands of entities lie on or across each other: {count} stretches of contours from here on were not compared with what is near them";
     the_correction_is_so_large_beside_the_segments(contours) => "the correction is so large beside the segments that what the offset loses was not looked for; contours left out from here on: {contours}";
@@ -253,7 +253,7 @@ declare! {
     nothing_says_by_how_much(side) => "{side}, and nothing says by how much: expected the place of the correction, such as D1";
     the_side_changes_within_the_cut(side) => "{side} from here on, in the middle of the cut: it crosses the contour";
     the_program_ends_with_the_correction_on => "the program ends with the correction on: expected G40 before the way out";
-    subprogram_has_no_m99(number) => "subprogram {number} has no M99: the control runs on into what stands behind it, or stops";
+    subprogram_has_no_m99(number) => "subprogram {number} has no M99: the control runs on into what follows it, or stops";
     the_word_for_a_corner_finds_none_here => "the word for a corner finds none here, or no room for it: the corner stays sharp, or the control stops";
     has_no_decimal_point(word) => "{word} has no decimal point, the other numbers have: it is read in whole units, a control may read it in its finest steps";
     several_have_no_decimal_point(word, count) => "{word} and others ({count} in all) have no decimal point, the rest have: they are read in whole units, a control may read them in its finest steps";

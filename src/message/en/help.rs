@@ -90,7 +90,7 @@ Exit codes: 0 no error found, 1 errors in the drawing, 2 could not read, or wron
     ("report format", "Language of the programs: 3b, 4b, iso; milling by an electrode"),
     ("explain", "Explain a rule: what it looks for, why it matters for the cut, and what can be done"),
     ("explain/", "Without a rule: the list of all."),
-    ("explain rule", "Name of the rule, as it stands in brackets behind a finding's severity"),
+    ("explain rule", "Name of the rule, as shown in brackets after a finding's severity"),
     ("init", "Write a commented wedm.toml for a folder of drawings"),
     ("init/", "On a terminal it asks for everything that no flag gives. With several passes it works their corrections out: the rough pass runs at the wire's radius + gap + stock, skim i of n at the radius + fine gap + stock (n − i) / n."),
     ("init folder", "Folder for the file"),

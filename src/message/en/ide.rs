@@ -125,7 +125,7 @@ declare! {
     arc_with_its_turn_to(radius, degrees, turn, place) => "arc R {radius}, {degrees:.1}° {turn}, to {place}";
     line_back_to_the_start_of_the_contour => "line back to the start of the program's contour";
     line_to_the_end_of_the_lead_in => "line to the end of the lead-in";
-    a_block_whose_rest_is_offered => "a block: J, G and Z are offered behind its third B";
+    a_block_whose_rest_is_offered => "a block: J, G and Z are offered after its third B";
     pause_for_the_wire => "pause: the wire is cut or threaded";
     end_of_the_program => "end of the program";
     // of ISO: what a word means
@@ -197,7 +197,7 @@ declare! {
     stop_where_switched_on => "stop, where the operator has switched that on";
     end_of_the_program_back_to_its_begin => "end of the program, back to its begin";
     runs_a_subprogram => "runs the subprogram that P names, as often as L says";
-    end_of_a_subprogram_goes_on_behind_the_call => "end of a subprogram: goes on behind the call";
+    end_of_a_subprogram_goes_on_behind_the_call => "end of a subprogram: continues after the call";
     the_next_move_ignores_that_the_wire_touches => "on fast-wire controls the next move ignores that the wire touches";
     threads_the_wire => "threads the wire";
     cuts_the_wire_off => "cuts the wire off";
@@ -228,8 +228,8 @@ declare! {
     the_next_block_number => "the next block number";
     the_wire_stands_at_the_zero => "the wire stands at the zero";
     cuts_a_line => "cuts along a straight line";
-    cuts_an_arc_clockwise => "cuts along an arc clockwise: I and J are offered behind Y";
-    cuts_an_arc_counter_clockwise => "cuts along an arc counter-clockwise: I and J are offered behind Y";
+    cuts_an_arc_clockwise => "cuts along an arc clockwise: I and J are offered after Y";
+    cuts_an_arc_counter_clockwise => "cuts along an arc counter-clockwise: I and J are offered after Y";
     moves_without_cutting => "moves without cutting";
     ends_the_correction => "ends the correction";
     the_wire_runs_on_the_left => "the wire runs on the left of the contour";

@@ -8,7 +8,7 @@ declare! {
     writing_and_proving => "writing and proving the program";
     the_program_does_not_hold_its_proof(reason) => "the program does not hold its proof: {reason}";
     no_program_of_this_drawing(reason) => "no program could be proved for this drawing: {reason}";
-    four_b_ends_with_an_open_contour => "4B cannot say where the wire stands behind an open contour: one can only be the last of a program, cut in one pass; cut it by itself, or choose another format";
+    four_b_ends_with_an_open_contour => "4B cannot say where the wire is after an open contour: such a contour can only be the last of a program, cut in one pass; cut it by itself, or choose another format";
     four_b_has_no_tab => "4B holds one contour for all passes: it has a tab with one pass alone, and no overlap; set tab or closing-overlap to 0, or choose another format";
     no_other_program(reason) => "no other program could be proved for this one, and none is written: {reason}";
     a_target_that_is_not_written(name, names) => "{name:?} is not written, expected dxf, {names}";

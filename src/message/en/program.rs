@@ -33,7 +33,7 @@ declare! {
     a_letter_stands_twice(letter) => "{letter} stands twice";
     a_word_takes_the_coordinates_for_a_place_of_the_machine => "a word takes the coordinates for a place of the machine";
     words_lie_on_each_other => "words lie on each other";
-    the_second_contour_behind_the_colon_would_not_be_kept => "the second contour behind the colon would not be kept";
+    the_second_contour_behind_the_colon_would_not_be_kept => "the second contour after the colon would not be kept";
     an_arc_has_no_room_for_the_taper(radius, least, angle, narrows) => "arc R {radius:.3} mm is below {least:.3} mm: under a taper of {angle:.3}° it narrows by {narrows:.3} mm up to the other plane, and the wire needs its correction beside that";
     an_arc_narrows_to_nothing(radius, narrows, angle) => "arc R {radius:.3} mm narrows by {narrows:.3} mm under a taper of {angle:.3}°: nothing is left of it in the other plane";
     how_far_the_wire_leans_needs_the_height => "how far the wire leans is not known: expected job.thickness to be set, or TP and TN in the program";
@@ -78,9 +78,9 @@ declare! {
     no_block_is_selected => "no block is selected";
     no_contour_is_selected => "no contour is selected";
     the_block_leads_to_the_contour_or_away_from_it => "the block leads to the contour or away from it, expected one of the contour";
-    what_comes_before_and_behind_leads_to_the_present_start => "what comes before and behind leads to the present start";
+    what_comes_before_and_behind_leads_to_the_present_start => "what comes before and after leads to the present start";
     the_way_is_an_arc(line) => "line {line}: the way is an arc";
-    what_comes_behind_begins_at_the_present_end => "what comes behind begins at the present end of the contour";
+    what_comes_behind_begins_at_the_present_end => "what comes after begins at the present end of the contour";
     the_way_in_or_out_is_more_than_one_block => "the way in or out is more than one block";
     the_thread_hole_lies_on_the_start => "the thread hole lies on the start";
     the_way_from_the_thread_hole_would_cut_the_contour(line) => "the way from the thread hole would cut the contour in line {line}";
@@ -125,7 +125,7 @@ declare! {
     a_line_holds_several_blocks(line, blocks) => "line {line} holds {blocks} blocks: format the program first";
     the_program_has_no_block => "the program has no block";
     the_path_runs_too_far_out_for_a_program => "the path runs too far out for a program";
-    a_comment_stands_behind_a_block_that_becomes_several(line) => "line {line}: a comment stands behind a block that becomes several";
+    a_comment_stands_behind_a_block_that_becomes_several(line) => "line {line}: a comment follows a block that becomes several";
     the_comment_is_in_another_code_page(line) => "line {line}: the comment is in another code page";
     split_blocks_over(largest_number) => "Split blocks over {largest_number} µm";
     a_4b_block_cannot_be_calculated_anew(line) => "line {line}: a 4B block cannot be calculated anew";
