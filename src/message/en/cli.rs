@@ -36,7 +36,7 @@ declare! {
     there_is_no_entity_to_delete(handle) => "there is no entity {handle} to delete";
     the_entity_has_another_handle(handle, expected) => "the entity's handle is {handle}, expected {expected}";
     the_entity_is_of_no_known_type(name, kind) => "entity {name}: type is \"{kind}\", expected polyline, line, arc, circle or text";
-    the_handle_stands_twice(handle) => "handle {handle} stands twice, expected a handle of its own for each entity";
+    the_handle_stands_twice(handle) => "handle {handle} is repeated, expected a handle of its own for each entity";
     not_two_finite_numbers(name, key) => "entity {name}: {key} is not two finite numbers";
     the_radius_is_not_finite_and_above_0(name, radius) => "entity {name}: radius is {radius}, expected a finite number above 0";
     not_a_finite_number(name, key) => "entity {name}: {key} is not a finite number";

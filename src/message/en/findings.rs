@@ -26,10 +26,10 @@ declare! {
     the_correction_is_switched_by_an_arc_or_a_rapid => "The correction is switched by an arc or a rapid";
     the_correction_sends_the_wire_to_the_side_of_the_part => "The correction sends the wire to the side of the part";
     i_or_j_beside_a_straight_cut => "I or J beside a straight cut";
-    a_word_stands_twice_in_a_line => "A word stands twice in a line";
+    a_word_stands_twice_in_a_line => "A word is repeated in a line";
     an_arc_that_runs_the_wrong_way_round => "An arc that runs the wrong way round";
     a_cut_that_goes_out_and_back_on_the_same_way => "A cut that goes out and back on the same way";
-    a_block_that_stands_twice => "A block that stands twice";
+    a_block_that_stands_twice => "A block that is repeated";
     g41_or_g42_without_the_place_of_its_correction => "G41 or G42 without the place of its correction";
     the_correction_changes_its_side_within_a_cut => "The correction changes its side within a cut";
     the_correction_is_still_on_at_the_end => "The correction is still on at the end";
@@ -54,7 +54,7 @@ declare! {
     a_cut_that_does_not_close => "A cut that does not close";
     a_program_without_its_end => "A program without its end";
     text_behind_the_end_of_a_program => "Text after the end of a program";
-    a_block_number_that_stands_twice_is_out_of_turn_or_missing => "A block number that stands twice, is out of turn or missing";
+    a_block_number_that_stands_twice_is_out_of_turn_or_missing => "A block number that is repeated, out of sequence or missing";
     the_file_is_damaged => "The file is damaged";
     a_setting_does_not_fit => "A setting does not fit";
     a_part_that_was_left_out_since_it_would_have_taken_too_much => "A part that was left out, since it would have taken too much";
@@ -157,7 +157,7 @@ declare! {
     change_the_block_to_end_at_its_coordinates => "Change the block to end at its coordinates";
     exchange_x_and_y => "Exchange X and Y";
     write_the_block_as(block) => "Write the block as {block}";
-    delete_the_block_which_stands_twice => "Delete the block, which stands twice";
+    delete_the_block_which_stands_twice => "Delete the repeated block";
     exchange_the_two_blocks => "Exchange the two blocks";
     put_the_lost_block_in(what, length) => "Put the lost {what} of {length} mm in";
     put_the_lost_b_back => "Put the lost B back";
@@ -198,7 +198,7 @@ declare! {
     is_unusual_for_a_line_along_an_axis(found, letter, one, other) => "{found} is unusual for a line along {letter}, where {one} or {other} is written: a controller takes it as it closes the contour, or is 1 µm beside";
     contradicts_a_line_along_an_axis(found, letter, one, other) => "{found} contradicts a line along {letter}: expected {one} or {other}";
     x_and_y_stand_for_each_other => "X and Y stand for each other: exchanged, the contour closes";
-    without_its_double_the_contour_closes => "the block stands twice: without it the contour closes";
+    without_its_double_the_contour_closes => "the block is repeated: without its double the contour closes";
     the_block_moves_nothing => "the block moves nothing: its J is 0";
     the_arc_has_no_radius => "the arc has no radius: its centre is one of its ends, or is not said";
     a_number_has_more_digits_than_the_controller_takes(field, value, digits) => "{field} {value} has more than the {digits} digits that the controller takes: it cuts digits off, or stops";
@@ -215,8 +215,8 @@ declare! {
     no_word(column, shown) => "column {column}: found `{shown}`, expected a word such as G01 or X1.5, or a comment";
     the_program_lacks_its_end(word) => "the program has no end, expected {word}: the machine waits, or runs what it held before";
     text_behind_which_ends_the_program(word) => "text after {word}, which ends the program: the machine does not run it";
-    block_number_n_stands_twice(number) => "block number N{number} stands twice";
-    block_number_n_is_out_of_turn_expected_n(number, expected) => "block number N{number} is out of turn, expected N{expected}";
+    block_number_n_stands_twice(number) => "block number N{number} is repeated";
+    block_number_n_is_out_of_turn_expected_n(number, expected) => "block number N{number} is out of sequence, expected N{expected}";
     the_block_has_no_number_expected_n(expected) => "the block has no number, expected N{expected}";
     the_coordinates_are_not_where_the_block_ends(distance, x, y) => "the coordinates after the block are {distance} mm from where it ends (X {x:+.3}, Y {y:+.3})";
     the_wire_crosses_its_own_path(line, x, y) => "the wire crosses its own path of line {line} here, at ({x:.3}, {y:.3}) mm from the contour's start: it cuts the part in two";
@@ -244,12 +244,12 @@ declare! {
     subprogram_does_not_stand_in_this_text(number) => "subprogram {number} does not stand in this text: it is not followed";
     the_subprograms_call_each_other_without_end => "the subprograms call each other without end, or too deep: they are not followed further";
     i_and_j_stand_beside_a_straight_cut => "I and J stand beside a straight cut: the control leaves them out, or stops; an arc (G02, G03) may be meant";
-    stands_twice_in_this_line(letter) => "{letter} stands twice in this line: the control takes the last one, or stops";
+    stands_twice_in_this_line(letter) => "{letter} is repeated in this line: the control takes the last one, or stops";
     the_arc_runs_the_wrong_way_round => "the arc runs the wrong way round: the wire turns back on itself here, and the other way round it runs on without a corner";
     the_arc_may_run_the_wrong_way_round => "the arc may run the wrong way round: the other way round it goes on without a corner at both ends";
     the_wire_goes_out_mm_and_back_on_the_same(length) => "the wire goes out {length} mm and back on the same way";
-    the_block_stands_twice_and_goes_round => "the block stands twice: the wire goes round a whole circle";
-    the_block_stands_twice_and_moves_nothing => "the block stands twice: the wire is there already";
+    the_block_stands_twice_and_goes_round => "the block is repeated: the wire goes round a whole circle";
+    the_block_stands_twice_and_moves_nothing => "the block is repeated: the wire is there already";
     nothing_says_by_how_much(side) => "{side}, and nothing says by how much: expected the place of the correction, such as D1";
     the_side_changes_within_the_cut(side) => "{side} from here on, in the middle of the cut: it crosses the contour";
     the_program_ends_with_the_correction_on => "the program ends with the correction on: expected G40 before the way out";

@@ -30,7 +30,7 @@ declare! {
     the_program_runs_subprograms => "the program runs subprograms: a line of them is run in more than one place";
     the_control_makes_corners_of_its_own => "the control makes corners of its own (R on a straight cut, `,R`, `,C`): its moves are not those of the lines";
     the_way_of_the_upper_guide_would_not_be_kept => "the way of the upper guide (U, V) would not be kept";
-    a_letter_stands_twice(letter) => "{letter} stands twice";
+    a_letter_stands_twice(letter) => "{letter} is repeated";
     a_word_takes_the_coordinates_for_a_place_of_the_machine => "a word takes the coordinates for a place of the machine";
     words_lie_on_each_other => "words lie on each other";
     the_second_contour_behind_the_colon_would_not_be_kept => "the second contour after the colon would not be kept";
