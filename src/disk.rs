@@ -323,7 +323,7 @@ mod tests {
     #[cfg(unix)]
     #[test]
     fn what_has_no_end_is_read_up_to_the_cap() {
-        let sentence = "it holds more than 1000 bytes, expected at most so many";
+        let sentence = "it has more than 1000 bytes, expected at most that many";
         assert_eq!(
             read_path_at_most(Path::new("/dev/zero"), 1000),
             Err(sentence.into())

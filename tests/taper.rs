@@ -298,7 +298,7 @@ proptest! {
     }
 }
 
-/// A block that leads only the upper end elsewhere is no block that stands twice, and is not deleted.
+/// A block that leads only the upper end elsewhere is no block that is repeated, and is not deleted.
 #[test]
 fn a_block_that_moves_only_the_upper_end_is_not_doubled() {
     let settings = settings("");

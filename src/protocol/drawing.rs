@@ -311,7 +311,7 @@ mod tests {
             "entity 1: type is \"spline\"",
         );
         let line = json!({ "handle": "7", "type": "line", "start": [0, 0], "end": [1, 0] });
-        check(json!([line, line]), "handle 7 stands twice");
+        check(json!([line, line]), "handle 7 is repeated");
     }
 
     #[test]

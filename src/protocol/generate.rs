@@ -47,7 +47,7 @@ impl Closure {
     }
 }
 
-/// Result of `wedm/generate`: a program that has been decoded again and held against its path.
+/// Result of `wedm/generate`: a program that has been decoded again and compared with its path.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
 pub(crate) struct Program {

@@ -21,7 +21,7 @@ pub(crate) enum CorrectionSource {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
 pub(crate) struct SettingsInForce {
-    /// mm; what radii are held against: the largest of `corrections`.
+    /// mm; what radii are compared with: the largest of `corrections`.
     pub(crate) correction: f64,
     /// mm; that of each pass.
     pub(crate) corrections: Vec<f64>,

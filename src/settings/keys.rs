@@ -93,7 +93,7 @@ tables! {
         /// Milling by an electrode.
         milling: MillingSettings => table;
         /// Parts that are drawn in one place and never meet in one rule, each by its name with the layers it is drawn on; what is on no layer
-        /// of them is a part of its own. With `pair.clearance`, parts are held against each other:
+        /// of them is a part of its own. With `pair.clearance`, parts are compared with each other:
         /// [`does-not-fit`](rules/does-not-fit.md).
         workpieces: BTreeMap<String, Vec<String>> => layers_by_name;
         /// [Profiles](programs.md#profiles) of ISO programs of your own, by name.

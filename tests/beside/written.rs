@@ -110,7 +110,7 @@ fn judge_otherwise(of: &Otherwise, picks: &[(f64, usize, bool)]) -> Vec<(&'stati
     if !whole.differences.is_empty() {
         return vec![("invented", format!("{:?}\n{text}", whole.differences))];
     }
-    // How it was written is not known, and no block of it is held against the drawing.
+    // How it was written is not known, and no block of it is compared with the drawing.
     if whole.follows.is_empty() {
         return vec![("nothing", format!("no block is known\n{text}"))];
     }

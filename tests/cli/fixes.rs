@@ -33,7 +33,7 @@ fn a_fix_changes_its_numbers_and_no_other_byte() {
     }
 }
 
-/// What stands twice goes, and is counted beside the arcs.
+/// What is repeated goes, and is counted beside the arcs.
 #[test]
 fn repairs_of_every_rule_are_said() {
     let desk = Desk::new();

@@ -158,7 +158,7 @@ fn rules_are_found_where_the_table_says() {
         rules.map(move |rule| (ending.to_owned(), rule.name().to_owned()))
     });
     let said: BTreeSet<_> = said.collect();
-    // Said behind 100,000 findings, where a path is asked for, and where no path is known that holds its proof.
+    // Said behind 100,000 findings, where a path is asked for, and where no path is known that passes its proof.
     let elsewhere = [Rule::More, Rule::LeadIn, Rule::UnprovedPath].map(Rule::name);
     let unsaid: Vec<_> = found.difference(&said).collect();
     let unfound = said.difference(&found);

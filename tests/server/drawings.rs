@@ -187,7 +187,7 @@ fn an_unsound_drawing_is_not_opened_and_asked_for_again() {
     check(
         "cad:///doubled",
         json!([tight_plate("2A"), wide_plate("2A")]),
-        "handle 2A stands twice",
+        "handle 2A is repeated",
     );
     check(
         "cad:///null",

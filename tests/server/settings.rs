@@ -16,7 +16,7 @@ fn with(key: &str, value: Value) -> Value {
     all
 }
 
-/// The correction that the fault of [`tight_plate`] is held against.
+/// The correction that the fault of [`tight_plate`] is compared with.
 fn required(client: &mut Client, uri: &str, version: i64) -> Value {
     let found = client.diagnostics(uri, version);
     found

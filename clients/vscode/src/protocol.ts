@@ -473,7 +473,7 @@ export interface Settings {
    */
   milling?: MillingSettings;
   /**
-   * Parts that are drawn in one place and never meet in one rule, each by its name with the layers it is drawn on; what is on no layer of them is a part of its own. With `pair.clearance`, parts are held against each other: `does-not-fit`.
+   * Parts that are drawn in one place and never meet in one rule, each by its name with the layers it is drawn on; what is on no layer of them is a part of its own. With `pair.clearance`, parts are compared with each other: `does-not-fit`.
    */
   workpieces?: {
     [k: string]: string[];
@@ -1370,7 +1370,7 @@ export interface FindingData {
   segment?: number;
   radius?: number;
   /**
-   * The correction that the radius is held against.
+   * The correction that the radius is compared with.
    */
   required?: number;
   center?: Point;
@@ -1572,7 +1572,7 @@ export interface Located {
  */
 export interface SettingsInForce {
   /**
-   * mm; what radii are held against: the largest of `corrections`.
+   * mm; what radii are compared with: the largest of `corrections`.
    */
   correction: number;
   /**
@@ -1611,7 +1611,7 @@ export interface RulePageText {
   text: string;
 }
 /**
- * Result of `wedm/generate`: a program that has been decoded again and held against its path.
+ * Result of `wedm/generate`: a program that has been decoded again and compared with its path.
  */
 export interface Program {
   program: string;

@@ -134,8 +134,8 @@ declare! {
     the_server_sent_no_program => "the server sent no program";
     blocks_and_how_far_they_close(blocks, mm, elapsed, x, y) => "{blocks} blocks, cut {mm:.3} mm, after {elapsed}; closes within {x:.2}, {y:.2} µm";
     more_lines(count) => "... {count} more lines";
-    program_and_drawing_are_read_again_and_held_against_each => "Program and drawing are read again and held against each other";
-    decoded_one_from_the_end_of_the_other(blocks, from_path_um, open_um) => "{blocks} decoded one from the end of the other: at most {from_path_um:.2} µm from the path, and back in the last thread hole within {open_um:.2} µm.";
+    program_and_drawing_are_read_again_and_held_against_each => "Program and drawing are read again and compared with each other";
+    decoded_one_from_the_end_of_the_other(blocks, from_path_um, open_um) => "{blocks} decoded, each from the end of the last: at most {from_path_um:.2} µm from the path, and back in the last thread hole within {open_um:.2} µm.";
     distance_of_the_wire_from_the_contours(least_distance, largest_distance, correction) => "Along the contours the wire's centre keeps {least_distance:.4} to {largest_distance:.4} mm from them: the correction is {correction:.3}.";
     the_wire_path_is_not_one(error) => "the wire path is not one: {error}";
     the_repaired_drawing_has_errors_when_it_is_read_again => "the repaired drawing has errors when it is read again";

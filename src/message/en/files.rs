@@ -2,7 +2,7 @@
 
 declare! {
     it_has_too_many_bytes(bytes, cap) => "it has {bytes} bytes, expected at most {cap}";
-    it_holds_too_many_bytes(cap) => "it holds more than {cap} bytes, expected at most so many";
+    it_holds_too_many_bytes(cap) => "it has more than {cap} bytes, expected at most that many";
     it_is_a_folder => "it is a folder";
     it_is_no_regular_file => "it is no regular file";
     it_is_read_only => "it is read-only";

@@ -14,7 +14,7 @@ declare! {
     two_segments_are_nearly_tangent_but_not_quite => "Two segments are nearly tangent, but not quite";
     a_contour_touches_or_crosses_itself_or_another => "A contour touches or crosses itself or another";
     an_arc_drawn_as_short_lines => "An arc drawn as short lines";
-    no_path_of_the_wire_holds_its_proof_here => "No path of the wire holds its proof here";
+    no_path_of_the_wire_holds_its_proof_here => "No path of the wire passes its proof here";
     a_punch_does_not_go_into_its_plate => "A punch does not go into its plate";
     a_start_hole_has_no_room_beside_the_contours => "A start hole has no room beside the contours";
     the_lead_in_is_too_short_or_crosses_a_contour => "The lead-in is too short or crosses a contour";
@@ -83,7 +83,7 @@ declare! {
     the_offset_loses_this_part_of_the_outline(tool) => "the offset loses this part of the outline: {tool} does not reach it";
     the_wire_does_not_reach_this_part_of_the_outline(uncut, tool) => "{tool} does not reach this part of the outline: {uncut} mm stay uncut";
     a_point_is_left_of_the_outline(required, tool) => "at a correction of {required} mm a point is left of the outline: {tool} is threaded there and cuts nothing more";
-    no_path_of_the_wire_along_this_contour_holds(tool) => "no path of {tool} along this contour holds its proof here: the contour is drawn finer than the path can be told";
+    no_path_of_the_wire_along_this_contour_holds(tool) => "no path of {tool} along this contour passes its proof here: the contour is drawn finer than a path can follow";
     an_arc_that_4b_cannot_have(radius, x, y, correction) => "4B cannot have the arc R {radius:.3} mm at ({x:.3}, {y:.3}): the wire runs inside of it, expected more than the correction {correction:.3} mm";
     n4b_needs_a_transition_arc_where_the_cut_begins(x, y) => "4B needs a transition arc at the corner ({x:.3}, {y:.3}), where the cut begins: give an entry on a line or an arc";
     n4b_needs_a_transition_arc_of_r_at_the_corner(radius, x, y, turn) => "4B needs a transition arc of R {radius:.3} mm at the corner ({x:.3}, {y:.3}) of {turn:.1}°: none that is tangent to both sides fits in there";

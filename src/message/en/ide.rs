@@ -158,7 +158,7 @@ declare! {
     full_circles_leave_that_open => "full circles leave that open, so it is taken as the profile has it";
     found_from_the_arcs_of_this_program => "found from the arcs of this program, machines differ in it";
     place_of_the_table_as_set(word, index, mm) => "**{word}** place {index} of the control's table of corrections: {mm} mm, as this program sets it";
-    place_of_the_table_of_the_machine(word, index, mm) => "**{word}** place {index} of the control's table of corrections, not a length. What it holds is a matter of the machine: arcs are held against the setting, {mm} mm";
+    place_of_the_table_of_the_machine(word, index, mm) => "**{word}** place {index} of the control's table of corrections, not a length. What it holds is a matter of the machine: arcs are compared with the setting, {mm} mm";
     upper_guide_along_x_or_y => "the upper guide's way along X or Y, or the taper's";
     a_height => "a height: of the guides, or of the part";
     an_angle_of_the_taper => "an angle, mostly the taper's";

@@ -6,7 +6,7 @@ declare! {
     the_path_was_given_up => "the path was given up";
     laying_the_path => "laying the wire's path";
     writing_and_proving => "writing and proving the program";
-    the_program_does_not_hold_its_proof(reason) => "the program does not hold its proof: {reason}";
+    the_program_does_not_hold_its_proof(reason) => "the program does not pass its proof: {reason}";
     no_program_of_this_drawing(reason) => "no program could be proved for this drawing: {reason}";
     four_b_ends_with_an_open_contour => "4B cannot say where the wire is after an open contour: such a contour can only be the last of a program, cut in one pass; cut it by itself, or choose another format";
     four_b_has_no_tab => "4B holds one contour for all passes: it has a tab with one pass alone, and no overlap; set tab or closing-overlap to 0, or choose another format";

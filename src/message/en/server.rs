@@ -101,7 +101,7 @@ declare! {
     leads_nowhere => "leads nowhere";
     listing_radii => "Listing radii";
     listing_contours => "Listing contours";
-    holding_the_parts_in_each_other => "Holding the parts in each other";
+    holding_the_parts_in_each_other => "Fitting the parts into each other";
     generating_the_programs => "Generating the programs";
     the_parts_fit => "The parts fit";
     the_parts_do_not_fit => "The parts do not fit";

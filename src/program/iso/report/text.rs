@@ -220,7 +220,7 @@ impl Report<'_> {
                 continue;
             }
             for line in placed.lines {
-                // Of a word that stands twice the last one counts, as in the evidence.
+                // Of a word that is repeated the last one counts, as in the evidence.
                 let mut lengths: [Option<Range<usize>>; 5] = Default::default();
                 words_at(self.text, line, |letter, number, word| {
                     let own = b"XYIJR".iter().position(|of| *of == letter);
