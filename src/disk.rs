@@ -377,7 +377,7 @@ mod tests {
         std::fs::rename(&other, &path).unwrap();
         assert_eq!(
             replace(&path, Some(&seen), b"new"),
-            Err("it is not the file any more that was read, nothing is changed".into())
+            Err("it is no longer the file that was read, nothing is changed".into())
         );
     }
 

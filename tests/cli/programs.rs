@@ -150,7 +150,7 @@ fn a_program_in_gb_18030_is_written_as_it_was() {
         });
         behind.collect()
     };
-    let note = "!note: what is not UTF-8 is read as GB 18030, and written so";
+    let note = "!note: what is not UTF-8 is read as GB 18030, and written back as such";
     check(
         &desk,
         "check gb.3b",

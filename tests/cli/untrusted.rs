@@ -257,20 +257,20 @@ mod unix {
                 &desk,
                 &format!("format {name} --in-place"),
                 2,
-                &["!it is no regular file"],
+                &["!it is not a regular file"],
             );
             check(
                 &desk,
                 &format!("fix {name} --in-place"),
                 2,
-                &["!it is no regular file"],
+                &["!it is not a regular file"],
             );
         }
         check(
             &desk,
             "fix pipe.dxf --in-place",
             2,
-            &["!it is no regular file"],
+            &["!it is not a regular file"],
         );
     }
 

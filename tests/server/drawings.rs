@@ -128,12 +128,12 @@ fn a_change_that_cannot_apply_changes_nothing_and_asks_for_the_drawing() {
     check(
         2,
         json!([splice(json!(0), json!(1), json!([[null, 0]]))]),
-        "vertex 0 to insert in 2A is not of finite numbers",
+        "vertex 0 to insert in 2A has a number that is not finite",
     );
     check(
         2,
         json!([splice(json!(0), json!(1), json!([["NaN", 0]]))]),
-        "vertex 0 to insert in 2A is not of finite numbers",
+        "vertex 0 to insert in 2A has a number that is not finite",
     );
     check(
         2,
@@ -156,7 +156,7 @@ fn numbers_that_overflow_are_refused_like_any_that_are_none() {
     client.open_drawing(URI, json!([tight_plate("2A")]));
     let body = r#"{"jsonrpc":"2.0","method":"wedm/didChangeDrawing","params":{"drawing":{"uri":"cad:///1","version":2},"changes":[{"handle":"2A","vertices":{"start":0,"deleteCount":1,"insert":[[1e999,0]]}}]}}"#;
     client.send_bytes(&crate::support::frame(body));
-    client.logged("vertex 0 to insert in 2A is not of finite numbers");
+    client.logged("vertex 0 to insert in 2A has a number that is not finite");
     let asked = client.asked("wedm/resendDrawing");
     client.respond(&asked, json!({ "drawing": { "uri": URI, "version": 2, "units": "mm", "entities": [wide_plate("2A")] } }));
     assert_eq!(client.diagnostics(URI, 2).len(), 0);

@@ -299,17 +299,17 @@ fn an_empty_line_between_records_takes_nothing_from_either() {
         (
             lines(1),
             5,
-            "warning at \"\": an empty line stands where a group code is expected: it is passed over",
+            "warning at \"\": found an empty line where a group code is expected: it is passed over",
         ),
         (
             lines(1).replace('\n', "\r\n"),
             5,
-            "warning at \"\": an empty line stands where a group code is expected: it is passed over",
+            "warning at \"\": found an empty line where a group code is expected: it is passed over",
         ),
         (
             lines(1).replace("\n\n", "\n  \n"),
             5,
-            "warning at \"  \": an empty line stands where a group code is expected: it is passed over",
+            "warning at \"  \": found an empty line where a group code is expected: it is passed over",
         ),
         (
             lines(2),
