@@ -93,8 +93,8 @@ declare! {
     no_block_is_found => "no block is found, expected B X B Y B J G Z";
     the_coordinates_have_decimal_commas => "the coordinates have decimal commas and are not read, expected decimal points";
     a_b_of_the_block_is_missing => "a B of the block is missing";
-    b_stands_where_n_was_meant(number) => "B{number} stands where N{number} was meant";
-    the_letter_o_stands_where_a_zero_was_meant => "the letter O stands where a zero was meant";
+    b_stands_where_n_was_meant(number) => "B{number} is written where N{number} was meant";
+    the_letter_o_stands_where_a_zero_was_meant => "the letter O is written where a zero was meant";
     b_before_the_number => "B before the number";
     g_and_the_counting_axis => "G and the counting axis, GX or GY";
     the_counting_length_j => "the counting length J in µm";
