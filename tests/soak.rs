@@ -2,7 +2,7 @@
 //! applied. Whatever happens, no answer is an internal error, the finding of a fix goes, no fix brings an error, memory and latency stay
 //! flat, and in the end the server says what one says that is opened afresh.
 //!
-//! A seed makes one sequence of steps; how far it goes hangs on the time. For hours, with other seeds:
+//! A seed makes one sequence of steps; how far it goes depends on the time. For hours, with other seeds:
 //! `WEDM_SOAK_SEED=7 WEDM_SOAK_SECONDS=3600 cargo test --test soak -- --nocapture`.
 
 #[allow(dead_code, reason = "others use the rest")]

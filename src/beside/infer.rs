@@ -225,7 +225,7 @@ mod tests {
         })
     }
 
-    /// The same with neighbours that its votes may hang on.
+    /// The same with neighbours that its votes may depend on.
     fn turned_segment() -> impl Strategy<Value = Turned> {
         (segment(), -1.5..1.5, -1.5..1.5).prop_map(|(segment, before, behind)| Turned {
             segment,

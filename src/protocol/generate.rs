@@ -27,7 +27,7 @@ pub(crate) struct Generate {
     /// Laid over every other level of settings for this request.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) options: Option<Settings>,
-    /// Make the program although errors stand in the drawing.
+    /// Make the program although the drawing has errors.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) force: Option<bool>,
 }

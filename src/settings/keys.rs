@@ -193,7 +193,7 @@ tables! {
         /// ([`too-many-digits`](rules/too-many-digits.md)) where they stand.
         digits: u8 = 6 => whole in DIGITS;
         /// In what the numbers of an ISO program are that does not say so (G20, G21). Not set: mm, and a hint ([`units`](rules/units.md))
-        /// where its size speaks for inches.
+        /// where its size suggests inches.
         units: UnitSetting => name;
         /// The drawing that programs belong to, from their own folder on, which they are compared with:
         /// [`not-the-drawing`](rules/not-the-drawing.md). Not set: the one that a comment of the program names, else the DXF of the same name.

@@ -62,7 +62,7 @@ impl Splice {
         let (last, right) = all.find_map(|piece| parted(piece).filter(|_| on_right(&piece)))?;
         let is_behind = |piece: usize| stretch.first + stretch.place(piece) >= count;
         let goes_over_the_end = is_behind(last) != is_behind(first);
-        // What goes there may hang on what is looked at first.
+        // What goes there may depend on what is looked at first.
         if goes_over_the_end && !stretch.goes_at_once(first, last) {
             return None;
         }

@@ -32,7 +32,7 @@ fn found(drawing: &Drawing, mut analysis: Analysis) -> Vec<String> {
 proptest! {
     #![proptest_config(ProptestConfig { cases: cases(300), failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// More lies on and across each other than is compared: what is left out hangs on the drawing alone.
+    /// More lies on and across each other than is compared: what is left out depends on the drawing alone.
     #[test]
     fn what_is_left_out_is_what_is_left_out_afresh(
         start in proptest::collection::vec((geometry(), role()), 0..40),

@@ -133,7 +133,7 @@ fn refactorings_do_what_is_recorded_and_bring_no_error() {
             {
                 let id = id.trim_start_matches("refactor.rewrite.");
                 let profile = title
-                    .strip_prefix("Write anew as profile ")
+                    .strip_prefix("Rewrite as profile ")
                     .and_then(|title| title.split(':').next())
                     .unwrap_or_default();
                 say(&format!("{id} {profile} at {place}"), edits);

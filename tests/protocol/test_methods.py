@@ -319,7 +319,7 @@ REFUSALS = [
     ("textDocument/rename", {"textDocument": {"uri": PROGRAM}, "position": {"line": 4, "character": 0}, "newName": "N9"}, -32803, "no block number"),
     ("workspace/executeCommand", {"command": "wedm.scale", "arguments": []}, -32602, "one argument"),
     ("workspace/executeCommand", {"command": "wedm.scale", "arguments": [{"uri": PROGRAM, "factor": -1}]}, -32803, "the factor is -1"),
-    ("workspace/executeCommand", {"command": "wedm.scale", "arguments": [{"uri": DXF, "factor": 2}]}, -32803, "is no program"),
+    ("workspace/executeCommand", {"command": "wedm.scale", "arguments": [{"uri": DXF, "factor": 2}]}, -32803, "is not a program"),
     ("workspace/executeCommand", {"command": "wedm.scale", "arguments": [{"uri": "file:///none.3b", "factor": 2}]}, -32602, "is not open"),
     ("workspace/executeCommand", {"command": "wedm.no", "arguments": []}, -32602, "wedm.no"),
     ("workspace/executeCommand", {"command": "wedm.applyDrawingEdit", "arguments": []}, -32602, ""),

@@ -217,14 +217,14 @@ fn an_unsound_drawing_is_not_opened_and_asked_for_again() {
 fn a_change_of_a_drawing_that_is_not_open_asks_for_it() {
     let mut client = Client::start();
     client.change_drawing("cad:///late", 5, json!([]));
-    client.logged("there is no such drawing open");
+    client.logged("no such drawing is open");
     let asked = client.asked("wedm/resendDrawing");
     client.respond(&asked, json!({ "drawing": { "uri": "cad:///late", "version": 5, "entities": [tight_plate("2A")] } }));
     assert_eq!(client.diagnostics("cad:///late", 5).len(), 1);
     // A text is no drawing.
     client.open_text("file:///a.dxf", "dxf", "0\nEOF\n");
     client.change_drawing("file:///a.dxf", 5, json!([]));
-    client.logged("there is no such drawing open");
+    client.logged("no such drawing is open");
     client.shut_down();
 }
 

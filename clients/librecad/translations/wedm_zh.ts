@@ -632,7 +632,7 @@
         <translation>%1 层；模拟：底面深 %2 至 %3 mm，电极缩短 %4 mm。</translation>
     </message>
     <message>
-        <source>Findings that stand in the drawing: %1</source>
+        <source>Findings in the drawing: %1</source>
         <translation>图形中的问题：%1</translation>
     </message>
 </context>

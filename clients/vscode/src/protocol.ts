@@ -629,7 +629,7 @@ export interface ProgramSettings {
    */
   digits?: number;
   /**
-   * In what the numbers of an ISO program are that does not say so (G20, G21). Not set: mm, and a hint (`units`) where its size speaks for inches.
+   * In what the numbers of an ISO program are that does not say so (G20, G21). Not set: mm, and a hint (`units`) where its size suggests inches.
    */
   units?: UnitSetting;
   /**
@@ -1130,7 +1130,7 @@ export interface Generate {
    */
   options?: Settings;
   /**
-   * Make the program although errors stand in the drawing.
+   * Make the program although the drawing has errors.
    */
   force?: boolean;
 }

@@ -253,7 +253,7 @@ fn numbers_are_renamed_counted_and_left_out() {
     );
     assert_eq!(
         renamed(&document, 1, "x"),
-        Err("\"x\" is no block number, expected up to 8 digits".into())
+        Err("\"x\" is not a block number, expected up to 8 digits".into())
     );
 }
 

@@ -239,8 +239,8 @@ declare! {
     the_settings_say_the_other_side(side, is, wanted) => "{side}, which is {is} this contour: the settings say {wanted}, so the wire cuts into the part";
     it_comes_from_the_other_side(side) => "{side} of this contour, but it comes to it from the other side: it crosses the part's edge";
     the_cut_does_not_close(hypot, x, y) => "the cut does not close: it ends {hypot} mm from its beginning (X {x:+.3}, Y {y:+.3})";
-    is_a_matter_of_the_machine(word) => "{word} is a matter of the machine: it is kept, not followed";
-    is_often_a_matter_of_the_machine(word, count) => "{word} ({count} times) is a matter of the machine: it is kept, not followed";
+    is_a_matter_of_the_machine(word) => "{word} depends on the machine: it is kept, not followed";
+    is_often_a_matter_of_the_machine(word, count) => "{word} ({count} times) depends on the machine: it is kept, not followed";
     subprogram_does_not_stand_in_this_text(number) => "subprogram {number} is not in this text: it is not followed";
     the_subprograms_call_each_other_without_end => "the subprograms call each other without end, or too deeply: they are not followed further";
     i_and_j_stand_beside_a_straight_cut => "a straight cut has I or J: the control ignores them, or stops; an arc (G02, G03) may be meant";
@@ -261,7 +261,7 @@ declare! {
     has_other_decimals_than_the_others(word, usual) => "{word} has a different number of decimals from all other numbers, which have {usual}: a digit may be lost, or there is one too many";
     the_program_does_not_say_its_unit(size) => "the program does not state its unit (G20, G21) and is read in mm: then the part is {size} mm long or wide, which suggests inches (program.units)";
     the_program_is_meant_in_another_unit(size, what) => "the program is {size} mm long or wide, {what}: its numbers are meant in another unit";
-    hangs_on_an_empty_place_of_the_table(word) => "{word} hangs on a place of the control's table that the program does not fill: it is not followed";
+    hangs_on_an_empty_place_of_the_table(word) => "{word} depends on a place of the control's table that the program does not fill: it is not followed";
     the_cut_does_not_close_and_it_would => "the cut does not close, and it would";
     the_cut_would_be_sound => "the cut would be sound";
     may_be_missing_here(meant, comes_of_it) => "{meant} may be missing here: {comes_of_it} with it, and nothing else changed";

@@ -3,10 +3,10 @@
 declare! {
     a_4b_program_holds_the_contour_of_the_part(line) => "line {line}: a 4B program holds the part's contour, and its controller adds the correction; the side and the correction would be lost";
     the_correction_is_switched_within_the_contour(line) => "line {line}: the correction is switched within the contour, expected one side all the way round";
-    the_control_adds_the_correction_of_the_program => "the control adds the correction of this program (G41, G42), which none of 3B does: convert it to .dxf, and generate the 3B program of that drawing";
-    the_correction_of_the_program_is_not_that_of_the_settings(name, correction, of_settings) => "the program's own correction {name} is {correction:.3} mm, that of the settings {of_settings:.3} mm: the transition arcs of 4B hang on it, set correction to the one that the machine has";
+    the_control_adds_the_correction_of_the_program => "the control adds the correction of this program (G41, G42), which no 3B controller does: convert it to .dxf, and generate the 3B program of that drawing";
+    the_correction_of_the_program_is_not_that_of_the_settings(name, correction, of_settings) => "the program's own correction {name} is {correction:.3} mm, that of the settings {of_settings:.3} mm: the transition arcs of 4B depend on it, set correction to the one that the machine has";
     not_written_the_corrections_of_the_program(corrections) => "not written: the program's own corrections, {corrections}; set them at the machine";
-    no_conversion_of_a_taper(taper) => "{taper}; a conversion holds the lower contour alone: with --force that is written";
+    no_conversion_of_a_taper(taper) => "{taper}; a conversion has only the lower contour: with --force that is written";
     not_written_the_taper(taper) => "not written: the taper; {taper}";
     not_written_the_stop_before_a_tab(line) => "not written: the stop in line {line}, which holds the part while its tab is cut";
     the_format_is_not_known(name, formats) => "format is \"{name}\", expected {formats}";
@@ -23,7 +23,7 @@ declare! {
     under_g91_a_centre_has_no_coordinates_of_its_own => "under G91 a centre has no coordinates of its own: make the coordinates absolute first";
     make_all_coordinates_absolute_g90 => "Make all coordinates absolute (G90)";
     let_all_coordinates_count_from_where_the_wire_stands => "Let all coordinates count from where the wire stands (G91)";
-    write_anew_as_profile(name) => "Write anew as profile {name}: comments and words of the machine are left out";
+    write_anew_as_profile(name) => "Rewrite as profile {name}: comments and words of the machine are left out";
     the_arc_of_a_line_leads_nowhere(line) => "line {line}: the arc leads nowhere";
     the_stop_before_the_tab_would_be_lost(line) => "line {line}: the stop before the tab would be lost";
     the_program_cuts_nothing => "the program cuts nothing";
@@ -32,9 +32,9 @@ declare! {
     the_way_of_the_upper_guide_would_not_be_kept => "the way of the upper guide (U, V) would not be kept";
     a_letter_stands_twice(letter) => "{letter} is repeated";
     a_word_takes_the_coordinates_for_a_place_of_the_machine => "a word takes the coordinates for a place of the machine";
-    words_lie_on_each_other => "words lie on each other";
+    words_lie_on_each_other => "words overlap";
     the_second_contour_behind_the_colon_would_not_be_kept => "the second contour after the colon would not be kept";
-    an_arc_has_no_room_for_the_taper(radius, least, angle, narrows) => "arc R {radius:.3} mm is below {least:.3} mm: under a taper of {angle:.3}° it narrows by {narrows:.3} mm up to the other plane, and the wire needs its correction beside that";
+    an_arc_has_no_room_for_the_taper(radius, least, angle, narrows) => "arc R {radius:.3} mm is below {least:.3} mm: under a taper of {angle:.3}° it narrows by {narrows:.3} mm up to the other plane, and the wire needs its correction in addition";
     an_arc_narrows_to_nothing(radius, narrows, angle) => "arc R {radius:.3} mm narrows by {narrows:.3} mm under a taper of {angle:.3}°: nothing is left of it in the other plane";
     how_far_the_wire_leans_needs_the_height => "how far the wire leans is not known: expected job.thickness to be set, or TP and TN in the program";
     how_far_the_wire_leans_needs_the_angle(line) => "how far the wire leans is not known: line {line} says no angle (A or T)";
@@ -57,12 +57,12 @@ declare! {
     merge_collinear_blocks => "Merge collinear blocks";
     leave_the_block_numbers_out => "Leave the block numbers out";
     the_new_program_cannot_be_read(reason) => "the new program cannot be read: {reason}";
-    the_new_program_reads_otherwise_than_it_was_meant => "the new program reads otherwise than it was meant";
+    the_new_program_reads_otherwise_than_it_was_meant => "the new program does not read as it was meant";
     a_stop_would_be_lost => "a stop would be lost";
     the_new_program_ends_elsewhere(miss) => "the new program ends {miss:.1} µm from where it should";
-    the_new_program_would_have_a_new_fault(rule) => "the new program would have a fault that this one has not: {rule}";
+    the_new_program_would_have_a_new_fault(rule) => "the new program would have a fault that this one does not have: {rule}";
     the_new_program_would_have_more_faults_than_this_one => "the new program would have more faults than this one";
-    the_edits_lie_on_each_other => "the edits lie on each other";
+    the_edits_lie_on_each_other => "the edits overlap";
     the_numbers_are_part_of_what_the_machine_does => "the numbers are part of what the machine does";
     reverse_the_direction_of_the_contour => "Reverse the direction of the contour";
     scale_from_inch_to_mm => "Scale by 25.4 (inch to mm)";
@@ -72,8 +72,8 @@ declare! {
     the_block_becomes_shorter_than_1_um(line) => "line {line}: the block becomes shorter than 1 µm";
     the_program_is_not_followed_as_a_whole => "the program is not followed as a whole";
     the_contour_pauses_to_hold_the_part(line) => "the contour pauses before line {line}, to hold the part while its tab is cut";
-    only_a_closed_contour_begins_elsewhere_or_goes_round(ordinal) => "contour {ordinal} is open: only a closed one begins elsewhere or goes round the other way";
-    the_contour_misses_its_own_begin(ordinal) => "contour {ordinal} misses its own begin: close it first";
+    only_a_closed_contour_begins_elsewhere_or_goes_round(ordinal) => "contour {ordinal} is open: only a closed one can begin elsewhere or go round the other way";
+    the_contour_misses_its_own_begin(ordinal) => "contour {ordinal} does not return to its start: close it first";
     begin_the_contour_with_this_block => "Begin the contour with this block";
     no_block_is_selected => "no block is selected";
     no_contour_is_selected => "no contour is selected";
@@ -109,7 +109,7 @@ declare! {
     found_letters_of_another_script(at, found, expected, script) => "column {at}: found `{found}`, expected {expected}, these are {script} ones";
     n4b_needs_the_side_of_the_contour => "4B holds the part's contour: set compensation to controller, and say opening or punch";
     a_written_block_cannot_be_read_again(sentence) => "a written block cannot be read again: {sentence}";
-    a_written_block_reads_otherwise(line, block) => "the written block {line} reads otherwise than {block}";
+    a_written_block_reads_otherwise(line, block) => "the written block {line} does not read as {block}";
     a_block_cannot_be_decoded(block) => "{block} cannot be decoded";
     a_block_ends_beside_its_node(block, distance, to) => "{block} ends {distance:.3} µm from its node {to}";
     a_block_runs_beside_the_path(block, aside, from) => "{block} runs {aside:.3} µm beside the path at {from}";
@@ -128,7 +128,7 @@ declare! {
     a_comment_stands_behind_a_block_that_becomes_several(line) => "line {line}: a comment follows a block that becomes several";
     the_comment_is_in_another_code_page(line) => "line {line}: the comment is in another code page";
     split_blocks_over(largest_number) => "Split blocks over {largest_number} µm";
-    a_4b_block_cannot_be_calculated_anew(line) => "line {line}: a 4B block cannot be calculated anew";
+    a_4b_block_cannot_be_calculated_anew(line) => "line {line}: a 4B block cannot be recalculated";
     a_3b_program_cannot_leave_the_correction_to_the_controller => "a 3B program cannot leave the correction to the controller: set compensation to path, or to none where the contour is the wire's path";
     no_blocks_within_tolerance_lead_from_to(from, to) => "no blocks within tolerance lead from {from} to {to}";
     n4b_cannot_have_an_arc_inside_of_which_the_wire_runs(radius, correction) => "4B cannot have an arc of R {radius:.3} mm inside of which the wire runs, expected more than the correction {correction:.3} mm";
@@ -138,7 +138,7 @@ declare! {
     the_path_has_a_gap_before_a_segment(gap, done) => "the path has a gap of {gap:.3} µm before segment {done}";
     full_width => "full-width";
     b_and_the_numbers => "B and X, Y and J";
-    all_passes_would_have_one_correction => "all passes would have one correction: expected a line with {register} in its contour-begin";
+    all_passes_would_have_one_correction => "all passes would have the same correction: expected a line with {register} in its contour-begin";
     at_most_12_digits => "at most 12 digits";
     the_line_ends => "the line ends";
     expected_in_a_column(column, found, expected) => "column {column}: {found}, expected {expected}";
@@ -150,12 +150,12 @@ declare! {
     number_the_blocks_from_1 => "Number the blocks from 1";
     the_program_would_run_too_far_out => "the program would run too far out";
     the_correction_was_switched_on_for_another_contour => "the correction was switched on for another contour before";
-    the_arcs_would_not_tell_how_i_and_j_are_meant => "the arcs would not tell any more how I and J are meant";
-    the_new_block_reads_otherwise => "the new block reads otherwise than it was meant";
+    the_arcs_would_not_tell_how_i_and_j_are_meant => "the arcs would no longer tell how I and J are meant";
+    the_new_block_reads_otherwise => "the new block does not read as it was meant";
     the_block_does_not_run_along_its_piece => "the block does not run along its piece of the path";
     a_word_takes_the_coordinates(line) => "line {line}: a word takes the coordinates for a place of the machine";
     of_profile(name, why) => "profile {name}: {why}";
-    its_lines_change_heights(line) => "its lines change how heights are meant in {line:?}";
+    its_lines_change_heights(line) => "its line {line:?} changes how heights are meant";
     a_layer_is_finer(layer, step) => "milling.layer is {layer} mm, finer than the numbers of the profile, {step} mm: expected a thicker layer, or more decimals";
-    the_program_would_have_too_many_blocks(most) => "the program would have more than {most} blocks: no machine takes as many";
+    the_program_would_have_too_many_blocks(most) => "the program would have more than {most} blocks: no machine takes that many";
 }

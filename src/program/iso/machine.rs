@@ -147,7 +147,7 @@ impl Machine {
     /// The same; returns the move as its words say it, and where it begins.
     pub(crate) fn steer(&mut self, block: &Block, reading: &Reading) -> Option<Steered> {
         self.inch = block.inch.unwrap_or(self.inch);
-        // Whether a line is followed hangs on its words alone, not on where the wire is.
+        // Whether a line is followed depends on its words alone, not on where the wire is.
         let is_unread = block.broken || self.leads_too_far(block, reading);
         if let Some(incremental) = block.incremental {
             self.incremental = incremental;

@@ -622,7 +622,7 @@ private slots:
         QCOMPARE(kept, after.isEmpty() ? before : after);
     }
 
-    /// The server is killed; a drawing that changed meanwhile is right again in the next one.
+    /// The server is killed; a drawing that changed in the meantime is right again in the next one.
     void killedAndBackAgain()
     {
         Talk talk;

@@ -146,7 +146,7 @@ function told(generated: Program, format: Format): string {
   const slugs = (generated.work?.slugs ?? []).map(({ contour, mass }) => t("{0}: {1} g", contour, mass.toFixed(1)));
   const drops = slugs.length === 0 ? "" : t("; what drops out: {0}", slugs.slice(0, SLUGS).join(", ") + (slugs.length > SLUGS ? ", …" : ""));
   const { length } = generated.warnings;
-  const stand = length === 1 ? t(" 1 finding stands in the drawing.") : t(" {0} findings stand in the drawing.", length);
+  const stand = length === 1 ? t(" The drawing has 1 finding.") : t(" The drawing has {0} findings.", length);
   const warnings = length === 0 ? "" : stand;
   return t("{0}, {1}{2}.", blocks, path, drift + minutes + milled + drops) + warnings;
 }

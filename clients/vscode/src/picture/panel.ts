@@ -253,7 +253,7 @@ export class Picture implements vscode.Disposable {
     const actions = await vscode.commands.executeCommand<vscode.CodeAction[]>("vscode.executeCodeActionProvider", ...asked);
     const action = actions.find(({ title, edit }) => title === wanted.title && edit !== undefined);
     if (action?.edit === undefined || !(await vscode.workspace.applyEdit(action.edit))) {
-      void vscode.window.showInformationMessage(t("Wire EDM: the drawing has changed meanwhile, and the repair is not offered any more."));
+      void vscode.window.showInformationMessage(t("Wire EDM: the drawing has changed in the meantime, and the repair is no longer offered."));
     }
   }
 

@@ -88,7 +88,7 @@ export async function picture(checks: Checks): Promise<void> {
     });
     await checks.check("with errors in the drawing a program is refused with a sentence", async () => {
       await window.command("Wire EDM: Generate 3B Program…");
-      await window.notification("No program: 4 errors stand in the drawing").waitFor();
+      await window.notification("No program: the drawing has 4 errors").waitFor();
       await checks.shot("refused");
       await window.command("Notifications: Clear All Notifications");
     });
