@@ -220,7 +220,7 @@ pub fn iso_holes(blocks: usize) -> String {
 }
 
 /// The places of a die opening cut to and fro in three passes from a stop before its tab on, and of the way back to the
-/// thread hole behind the stop, in mm.
+/// thread hole after the stop, in mm.
 fn before_tab() -> (Vec<[i64; 2]>, [[i64; 2]; 2]) {
     let pass = [[2, 0], [12, 0], [12, 10], [2, 10], [2, 3]];
     let back = pass.iter().rev().skip(1).copied();

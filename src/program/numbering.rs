@@ -16,7 +16,7 @@ use std::ops::Range;
 
 /// A block as far as its number goes.
 pub(super) struct NumberedBlock {
-    /// Its first byte behind the number, or that of its line.
+    /// Its first byte after the number, or that of its line.
     pub(super) start: usize,
     /// The word that numbers it.
     pub(super) word: Option<Range<usize>>,
@@ -73,7 +73,7 @@ pub(super) fn numbered<P: Numbers>(program: &P) -> Result<Vec<TextEdit>, String>
     Ok(program.text().changing(program.followed(edits, &given)))
 }
 
-/// The edits that remove all numbers that are not called, with the space behind them.
+/// The edits that remove all numbers that are not called, with the space after them.
 pub(super) fn without_numbers(program: &impl Numbers) -> Result<Vec<TextEdit>, String> {
     let blocks = program.blocks()?.into_iter();
     let words = blocks.filter(|block| !block.is_called);

@@ -24,7 +24,7 @@ const ARC_FIT: Range = Range::of(1e-6, 0.1);
 /// Digits of controllers: with fewer than four nothing larger than a millimetre could be cut.
 const DIGITS: Range = Range::of(4.0, 9.0);
 
-/// Digits behind the point of millimetres: from micrometres to nanometres.
+/// Digits after the decimal point of millimetres: from micrometres to nanometres.
 const DECIMALS: Range = Range::of(3.0, 6.0);
 
 /// Distances after which an electrode is fed: no machine goes finer than a micrometre.
@@ -267,7 +267,7 @@ tables! {
         zero: Zero = Zero::Drawing => name;
         /// Millimetres with a decimal point, or whole micrometres without one.
         unit: NumberUnit = NumberUnit::Mm => name;
-        /// Digits behind the point of millimetres.
+        /// Digits after the decimal point of millimetres.
         decimals: u8 = 3 => whole in DECIMALS;
         /// How I and J lead to an arc's centre.
         center: CenterRule = CenterRule::StartToCenter => name;

@@ -23,7 +23,7 @@ pub(crate) fn each<Made: Send>(
     all
 }
 
-/// The same behind others.
+/// The same after others.
 pub(super) fn extend<Made: Send>(
     all: &mut Vec<Made>,
     count: usize,

@@ -30,7 +30,7 @@ struct Stretch {
 
 /// What stands in the place of some pieces of a path.
 pub(super) struct Splice {
-    /// The pieces before and behind, which stay, by where they were.
+    /// The pieces before and after, which stay, by where they were.
     left: usize,
     right: usize,
     /// Those between, in the order in which they are gone.
@@ -96,7 +96,7 @@ impl Splice {
             }));
         };
         match self.before_the_end {
-            // Of the pieces between, those behind the end of the contour come first.
+            // Of the pieces between, those after the end of the contour come first.
             Some(before) => {
                 path.extend(&self.new[before..]);
                 old(self.right..self.left + 1, &mut path);
@@ -188,7 +188,7 @@ impl Stretch {
         self.pieces[piece].1.wall
     }
 
-    /// Which piece it was that stands with its neighbours between what is before and what is behind it, now as before.
+    /// Which piece it was that stands with its neighbours between what is before and what is after it, now as before.
     fn parts_two(&self, kept: &Kept, count: usize, piece: usize) -> Option<usize> {
         let was = |piece: usize| {
             let element = &self.pieces[piece].1;

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-/// Where the numbers of a block stand that are lengths, those behind it in its line among them.
+/// Where the numbers of a block stand that are lengths, those after it in its line among them.
 pub(super) fn lengths(text: &str, block: &Range<usize>) -> Vec<Range<usize>> {
     let line_end = text[block.end..]
         .find('\n')

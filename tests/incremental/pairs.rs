@@ -3,7 +3,7 @@
 use super::*;
 use wedm::finding::Rule;
 
-/// One corner: how far it stands out, and the bulge behind it.
+/// One corner: how far it stands out, and the bulge after it.
 type Corner = (f64, f64);
 
 /// What an edit does at a corner: takes so many away, and puts others there.

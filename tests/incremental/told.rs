@@ -124,7 +124,7 @@ fn outlines_that_come_to_lie_on_each_other_are_told_as_if_afresh() {
     }
 }
 
-/// What local rules saw behind a splice has other indices now: in the pieces behind, and in a piece that is travelled backwards in
+/// What local rules saw after a splice has other indices now: in the pieces after, and in a piece that is travelled backwards in
 /// what lies before it in the entity.
 #[test]
 fn a_splice_that_changes_the_count_moves_what_was_seen_behind_it() {

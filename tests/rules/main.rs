@@ -162,7 +162,7 @@ fn count(findings: &[Finding], rule: Rule) -> usize {
     severities(findings, rule).len()
 }
 
-/// The drawing behind the first fix of a finding.
+/// The drawing after the first fix of a finding.
 fn repaired(drawing: &Drawing, analysis: &Analysis, finding: &Finding) -> Drawing {
     let fixes = analysis.fixes(drawing, finding);
     let mut repaired = drawing.clone();

@@ -746,7 +746,7 @@ export interface ProfileSettings {
    */
   unit?: NumberUnit;
   /**
-   * Digits behind the point of millimetres.
+   * Digits after the decimal point of millimetres.
    */
   decimals?: number;
   /**
@@ -1524,7 +1524,7 @@ export interface SimulatedBlock {
    */
   contour: number;
   /**
-   * Where the wire's upper end stands behind the block; not there where that is where the machine stops.
+   * Where the wire's upper end is after the block; not there where that is where the machine stops.
    */
   upperEnd?: Point;
 }

@@ -61,7 +61,7 @@ impl JoinedCut {
         }
     }
 
-    /// This cut followed by the next, which goes on from its end: behind the stop at its tab, if there was one.
+    /// This cut followed by the next, which goes on from its end: after the stop at its tab, if there was one.
     pub(crate) fn append(&mut self, next: JoinedCut) {
         if self.stops > 0 {
             self.before_tab.get_or_insert(self.sum.moves);

@@ -40,7 +40,7 @@ pub(crate) struct Machine {
     pub(crate) ended: bool,
     /// An electrode has been fed downwards: it mills layer by layer, and no wire cuts.
     pub(crate) mills: bool,
-    /// The corner behind the last move was cut off: the distance of the next move's start from its sharp point.
+    /// The corner after the last move was cut off: the distance of the next move's start from its sharp point.
     pub(crate) cut_short: Option<Place>,
     pub(crate) trail: Trail,
 }
@@ -56,7 +56,7 @@ pub(crate) enum Behind {
     Stop,
 }
 
-/// The last cut, without a stop or a rapid behind it.
+/// The last cut, without a stop or a rapid after it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Trail {
     /// The last cut and the one before, relative to their end.

@@ -310,7 +310,7 @@ struct Transition {
     /// The share of the piece before at which it begins.
     leaves: f64,
     arc: Arc,
-    /// The share of the piece behind at which it ends.
+    /// The share of the piece after it at which it ends.
     meets: f64,
 }
 

@@ -131,7 +131,7 @@ impl Layers {
             let mut done = 0.0;
             if compensation == WearCompensation::Linear {
                 let per_mm = self.electrode.wear_along() * height;
-                // The wear behind the last step is fed with the next layer.
+                // The wear after the last step is fed with the next layer.
                 let steps = (self.length / self.electrode.step - 1e-9).floor() as usize;
                 for at in (1..=steps).map(|number| number as f64 * self.electrode.step) {
                     step(along(done, at))?;

@@ -138,7 +138,7 @@ impl Report<'_> {
         }
     }
 
-    /// The word that ends the program, where text stands behind it.
+    /// The word that ends the program, where text stands after it.
     pub(super) fn end_before(&self, behind: usize) -> String {
         let lines = (0..self.text.line_of(behind)).rev();
         let ends = |line: &usize| self.document.block(*line).stop == Some(Stop::End);
