@@ -95,7 +95,7 @@ pub(super) fn reasons(folder: &str, mark: &str, comma: &str) -> String {
         assert_eq!(
             (reason.is_some(), said.next()),
             (asks, None),
-            "{folder}/{name}.md says in one line behind {mark:?} why it is not found elsewhere, if it is not"
+            "{folder}/{name}.md says in one line after {mark:?} why it is not found elsewhere, if it is not"
         );
         let Some(reason) = reason else { continue };
         match rows.iter_mut().find(|(other, _)| other == reason) {
