@@ -43,7 +43,7 @@ tables! {
         correction: f64 = 0.10 => number in Range::ABOVE_ZERO;
         /// Diameter of the wire, mm. With `gap` it says the correction where no `correction` is set: half the diameter + gap; when one of the
         /// two is set the other has its default there. Beside `correction` or `passes.corrections` it says how thick the wire is, see
-        /// [`pass-order`](rules/pass-order.md). A later level that sets one of the two and no `correction` says the correction anew.
+        /// [`pass-order`](rules/pass-order.md). A later level that sets one of the two and no `correction` sets the correction again.
         #[serde(alias = "wire-diameter")]
         wire_diameter: f64 = 0.18 => number in Range::ABOVE_ZERO;
         /// Spark gap, mm. See `wire-diameter`.
@@ -250,7 +250,7 @@ tables! {
         /// How the feed makes up for the wear of the electrode.
         #[serde(alias = "wear-compensation")]
         wear_compensation: WearCompensation = WearCompensation::Uniform => name;
-        /// Way after which `linear` feeds anew, mm.
+        /// Way after which `linear` feeds again, mm.
         step: f64 => number in MILLING_STEPS;
         /// Whether the round ends of an open slot are counted among what a layer erodes.
         #[serde(alias = "slot-ends")]

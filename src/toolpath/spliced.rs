@@ -13,14 +13,14 @@ use super::ring::trimmed;
 use crate::geometry::Segment;
 use std::ops::Range;
 
-/// Walls that are laid anew about what has changed.
+/// Walls that are laid again about what has changed.
 const ABOUT: usize = 16;
 
 /// Where the changes spread over more walls, or the contour has hardly more, everything is made
-/// anew.
+/// again.
 const MOST: usize = 128;
 
-/// Some walls that are laid anew, round a contour from the first on.
+/// Some walls that are laid again, round a contour from the first on.
 struct Stretch {
     first: usize,
     count: usize,

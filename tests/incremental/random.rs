@@ -8,7 +8,7 @@ proptest! {
     #[test]
     fn incremental_equals_fresh(
         start in proptest::collection::vec((geometry(), role()), 0..12),
-        // Now and then so much at once that all is looked at anew.
+        // Now and then so much at once that all is looked at again.
         edits in proptest::collection::vec(
             prop_oneof![8 => proptest::collection::vec(edit(), 1..3), 1 => proptest::collection::vec(edit(), 18..22)],
             1..12,

@@ -24,7 +24,7 @@ from pygls.protocol import default_converter
 
 SESSIONS = sorted((Path(__file__).parent / "sessions").glob("*.jsonl"))
 
-#: Answers that differ are recorded anew.
+#: Answers that differ are recorded again.
 UPDATES = os.environ.get("UPDATE_EXPECT") == "1"
 
 #: Clients of which there must be a session.

@@ -1,4 +1,4 @@
-//! A program and its drawing: an edit of either says anew what is unlike in both.
+//! A program and its drawing: an edit of either says again what is unlike in both.
 
 use crate::support::{Client, capabilities};
 use serde_json::{Value, json};

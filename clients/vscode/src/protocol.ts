@@ -385,7 +385,7 @@ export interface Settings {
    */
   correction?: number;
   /**
-   * Diameter of the wire, mm. With `gap` it says the correction where no `correction` is set: half the diameter + gap; when one of the two is set the other has its default there. Beside `correction` or `passes.corrections` it says how thick the wire is, see `pass-order`. A later level that sets one of the two and no `correction` says the correction anew.
+   * Diameter of the wire, mm. With `gap` it says the correction where no `correction` is set: half the diameter + gap; when one of the two is set the other has its default there. Beside `correction` or `passes.corrections` it says how thick the wire is, see `pass-order`. A later level that sets one of the two and no `correction` sets the correction again.
    */
   wireDiameter?: number;
   /**
@@ -717,7 +717,7 @@ export interface MillingSettings {
    */
   wearCompensation?: WearCompensation;
   /**
-   * Way after which `linear` feeds anew, mm.
+   * Way after which `linear` feeds again, mm.
    */
   step?: number;
   /**

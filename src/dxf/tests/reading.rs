@@ -368,7 +368,7 @@ fn the_frame_of_a_text_is_no_contour() {
         &[expected[0], expected[1], contour],
         &[],
     );
-    // After edits of the text and of the frame it is as if read afresh.
+    // After edits of the text and of the frame it is as if read from scratch.
     let whole = dxf(&format!(
         "{circle} {} {text} {}",
         polyline("A8"),

@@ -86,7 +86,7 @@ impl JoinedCut {
         Some(at)
     }
 
-    /// Names its stretches anew.
+    /// Names its stretches again.
     pub(crate) fn renumber(&mut self, moved: &dyn Fn(usize) -> usize) {
         let parts = self.parts.iter_mut().map(|(stretch, _)| stretch);
         let lines = [&mut self.first_line.0, &mut self.last_line.0];

@@ -95,7 +95,7 @@ impl Trace {
     }
 
     /// The same program as its blocks mean it: every step begins at the intended end of the one before, without the
-    /// drift of a counting machine. Where the program states a place anew, it begins there.
+    /// drift of a counting machine. Where the program states a new place, it begins there.
     pub(crate) fn into_meant(mut self) -> Trace {
         let mut follower = Follower::from(self.start);
         for step in &mut self.steps {
@@ -161,7 +161,7 @@ impl Follower {
         }
     }
 
-    /// Where it begins the next step. The program may state a place anew: the wire was taken there.
+    /// Where it begins the next step. The program may state a new place: the wire was taken there.
     pub(crate) fn begin(&mut self, step: &Step) -> Point {
         self.at += step.start - self.stands;
         self.stands = step.end;

@@ -1,4 +1,4 @@
-// The live picture: made anew after each edit, and in step with the cursor in both directions.
+// The live picture: made again after each edit, and in step with the cursor in both directions.
 
 import * as vscode from "vscode";
 import { LSPErrorCodes, ResponseError } from "vscode-languageclient/node";
