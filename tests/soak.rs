@@ -19,7 +19,7 @@ use serde_json::{Value, json};
 use std::time::{Duration, Instant};
 use support::{Client, capabilities};
 
-/// What the tests of the project take: so long, or so many steps.
+/// What the tests of the project take: this long, or this many steps.
 const SECONDS: u64 = 60;
 const STEPS: u64 = 1_300;
 

@@ -35,7 +35,7 @@ pub(super) struct Splice {
     right: usize,
     /// Those between, in the order in which they are gone.
     new: Vec<Element>,
-    /// Where the end of the contour lies among them, so many come before it.
+    /// Where the end of the contour lies among them, that many come before it.
     before_the_end: Option<usize>,
 }
 
@@ -159,7 +159,7 @@ fn changed(kept: &Kept, count: usize) -> Option<(usize, usize)> {
 }
 
 impl Stretch {
-    /// Lays so many walls that have changed, with those about them.
+    /// Lays this many walls that have changed, with those about them.
     fn laid(walls: &[Wall], first: usize, changed: usize, joining: &Joining) -> Option<Stretch> {
         let count = changed + 2 * ABOUT;
         let some = (first..first + count).map(|wall| walls[wall % walls.len()]);

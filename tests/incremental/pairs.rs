@@ -6,7 +6,7 @@ use wedm::finding::Rule;
 /// One corner: how far it stands out, and the bulge after it.
 type Corner = (f64, f64);
 
-/// What an edit does at a corner: takes so many away, and puts others there.
+/// What an edit does at a corner: takes this many away, and puts others there.
 type Change = (usize, usize, Vec<Corner>);
 
 fn corner() -> impl Strategy<Value = Corner> {

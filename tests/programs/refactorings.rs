@@ -48,7 +48,7 @@ fn hash(bytes: &[u8]) -> u64 {
     })
 }
 
-/// What is selected: nothing, and so everything; a block by the cursor, up to so many; some lines.
+/// What is selected: nothing, and so everything; a block by the cursor, up to that many; some lines.
 fn selections(program: &program::Document, most: usize) -> Vec<(String, Range<usize>)> {
     let text = program.text();
     let lines: BTreeSet<usize> = program

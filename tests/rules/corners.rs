@@ -150,7 +150,7 @@ fn joints_that_are_nearly_tangent() {
     check(&closed(&SQUARE), None, Rule::NearTangent, 0, true);
 }
 
-/// A slot's end of a half turn, as so many chords.
+/// A slot's end of a half turn, as this many chords.
 pub(crate) fn chords(number: usize) -> Shape {
     let corner = |at: usize| {
         let angle = PI * at as f64 / number as f64 - PI / 2.0;

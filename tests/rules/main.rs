@@ -185,7 +185,7 @@ fn drawings(shape: &Shape, role: Option<Role>) -> Vec<Drawing> {
         .collect()
 }
 
-/// Asserts that the rule sees so many places however the shape is drawn, and, one at a time, that its fixes let them go where
+/// Asserts that the rule sees this many places however the shape is drawn, and, one at a time, that its fixes let them go where
 /// `fixable` says so, leaving nothing worse behind.
 fn check(shape: &Shape, role: Option<Role>, rule: Rule, expected: usize, fixable: bool) {
     for (way, mut drawing) in drawings(shape, role).into_iter().enumerate() {

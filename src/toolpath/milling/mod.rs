@@ -59,7 +59,7 @@ impl Electrode {
 /// The next step of the electrode on its way along a contour. Ways count from the entry of the contour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Step {
-    /// It is fed to so many mm below the surface.
+    /// It is fed to this many mm below the surface.
     Feed(f64),
     /// It goes along the contour; back where `to` lies before `from`.
     Along { from: f64, to: f64 },
@@ -91,7 +91,7 @@ impl Layers {
         }
     }
 
-    /// No more blocks than these are written for the layers along a way of so many pieces.
+    /// No more blocks than these are written for the layers along a way of this many pieces.
     pub(crate) fn blocks(&self, pieces: usize) -> usize {
         let feeds = match self.electrode.compensation {
             WearCompensation::Linear => self.length / self.electrode.step,
