@@ -55,7 +55,7 @@ pub enum ProofError {
     Refused(String),
     /// The same for one place of the drawing.
     Unwritable(Box<Finding>),
-    /// The program was not wanted any more.
+    /// The program was no longer wanted.
     Cancelled,
 }
 

@@ -134,7 +134,7 @@ fn what_is_not_open_is_read_from_disk_and_read_anew() {
     );
     open(&mut client, &uri_of(&drawing), "dxf", &plate(0.05));
     unlike(&mut client, &uri_of(&drawing), 2);
-    // Nothing of the text stands open on disk any more.
+    // Nothing of the text is open on disk any more.
     std::fs::write(&program, "").unwrap();
     changed(&mut client, &program);
     unlike(&mut client, &uri_of(&drawing), 0);
