@@ -23,7 +23,7 @@ fn at_cursor(text: &str) -> (Document, usize) {
 fn says(text: &str, expected: &[&str]) {
     let (document, offset) = at_cursor(text);
     let said = hover(&document, offset)
-        .unwrap_or_else(|| panic!("nothing is said about {text}"))
+        .unwrap_or_else(|| panic!("nothing is reported about {text}"))
         .text;
     for expected in expected {
         assert!(
