@@ -1,4 +1,4 @@
-//! What an editor is told of a place: hovers, hints, completions, symbols, forms of blocks.
+//! What an editor is told about a place: hovers, hints, completions, symbols, forms of blocks.
 
 declare! {
     // of drawings and programs

@@ -1,4 +1,4 @@
-//! What the server answers, and what stands in a picture.
+//! What the server answers, and what is written in a picture.
 
 declare! {
     the_document_has_changed_meanwhile => "the document has changed in the meantime";
