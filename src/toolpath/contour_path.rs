@@ -136,7 +136,7 @@ impl Job<'_> {
         self.laid_within(walls, own, along, Known::default())
     }
 
-    /// The path along a contour, proved; `walls` have the wire on the side of that sign. That of an open one runs from beside the begin of
+    /// The path along a contour, proved; `walls` have the wire on the side of that sign. That of an open one runs from beside the beginning of
     /// the first wall to beside the end of the last. What is `known` is not looked at again.
     pub(super) fn laid_within(
         &self,

@@ -65,7 +65,7 @@ proptest! {
         for (geometry, layer) in start {
             drawing.push(on_layer(geometry, layer));
         }
-        // A pair that is there from the begin.
+        // A pair that is there from the beginning.
         for (layer, by) in [(1, 0.0), (2, 0.05)] {
             let (low, high) = (-10.0 - by, -4.0 + by);
             let vertices = [(low, low), (high, low), (high, high), (low, high)];

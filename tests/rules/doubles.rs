@@ -176,7 +176,7 @@ fn closed_outlines_that_lie_on_each_other_are_doubles() {
             true,
         ),
         (
-            "a vertex more at the begin",
+            "a vertex more at the beginning",
             with(0, (0.0, 2.0, 0.0)),
             polyline(&l),
             true,

@@ -1270,7 +1270,7 @@ export interface MilledContour {
    */
   wearOfLayer: number;
   /**
-   * What each layer is fed at its begin.
+   * What each layer is fed at its beginning.
    */
   feed: number;
   /**
