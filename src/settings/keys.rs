@@ -287,7 +287,7 @@ tables! {
         begin: Vec<String> = [] => lines;
         /// Word that says where the control finds the correction of the first pass; that of the second has the next number.
         register: String = "D1" => word;
-        /// Lines before each contour. `{side}` is G41 or G42, `{register}` where the correction of the pass stands; a line with `{side}` is
+        /// Lines before each contour. `{side}` is G41 or G42, `{register}` where the correction of the pass is; a line with `{side}` is
         /// left out where the offset is in the coordinates.
         #[serde(alias = "contour-begin")]
         contour_begin: Vec<String> = [] => lines;

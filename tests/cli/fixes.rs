@@ -83,7 +83,7 @@ fn what_cannot_be_repaired_is_said_and_the_rest_is_repaired() {
         &[
             "!1 arc repaired",
             "!not repaired: both.dxf:",
-            "!which is damaged: mend that first",
+            "!which is damaged: repair that first",
         ],
     );
     check(&desk, "inspect fixed.dxf --output json", 1, &["0.101"]);

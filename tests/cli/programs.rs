@@ -323,7 +323,7 @@ fn a_pair_is_held_in_each_other_and_its_programs_are_written_once() {
     desk.write("tight_fillet-plate.3b", "mine");
     let again = desk.run(&format!("pair tight_fillet.dxf {thin}"));
     assert!(
-        again.code == Some(2) && again.stderr.contains("it is there already"),
+        again.code == Some(2) && again.stderr.contains("it already exists"),
         "{again:?}"
     );
     assert_eq!(desk.read("tight_fillet-plate.3b"), b"mine");
@@ -337,7 +337,7 @@ fn a_pair_is_held_in_each_other_and_its_programs_are_written_once() {
         missing.code == Some(2)
             && missing
                 .stderr
-                .contains("says nothing without pair.clearance"),
+                .contains("has no effect without pair.clearance"),
         "{missing:?}"
     );
     let missing = desk.run("fit tight_fillet.dxf");

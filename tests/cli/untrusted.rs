@@ -284,13 +284,13 @@ mod unix {
             &desk,
             "check zero.dxf",
             2,
-            &["!zero.dxf: it holds more than 268435456 bytes"],
+            &["!zero.dxf: it has more than 268435456 bytes"],
         );
         check(
             &desk,
             "check clean.dxf --config zero.toml",
             2,
-            &["!zero.toml: it holds more than"],
+            &["!zero.toml: it has more than"],
         );
         check(&desk, "check null.3b", 0, &[]);
         make_pipe(&desk, "pipe.dxf");

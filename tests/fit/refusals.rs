@@ -67,7 +67,7 @@ fn settings_that_contradict_each_other_are_named_at_their_key() {
     check(
         "[pair]\ndrawn-as = \"plate\"\n",
         "drawn-as",
-        "says nothing without pair.clearance",
+        "has no effect without pair.clearance",
     );
     check(
         "side = \"auto\"\n[pair]\ndrawn-as = \"plate\"\n",
@@ -82,11 +82,11 @@ fn settings_that_contradict_each_other_are_named_at_their_key() {
     check(
         "[pair]\nholder = 0.01\n",
         "holder",
-        "expected pair.drawn-as beside it",
+        "expected pair.drawn-as as well",
     );
     check(
         "[workpieces]\nA = [\"X\"]\nB = [\"X\"]\n",
         "workpieces",
-        "the layer X is of the workpieces A and B",
+        "the layer X belongs to the workpieces A and B",
     );
 }

@@ -175,7 +175,7 @@ fn nothing_alike_is_one_information() {
     assert!(
         unlike(&mut client, &program, 1)[0]
             .1
-            .starts_with("nothing of it is like plate.dxf")
+            .starts_with("nothing in it matches plate.dxf")
     );
     unlike(&mut client, &drawing, 1);
     client.shut_down();

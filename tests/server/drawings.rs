@@ -140,7 +140,7 @@ fn a_change_that_cannot_apply_changes_nothing_and_asks_for_the_drawing() {
         json!([{ "handle": "L", "entity": { "handle": "L", "type": "circle", "center": [0, 0], "radius": -1 } }]),
         "radius is -1",
     );
-    check(2, json!([{ "handle": "L" }]), "neither or both");
+    check(2, json!([{ "handle": "L" }]), "both or neither");
     check(1, json!([good]), "version 1 is not newer than 1");
     check(0, json!([good]), "version 0 is not newer than 1");
     check(2, json!("no list"), "does not apply");

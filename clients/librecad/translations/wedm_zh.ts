@@ -16,7 +16,7 @@
         <translation>修复中含有此插件画不出的内容，未作任何修改。</translation>
     </message>
     <message>
-        <source>LibreCAD has kept something else than the repair: press Undo, and repair the saved file with &quot;wedm fix&quot;.</source>
+        <source>LibreCAD has kept something other than the repair: press Undo, and repair the saved file with &quot;wedm fix&quot;.</source>
         <translation>LibreCAD 保存的与修复内容不符：请撤销，再用“wedm fix”修复已保存的文件。</translation>
     </message>
 </context>
@@ -98,7 +98,7 @@
         <translation>没有画出切割路线。</translation>
     </message>
     <message>
-        <source>what stands there cannot take it, write it there yourself</source>
+        <source>what is there cannot take it, write it there yourself</source>
         <translation>文件中已有的写法容不下它，请自行写入</translation>
     </message>
     <message>

@@ -782,7 +782,7 @@ export interface ProfileSettings {
    */
   register?: string;
   /**
-   * Lines before each contour. `{side}` is G41 or G42, `{register}` where the correction of the pass stands; a line with `{side}` is left out where the offset is in the coordinates.
+   * Lines before each contour. `{side}` is G41 or G42, `{register}` where the correction of the pass is; a line with `{side}` is left out where the offset is in the coordinates.
    */
   contourBegin?: string[];
   /**

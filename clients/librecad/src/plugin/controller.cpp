@@ -272,7 +272,7 @@ void Controller::connectSession()
             m_hole.takeBack();
             post([](Session &session) { session.reloadSettings(); });
         }
-        holeKept(holds ? QString() : tr("what stands there cannot take it, write it there yourself"));
+        holeKept(holds ? QString() : tr("what is there cannot take it, write it there yourself"));
     });
     connect(m_session, &Session::inspected, this, [this](const QString &uri, int, const QSharedPointer<Inspection> &inspection) {
         if (OpenDrawing *open = m_drawings.find(uri)) {

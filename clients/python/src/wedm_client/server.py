@@ -456,7 +456,7 @@ class Server:
         lines = document._lines() if isinstance(document, TextDocument) else None
         meant = [one for one in published.diagnostics if diagnostic_from_json(one, lines) == diagnostic]
         if not meant:
-            raise Outdated(f"the finding does not stand in version {document.version} of {document.uri}", CONTENT_MODIFIED)
+            raise Outdated(f"the finding is not in version {document.version} of {document.uri}", CONTENT_MODIFIED)
         found = self._offered(document, meant[0]["range"], meant[:1], "quickfix")
         return sorted(found, key=lambda action: not action.preferred)
 

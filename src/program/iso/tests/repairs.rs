@@ -51,7 +51,7 @@ fn what_can_be_repaired_is_repaired_and_the_finding_goes() {
     );
     check(
         "arc-off-radius",
-        "Put the sign",
+        "Correct the sign",
         &off("G03 X-6. Y3. I2. J-4."),
         &off("G03 X-6. Y3. I-2. J-4."),
     );
