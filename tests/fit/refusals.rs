@@ -57,7 +57,7 @@ fn settings_that_contradict_each_other_are_named_at_their_key() {
     check(
         "[pair]\ndrawn-as = \"punch\"\nclearance = 0.01\n",
         "clearance",
-        "expected wire-diameter and gap beside it",
+        "expected wire-diameter and gap as well",
     );
     check(
         "wire-diameter = 0.2\ngap = 0.01\n[pair]\nclearance = 0.01\n",
