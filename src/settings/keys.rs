@@ -276,7 +276,7 @@ tables! {
         full_circles: bool = false => truth;
         /// True: G00 to G03 and coordinates that have not changed are left out.
         modal: bool = false => truth;
-        /// Between the words of a block.
+        /// Spaces between the words of a block.
         spaces: bool = true => truth;
         /// Step of the N numbers; 0 for none.
         numbers: u32 = 0_u32 => whole in Range::of(0.0, 1000.0);

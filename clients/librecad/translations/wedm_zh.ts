@@ -54,7 +54,7 @@
         <translation>线切割</translation>
     </message>
     <message numerus="yes">
-        <source>%n mark(s) taken away.</source>
+        <source>%n mark(s) removed.</source>
         <translation>
             <numerusform>已清除 %n 个标记。</numerusform>
         </translation>
@@ -145,7 +145,7 @@
 <context>
     <name>wedm::Drawing</name>
     <message>
-        <source>entity %1 is no polyline</source>
+        <source>entity %1 is not a polyline</source>
         <translation>图元 %1 不是多段线</translation>
     </message>
     <message>
@@ -432,7 +432,7 @@
         <translation>%1 拒绝启动：%2</translation>
     </message>
     <message>
-        <source>%1 is no wedm server (it calls itself &quot;%2&quot;). Choose the right program with the button &quot;Server…&quot;.</source>
+        <source>%1 is not a wedm server (it calls itself &quot;%2&quot;). Choose the right program with the button &quot;Server…&quot;.</source>
         <translation>%1 不是 wedm 服务器（它自称“%2”）。请用“服务器…”按钮选择正确的程序。</translation>
     </message>
     <message>

@@ -762,7 +762,7 @@ export interface ProfileSettings {
    */
   modal?: boolean;
   /**
-   * Between the words of a block.
+   * Spaces between the words of a block.
    */
   spaces?: boolean;
   /**

@@ -137,7 +137,7 @@ async function answer(error: unknown, how: How, ask: () => Promise<Sides | undef
 
 function told(generated: Program, format: Format): string {
   const blocks = generated.blocks === 1 ? t("1 block") : t("{0} blocks", generated.blocks);
-  const path = t("cut {0} mm, jumps {1} mm, decoded again at most {2} µm beside it", generated.length.toFixed(1), (generated.jumps ?? 0).toFixed(1), generated.deviation.toFixed(2));
+  const path = t("cut {0} mm, jumps {1} mm, decoded again at most {2} µm from the path", generated.length.toFixed(1), (generated.jumps ?? 0).toFixed(1), generated.deviation.toFixed(2));
   // A drift that rounds to zero has no sign.
   const [x, y] = [generated.closure.x, generated.closure.y].map((drift) => (Math.round(drift * 100) / 100 + 0).toFixed(2));
   const drift = ENDINGS[format][0] === "iso" ? "" : t("; a controller that counts J drifts by {0}, {1} µm", x ?? "", y ?? "");
