@@ -21,7 +21,7 @@ use wedm::toolpath::plan;
 
 const CORRECTION: f64 = 0.1;
 
-/// Of so many runs the least counts, and of fewer where these would take longer than so long.
+/// Of this many runs the least counts, and of fewer where these would take longer than this long.
 const RUNS: usize = 15;
 const LONGEST: Duration = Duration::from_secs(4);
 

@@ -186,7 +186,7 @@ fn large_session(name: &str, text: &str, rounds: usize) {
     let mut edits = Edits::default();
     for _ in 0..rounds {
         version += 1;
-        // A digit behind the decimal point: the one entity moves a little.
+        // A digit after the decimal point: the one entity moves a little.
         let (end, new) = if version % 2 == 0 {
             (dot + 1, "1")
         } else {

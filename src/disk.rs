@@ -323,7 +323,7 @@ mod tests {
     #[cfg(unix)]
     #[test]
     fn what_has_no_end_is_read_up_to_the_cap() {
-        let sentence = "it holds more than 1000 bytes, expected at most so many";
+        let sentence = "it has more than 1000 bytes, expected at most that many";
         assert_eq!(
             read_path_at_most(Path::new("/dev/zero"), 1000),
             Err(sentence.into())
@@ -377,7 +377,7 @@ mod tests {
         std::fs::rename(&other, &path).unwrap();
         assert_eq!(
             replace(&path, Some(&seen), b"new"),
-            Err("it is not the file any more that was read, nothing is changed".into())
+            Err("it is no longer the file that was read, nothing is changed".into())
         );
     }
 

@@ -1,4 +1,4 @@
-//! What no person writes and a file may hold all the same: padding, numbers and heaps beyond all measure. Nothing panics, and the
+//! What no person writes and a file may hold all the same: padding, numbers and heaps of absurd size. Nothing panics, and the
 //! work stays bounded.
 
 use std::fmt::Write;

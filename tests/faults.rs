@@ -75,7 +75,7 @@ impl Tally {
     }
 }
 
-/// Puts every kind of fault into so many programs of a group, and hands out how each came out.
+/// Puts every kind of fault into this many programs of a group, and hands out how each came out.
 fn run(group: Group, seed: u64, programs: usize, each: &mut dyn FnMut(&str, &Faulty, &Verdict)) {
     let mut chance = Chance::of_seed(seed);
     let mut taken = 0;

@@ -1,8 +1,8 @@
 //! A model-based soak: random edits of many documents of all kinds against the real server, every offered action and refactoring
 //! applied. Whatever happens, no answer is an internal error, the finding of a fix goes, no fix brings an error, memory and latency stay
-//! flat, and in the end the server says what one says that is opened afresh.
+//! flat, and in the end the server says what one says that is opened from scratch.
 //!
-//! A seed makes one sequence of steps; how far it goes hangs on the time. For hours, with other seeds:
+//! A seed makes one sequence of steps; how far it goes depends on the time. For hours, with other seeds:
 //! `WEDM_SOAK_SEED=7 WEDM_SOAK_SECONDS=3600 cargo test --test soak -- --nocapture`.
 
 #[allow(dead_code, reason = "others use the rest")]
@@ -19,7 +19,7 @@ use serde_json::{Value, json};
 use std::time::{Duration, Instant};
 use support::{Client, capabilities};
 
-/// What the tests of the project take: so long, or so many steps.
+/// What the tests of the project take: this long, or this many steps.
 const SECONDS: u64 = 60;
 const STEPS: u64 = 1_300;
 
@@ -423,7 +423,7 @@ impl Soak {
         }
     }
 
-    /// What is said of a document is what is said of it where it is opened afresh.
+    /// What is said of a document is what is said of it where it is opened from scratch.
     fn compare(&mut self, at: usize) {
         let mut model = self.models[at].clone();
         model.version = 1;

@@ -186,12 +186,12 @@ fn an_arc_that_narrows_needs_its_correction_and_the_height() {
     let told = said(&with_corner(1.5, "G41 D1\nG51 A2."), &settings);
     assert_eq!(
         told[0].2,
-        "arc R 1.500 mm is below 1.517 mm: under a taper of 2.000° it narrows by 1.397 mm up to the other plane, and the wire needs its correction beside that"
+        "arc R 1.500 mm is below 1.517 mm: under a taper of 2.000° it narrows by 1.397 mm up to the other plane, and the wire needs its correction in addition"
     );
     // The program's own table says the correction.
     let own = with_corner(1.55, "H1=0.2\nG41 H1\nG51 A2.");
     assert_eq!(said(&own, &settings).len(), 1);
-    // What is followed is no matter of the machine any more.
+    // What is followed is no longer left to the machine.
     let document = read(&with_corner(1.6, "G41 D1\nTP0. TN40.\nG51 A2."), &settings);
     assert_eq!(document.findings(&settings, usize::MAX).0, []);
     // An outer arc that widens, and a program that does not lean, have room.
@@ -298,7 +298,7 @@ proptest! {
     }
 }
 
-/// A block that leads only the upper end elsewhere is no block that stands twice, and is not deleted.
+/// A block that leads only the upper end elsewhere is no block that is repeated, and is not deleted.
 #[test]
 fn a_block_that_moves_only_the_upper_end_is_not_doubled() {
     let settings = settings("");

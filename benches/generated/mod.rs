@@ -39,7 +39,7 @@ pub fn polylines(bytes: usize) -> String {
     polylines_while(|_, length| length < bytes)
 }
 
-/// DXF of so many such openings, of eight vertices each.
+/// DXF of this many such openings, of eight vertices each.
 pub fn polylines_of(openings: usize) -> String {
     polylines_while(|i, _| i < openings)
 }
@@ -75,7 +75,7 @@ pub fn lines_and_arcs(bytes: usize) -> String {
     lines_and_arcs_while(|_, length| length < bytes)
 }
 
-/// DXF of so many such openings, of eight entities each.
+/// DXF of this many such openings, of eight entities each.
 pub fn lines_and_arcs_of(openings: usize) -> String {
     lines_and_arcs_while(|i, _| i < openings)
 }
@@ -174,7 +174,7 @@ pub fn zigzag(count: usize) -> String {
     text
 }
 
-/// A 3B program that runs the same two squares round, one within the other, as often as makes so many blocks.
+/// A 3B program that runs the same two squares round, one within the other, as often as makes that many blocks.
 pub fn three_b_round(blocks: usize) -> String {
     let mut text = String::with_capacity(blocks * 26);
     for round in 0..blocks / 4 {
@@ -220,7 +220,7 @@ pub fn iso_holes(blocks: usize) -> String {
 }
 
 /// The places of a die opening cut to and fro in three passes from a stop before its tab on, and of the way back to the
-/// thread hole behind the stop, in mm.
+/// thread hole after the stop, in mm.
 fn before_tab() -> (Vec<[i64; 2]>, [[i64; 2]; 2]) {
     let pass = [[2, 0], [12, 0], [12, 10], [2, 10], [2, 3]];
     let back = pass.iter().rev().skip(1).copied();

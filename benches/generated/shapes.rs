@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
-/// One drawing by what is in it, and the text of so many segments of it.
+/// One drawing by what is in it, and the text of this many segments of it.
 pub struct Shape {
     pub name: &'static str,
     pub text: fn(usize) -> String,

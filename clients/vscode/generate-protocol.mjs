@@ -65,6 +65,6 @@ ${types}`;
 if (!process.argv.includes("--check")) {
   await writeFile(TARGET, text);
 } else if ((await readFile(TARGET, "utf8")) !== text) {
-  console.error("src/protocol.ts is not that of docs/protocol.schema.json; make it anew with: npm run protocol");
+  console.error("src/protocol.ts is not that of docs/protocol.schema.json; make it again with: npm run protocol");
   process.exitCode = 1;
 }

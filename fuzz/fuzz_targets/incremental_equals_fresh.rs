@@ -1,4 +1,4 @@
-//! After any edits a document is as if it were opened afresh: DXF text, and a drawing that a CAD program sends.
+//! After any edits a document is as if it were opened from scratch: DXF text, and a drawing that a CAD program sends.
 
 #![no_main]
 

@@ -1,5 +1,5 @@
 //! Bytes as an ISO program: reading, findings, fixes and the trace end whatever they are, every place lies in the text, and a document
-//! that was edited is the one read afresh.
+//! that was edited is the one read from scratch.
 
 #![no_main]
 

@@ -1,5 +1,5 @@
 //! Bytes as a 3B program: reading, rules, fixes and the trace end whatever they are, every place lies in the text, and a document that
-//! was edited is the one read afresh.
+//! was edited is the one read from scratch.
 
 #![no_main]
 

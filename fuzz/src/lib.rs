@@ -7,7 +7,7 @@ use wedm::finding::{Finding, Fix, Place};
 use wedm::program::path::Trace;
 use wedm::text::{SourceText, TextEdit};
 
-/// An input of two parts: a text, and behind the first byte 0 what is done with it. A text without such a byte stands alone, so
+/// An input of two parts: a text, and after the first byte 0 what is done with it. A text without such a byte stands alone, so
 /// that a plain file is an input, too.
 pub fn text_and_script(data: &[u8]) -> (&[u8], &[u8]) {
     match data.iter().position(|&byte| byte == 0) {

@@ -54,7 +54,7 @@ use suppressed::Judged;
 
 /// Up to this many touched places are checked one by one, however small the drawing is.
 const FEW: usize = 16;
-/// Above this many split contours, if they are a good part of all, the drawing is analysed afresh.
+/// Above this many split contours, if they are a good part of all, the drawing is analysed from scratch.
 const MANY: usize = 256;
 
 /// What is known of one drawing under one set of settings.

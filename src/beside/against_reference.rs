@@ -131,7 +131,7 @@ struct Words {
     are_same: bool,
     /// The difference of one of the numbers, where all else is equal, µm.
     apart: Option<f64>,
-    /// The same for the coordinates behind the block.
+    /// The same for the coordinates after the block.
     stated: f64,
 }
 
@@ -257,7 +257,7 @@ impl<'a> Pairs<'a> {
                 Some(apart) if own.is_lost && is_in_our_words => Some(apart),
                 _ => own.motion.away_from(&meant.motion, from, is_behind),
             };
-            // Behind a block that is lost or superfluous the next one may be of another kind.
+            // After a block that is lost or superfluous the next one may be of another kind.
             let away = away.or(pair.behind_gap.then_some(0.0))?;
             // J of a circle is off by four times what its radius is; where it is wrong, so is the end.
             let arc = meant.segment().and_then(Segment::as_arc);
@@ -300,7 +300,7 @@ impl<'a> Pairs<'a> {
                 continue;
             }
             if words.are_same {
-                // The same words mean something else behind a block that ends elsewhere, or under another mode.
+                // The same words mean something else after a block that ends elsewhere, or under another mode.
                 if !is_behind {
                     return None;
                 }
@@ -317,7 +317,7 @@ impl<'a> Pairs<'a> {
                 number - last <= FEW && is_elsewhere
                     || last + 1 == number && self.are_exchanged(last)
             });
-            // What moves a way by more, or by less, than what lies behind it is another hole, and no change of a contour.
+            // What moves a way by more, or by less, than what lies after it is another hole, and no change of a contour.
             let is_aside = !is_of_contour && !self.moves_on(number, from, *off);
             run = Some((number, !self.is_placed(number, from), is_aside));
             // A move and its return are one change, and so are two exchanged blocks.
@@ -449,7 +449,7 @@ impl<'a> Pairs<'a> {
         moved.is_some_and(|place| self.reference.is_on_wall(place - from, ROUNDED))
     }
 
-    /// Behind this block, or one of the next few, the program is where it should be.
+    /// After this block, or one of the next few, the program is where it should be.
     fn comes_back(&self, number: usize, from: Vector) -> bool {
         (number..number + FEW).any(|number| self.is_placed(number, from))
     }

@@ -42,7 +42,7 @@ pub(super) fn anchor(traced: &Traced, rounds: &Rounds) -> Option<Placement> {
     found_by(traced, rounds, &walk, &tried)
 }
 
-/// Other possible places of the program: one wrong block moves everything behind it, which may be most of the program.
+/// Other possible places of the program: one wrong block moves everything after it, which may be most of the program.
 pub(super) fn others(traced: &Traced, rounds: &Rounds, placement: &Placement) -> Vec<Placement> {
     let still = Placement::at(Vector::zeros());
     let walk = Walk::new(traced, rounds, still);
@@ -68,7 +68,7 @@ fn cuts(traced: &Traced, among: Range<usize>) -> Vec<usize> {
     among.filter(is_cut).take(TRIED).collect()
 }
 
-/// The first contour decides: a wrong one moves what comes behind.
+/// The first contour decides: a wrong one moves what comes after.
 fn found_by(traced: &Traced, rounds: &Rounds, walk: &Walk, tried: &[usize]) -> Option<Placement> {
     let still = Placement::at(Vector::zeros());
     let mut best: Option<(usize, Found, usize)> = None;
@@ -105,7 +105,7 @@ fn refined(traced: &Traced, rounds: &Rounds, found: Found, index: usize) -> Plac
         let Some(reached) = placement.follow(rounds, traced, next, &spot, &found.spot) else {
             break;
         };
-        // Behind an arc the places of a program that counts have drifted.
+        // After an arc the places of a program that counts have drifted.
         let drifts = traced.counts && block.as_arc().is_some();
         let (Some(further), true, false) = (reached.spot, reached.whole, drifts) else {
             break;

@@ -21,7 +21,7 @@ const ONE: f64 = 2.0;
 /// The most corrections that are returned.
 const TOLD: usize = 5;
 
-/// A segment with the turns before and behind it.
+/// A segment with the turns before and after it.
 #[derive(Clone, Debug)]
 struct Turned {
     segment: Segment,
@@ -181,7 +181,7 @@ fn turned(segments: &[Segment], closed: bool) -> Vec<Turned> {
     (0..count.min(ASKED)).map(at).collect()
 }
 
-/// The correction from a block, if it runs beside a segment or round the corner behind it; µm.
+/// The correction from a block, if it runs beside a segment or round the corner after it; µm.
 fn vote(own: &Turned, block: &Turned) -> Option<f64> {
     let (along, run) = (&own.segment, &block.segment);
     let turned = turn(along.start_tangent(), run.start_tangent()).abs();
@@ -225,7 +225,7 @@ mod tests {
         })
     }
 
-    /// The same with neighbours that its votes may hang on.
+    /// The same with neighbours that its votes may depend on.
     fn turned_segment() -> impl Strategy<Value = Turned> {
         (segment(), -1.5..1.5, -1.5..1.5).prop_map(|(segment, before, behind)| Turned {
             segment,

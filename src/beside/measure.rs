@@ -245,7 +245,7 @@ pub(super) fn leads(traced: &Traced, correction: f64) -> Vec<(f64, Option<f64>)>
     lengths.sort_by(|one, other| other.total_cmp(one));
     lengths.dedup_by(|one, other| (*one - *other).abs() <= 2.0);
     lengths.truncate(LEADS);
-    // Passes behind the first come nearer to the wall.
+    // Passes after the first come nearer to the wall.
     lengths.extend(first);
     lengths.dedup();
     let is_offset = traced.blocks.iter().any(|block| block.is_offset);

@@ -146,7 +146,7 @@ fn name_in(comment: &str) -> Option<String> {
         (!behind.is_some_and(char::is_alphanumeric)).then_some(end)
     });
     let named = comment.get(..ends.min()?)?;
-    // A name with spaces stands behind a word and a colon.
+    // A name with spaces stands after a word and a colon.
     let label = named.find([':', '=']).filter(|at| !is_drive(named, *at));
     let name = match label {
         Some(at) => &named[at + 1..],

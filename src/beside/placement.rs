@@ -28,7 +28,7 @@ pub(super) struct Placement {
 /// The result of following a block.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reached {
-    /// Behind the block; `None` at the end of an open round.
+    /// After the block; `None` at the end of an open round.
     pub spot: Option<Spot>,
     /// It ends at the end of a piece, not within one.
     pub whole: bool,
@@ -96,7 +96,7 @@ impl Placement {
         self.exact
     }
 
-    /// The same where everything behind is moved by this much more.
+    /// The same where everything after is moved by this much more.
     pub(super) fn moved(&self, by: Vector) -> Placement {
         let by = if self.on_grid { by.map(f64::round) } else { by };
         Placement {
@@ -179,7 +179,7 @@ impl Placement {
         Some(reached)
     }
 
-    /// Moves to the node behind a block: the counted position differs, which is no fault of the following blocks.
+    /// Moves to the node after a block: the counted position differs, which is no fault of the following blocks.
     fn stand(
         &mut self,
         rounds: &Rounds,
@@ -386,7 +386,7 @@ impl Placement {
     }
 }
 
-/// The rest of a spot's piece, up to `entry` where that lies ahead on it; and the spot behind that.
+/// The rest of a spot's piece, up to `entry` where that lies ahead on it; and the spot after that.
 pub(super) fn stretch(rounds: &Rounds, spot: &Spot, entry: &Spot) -> (Segment, Option<Spot>) {
     let rest = rounds.rest(spot);
     let same = (spot.round, spot.piece, spot.back) == (entry.round, entry.piece, entry.back);

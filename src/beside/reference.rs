@@ -156,7 +156,7 @@ fn written(
         Format::Iso | Format::Milling => Language::Iso,
         Format::ThreeB | Format::FourB => Language::ThreeB,
     };
-    // Where the wire is taken by hand, the coordinates behind blocks show it.
+    // Where the wire is taken by hand, the coordinates after blocks show it.
     let is_taken = settings.jumps == Jumps::None && settings.layout == Layout::Checking;
     if notes.steps.len() <= LONG || is_taken || !paths.iter().all(returns) {
         let document = Document::read(language, text.into_bytes(), settings);
@@ -177,7 +177,7 @@ fn of_notes(notes: Notes, text: String, language: Language, settings: &Effective
     Traced::of_trace(trace, &SourceText::new(text.into_bytes()), traits)
 }
 
-/// The wire comes back to its thread hole: each stop behind such a path stands between two contours.
+/// The wire comes back to its thread hole: each stop after such a path stands between two contours.
 fn returns(path: &WirePath) -> bool {
     !path.segments.is_empty() && !path.cut_off && !path.is_open() && path.begin() == path.end()
 }

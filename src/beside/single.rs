@@ -12,7 +12,7 @@ use super::{REACH, TOLERANCE};
 use crate::geometry::{Arc, Point, Segment, Vector};
 use std::f64::consts::TAU;
 
-/// Blocks before and behind a named one that are tried, and the blocks that all tries together may read.
+/// Blocks before and after a named one that are tried, and the blocks that all tries together may read.
 const ABOUT: usize = 3;
 const MOST: usize = 60_000;
 /// The most pieces that one block may stand for, and how far apart they may lie as one line or arc, µm.
@@ -90,7 +90,7 @@ pub(super) fn single(
                     fuel -= 1;
                     let repaired = repaired(traced, index, meant, by, how);
                     let miss = match how {
-                        // Where the program lies may have been found behind the change.
+                        // Where the program lies may have been found after the change.
                         How::Relative => miss(&repaired, placement)
                             .or_else(|| miss(&repaired, placement.moved(by))),
                         _ => miss(&repaired, placement),
@@ -158,7 +158,7 @@ fn meant_by(
     is_lost: bool,
     placement: &Placement,
 ) -> Option<(Segment, Vector)> {
-    // In a program that counts from block to block, a change moves either what lies behind it or, seen from there, what
+    // In a program that counts from block to block, a change moves either what lies after it or, seen from there, what
     // lies before it.
     let aside = own.start() - placement.program(stretch.start());
     let aside = if aside.norm() > NODE {
@@ -178,7 +178,7 @@ fn meant_by(
     (is_alike && by.norm() >= LEAST).then_some((meant, by))
 }
 
-/// How the blocks behind a changed end continue.
+/// How the blocks after a changed end continue.
 #[derive(Clone, Copy, PartialEq)]
 enum How {
     /// Counted from there: it is moved.

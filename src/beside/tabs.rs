@@ -77,7 +77,7 @@ pub(super) fn tabs(
             }
         }
     }
-    // Its transitions are no pieces of the path, but all of a tab is cut in one pass behind its stop.
+    // Its transitions are no pieces of the path, but all of a tab is cut in one pass after its stop.
     if traced.four_b {
         lengths.extend(
             traced
@@ -219,7 +219,7 @@ impl Walls {
     }
 }
 
-/// Where a cut reaches its wall: with its first block, or with one of the next, behind an arc that leads there.
+/// Where a cut reaches its wall: with its first block, or with one of the next, after an arc that leads there.
 fn entry(
     traced: &Traced,
     contour: &Range<usize>,

@@ -27,7 +27,7 @@ pub struct Traced {
     pub(super) mills: bool,
     /// The text, unless it is too long to compare.
     pub(super) text: SourceText,
-    /// Coordinates stand behind blocks.
+    /// Coordinates stand after blocks.
     pub(super) states_ends: bool,
 }
 
@@ -36,7 +36,7 @@ pub(super) struct Traits {
     pub(super) language: Language,
     pub(super) four_b: bool,
     pub(super) mills: bool,
-    /// Coordinates stand behind blocks.
+    /// Coordinates stand after blocks.
     pub(super) states_ends: bool,
 }
 
@@ -137,7 +137,7 @@ impl Traced {
         } = traits;
         let cuts = path::cuts(&trace);
         let cuts = cuts.iter().filter(|cut| !cut.is_way);
-        // A cut that does not return to its start may be a part of a contour that is cut before or behind.
+        // A cut that does not return to its start may be a part of a contour that is cut before or after.
         let cuts = cuts.map(|cut| {
             let contour = cut.contour_steps();
             let is_one = cut.closed || contour.len() > 2 * BETWEEN;
@@ -201,7 +201,7 @@ impl Traced {
         })
     }
 
-    /// The bytes of a block, and of coordinates behind it in its line.
+    /// The bytes of a block, and of coordinates after it in its line.
     pub(super) fn line_from(&self, block: &Block) -> &[u8] {
         self.text.slice(self.range_from(block)).unwrap_or_default()
     }

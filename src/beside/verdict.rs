@@ -75,7 +75,7 @@ pub(super) fn is_told(traced: &Traced, told: &Told) -> bool {
     // Where so few blocks agree, none supports the guess; and a slight difference may come from a tenth of a micrometre
     // of a correction.
     let is_slight = |one: &Difference| one.kind == Kind::Block && one.off < SLIGHTLY;
-    // Coordinates that stand behind a block are others where the wire comes from elsewhere.
+    // Coordinates that stand after a block are others where the wire comes from elsewhere.
     let is_of_ways = |one: &Difference| one.kind == Kind::Stated && told.ways > 0;
     // At a stop or an end another tab, overlap or hole is as likely, but none of them loses a block or leaves each in its place.
     let may_be_set = told.strays && !told.has_gap;

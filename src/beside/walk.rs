@@ -1,7 +1,7 @@
 //! Walks along a program and the rounds of its drawing at once.
 //!
 //! A run follows a round from where the program reaches it. A block that does not follow is named, and the run goes on
-//! behind it from the program's position, or from where it returns to the drawing: one change is one difference. The
+//! after it from the program's position, or from where it returns to the drawing: one change is one difference. The
 //! ways to and from a run are not checked. A run that ends before its contour waits for the end: a tab may be cut
 //! later.
 
@@ -39,7 +39,7 @@ pub enum Kind {
     Foreign,
     /// A way in or out, or between contours, of a program that is otherwise ours.
     Lead,
-    /// The coordinates behind a block of such a program differ from its end.
+    /// The coordinates after a block of such a program differ from its end.
     Stated,
 }
 
@@ -80,7 +80,7 @@ struct Run {
 #[derive(Debug)]
 struct Loose {
     run: Run,
-    /// The first block behind it, or its last one where there is no other.
+    /// The first block after it, or its last one where there is no other.
     block: usize,
     is_behind: bool,
     placement: Placement,

@@ -7,7 +7,7 @@ told! {
 
     /// Too much lies on or across each other: `count` stretches of contours were not compared with their neighbours.
     Pairs { count: usize } => say!(thousands_of_entities_lie_on_each_other, count);
-    /// The offset of so many contours crosses itself too often to find out what it loses: the correction is much larger than their segments.
+    /// The offset of this many contours crosses itself too often to find out what it loses: the correction is much larger than their segments.
     Offsets { contours: usize } => say!(the_correction_is_so_large_beside_the_segments, contours);
     /// Too much of a contour of this many blocks lies in one place: not all crossings were looked for.
     Crossings { blocks: usize } => say!(so_much_of_the_way_lies_on_one_place, blocks);

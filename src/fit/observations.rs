@@ -20,7 +20,7 @@ impl Observations {
     }
 }
 
-/// An edge that stands too far out, by indices and places: whose segments these are is told anew each time.
+/// An edge that stands too far out, by indices and places: whose segments these are is told again each time.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Verdict {
     pub edge: u32,

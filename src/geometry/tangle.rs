@@ -2,7 +2,7 @@
 
 use super::{Bounds, Point, Segment, left_normal};
 
-/// A look is a distance of a point from a segment; one for so many candidates that an index hands out.
+/// A look is a distance of a point from a segment; one for this many candidates that an index hands out.
 const CANDIDATES_OF_A_LOOK: u64 = 4;
 /// Two pieces that meet are cut there, and what is left of them is measured again.
 const LOOKS_OF_A_MEETING: u64 = 16;

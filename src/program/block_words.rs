@@ -11,7 +11,7 @@ pub(crate) struct BlockWords {
     words: Vec<u8>,
     /// Lengths, µm where they have a point or are in µm anyway.
     numbers: Vec<f64>,
-    /// Coordinates that stand behind the block, µm.
+    /// Coordinates that stand after the block, µm.
     pub(crate) stated: Option<[f64; 2]>,
 }
 
@@ -85,7 +85,7 @@ impl BlockWords {
         self.numbers.iter().all(|number| *number == 0.0)
     }
 
-    /// The same words and numbers, whatever stands behind them.
+    /// The same words and numbers, whatever stands after them.
     pub(crate) fn is_like(&self, other: &BlockWords) -> bool {
         self.words == other.words && self.numbers == other.numbers
     }

@@ -27,7 +27,7 @@ pub(in crate::program) trait ChunkReader: Sync {
     /// The state before the first line.
     fn begin(&self) -> Self::State;
 
-    /// Goes through lines; returns the state behind them.
+    /// Goes through lines; returns the state after them.
     fn run(
         &self,
         text: &SourceText,
@@ -43,10 +43,10 @@ pub(in crate::program) trait ChunkReader: Sync {
 
     fn after(chunk: &Self::Chunk) -> Self::State;
 
-    /// The reading of a line depends on no more than this many behind it.
+    /// The reading of a line depends on no more than this many after it.
     const REACH: usize = 0;
 
-    /// The number of lines behind its own on which the reading of a chunk depends.
+    /// The number of lines after its own on which the reading of a chunk depends.
     fn ahead(_: &Self::Chunk) -> usize {
         0
     }
@@ -231,7 +231,7 @@ impl<C: Send + Sync> Chunks<C> {
 }
 
 impl<C> Chunks<C> {
-    /// The place of a chunk; empty behind the last.
+    /// The place of a chunk; empty after the last.
     pub(crate) fn place(&self, chunk: usize) -> Lines {
         self.places.get(chunk).cloned().unwrap_or_default()
     }

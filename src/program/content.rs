@@ -45,7 +45,7 @@ impl Language {
     }
 }
 
-/// The text behind `N12` or `N12:`.
+/// The text after `N12` or `N12:`.
 fn without_number(line: &[u8]) -> &[u8] {
     let Some(rest) = line.strip_prefix(b"N") else {
         return line;

@@ -20,7 +20,7 @@ pub(in crate::program) trait Followed: HasCuts<Cut: Clone> {
 
     fn begin(&self, cut: &Self::Cut) -> PartAt;
 
-    /// Where the cut behind it begins.
+    /// Where the cut after it begins.
     fn behind(&self, cut: &Self::Cut) -> PartAt;
 
     /// The contour that an open cut forms with the cuts after its stops; `None` where it need not

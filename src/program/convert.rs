@@ -85,7 +85,7 @@ pub struct Cuts {
 
 /// The cuts of a program, in the order of the machine, one for each of its contours.
 ///
-/// Where a 3B program has coordinates behind its blocks, the nodes are those; else they are where the machine stops.
+/// Where a 3B program has coordinates after its blocks, the nodes are those; else they are where the machine stops.
 pub fn cuts(document: &Document) -> Cuts {
     let trace = document.trace();
     let spans = path::cuts(&trace);
@@ -442,7 +442,7 @@ fn polyline(segments: &[Segment], closed: bool) -> Option<Geometry> {
     (vertices.len() >= 2).then_some(Geometry::Polyline { closed, vertices })
 }
 
-/// The coordinates behind the blocks of a 3B program, µm, by the byte at which the block begins.
+/// The coordinates after the blocks of a 3B program, µm, by the byte at which the block begins.
 fn stated_ends(document: &Document) -> FxHashMap<usize, Point> {
     let Document::ThreeB(program) = document else {
         return FxHashMap::default();

@@ -193,7 +193,7 @@ impl Document {
         (!edits.is_empty()).then_some(edits)
     }
 
-    /// True where coordinates stand behind blocks.
+    /// True where coordinates stand after blocks.
     pub(crate) fn states_ends(&self) -> bool {
         match self {
             Document::ThreeB(document) => document.stated_ends().next().is_some(),
@@ -279,7 +279,7 @@ impl Document {
         Some((held, cut, nth))
     }
 
-    /// The first stop behind a byte.
+    /// The first stop after a byte.
     pub(crate) fn stop_behind(&self, offset: usize) -> Option<Range<usize>> {
         steps::stop_behind(self.program(), offset)
     }

@@ -1,4 +1,4 @@
-//! The numbers of blocks in any language: all written anew, left out, and set by a fix.
+//! The numbers of blocks in any language: all rewritten, left out, and set by a fix.
 //!
 //! ```text
 //! B9900B0B9900GXL1      →     N1 B9900B0B9900GXL1          M98 P7            M98 P40
@@ -16,7 +16,7 @@ use std::ops::Range;
 
 /// A block as far as its number goes.
 pub(super) struct NumberedBlock {
-    /// Its first byte behind the number, or that of its line.
+    /// Its first byte after the number, or that of its line.
     pub(super) start: usize,
     /// The word that numbers it.
     pub(super) word: Option<Range<usize>>,
@@ -28,7 +28,7 @@ pub(super) struct NumberedBlock {
 
 /// A program whose blocks can be numbered. Errors are lower-case and have no final dot.
 pub(super) trait Numbers: Program {
-    /// The first number and the step, where all blocks are numbered anew.
+    /// The first number and the step, where all blocks are renumbered.
     const STEP: u32;
 
     /// Its blocks in the order of the text; an error where a word of it may name blocks by their numbers.
@@ -73,7 +73,7 @@ pub(super) fn numbered<P: Numbers>(program: &P) -> Result<Vec<TextEdit>, String>
     Ok(program.text().changing(program.followed(edits, &given)))
 }
 
-/// The edits that remove all numbers that are not called, with the space behind them.
+/// The edits that remove all numbers that are not called, with the space after them.
 pub(super) fn without_numbers(program: &impl Numbers) -> Result<Vec<TextEdit>, String> {
     let blocks = program.blocks()?.into_iter();
     let words = blocks.filter(|block| !block.is_called);
@@ -103,7 +103,7 @@ pub(super) fn renamed(
     Ok(edits)
 }
 
-/// The fixes of a number: the one of the block's turn, where that is known, and all blocks numbered anew, from the
+/// The fixes of a number: the one of the block's turn, where that is known, and all blocks renumbered, from the
 /// `first` number on by a step.
 pub(super) fn fixes(
     own: Option<(u32, TextEdit)>,

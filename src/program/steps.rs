@@ -21,7 +21,7 @@ pub(crate) trait Program: Sync {
     /// The machine's start, µm, the origin by default; and whether the program gives it.
     fn begin(&self) -> (Point, bool);
 
-    /// The first unreadable line: the position behind it depends on what was meant.
+    /// The first unreadable line: the position after it depends on what was meant.
     fn unread_line(&self) -> Option<usize>;
 
     fn chunk_count(&self) -> usize;
@@ -152,7 +152,7 @@ pub(crate) fn cut_before(program: &dyn Program, offset: usize) -> Option<CutStep
     Some(held)
 }
 
-/// The first stop behind a byte.
+/// The first stop after a byte.
 pub(crate) fn stop_behind(program: &dyn Program, offset: usize) -> Option<Range<usize>> {
     let line = program.text().line_of(offset);
     let mut walk = Walk::through(program);

@@ -5,7 +5,7 @@ use super::steps::Program;
 use crate::geometry::{Point, Vector};
 use std::ops::Range;
 
-/// The machine's position before a place of the text, and behind the block there, mm.
+/// The machine's position before a place of the text, and after the block there, mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Stand {
     pub(crate) start: Point,
@@ -15,7 +15,7 @@ pub(crate) struct Stand {
 /// Answers for several places: the last chunk read is kept.
 pub(crate) struct Whereabouts<'a> {
     program: &'a dyn Program,
-    /// Behind this line the position is unknown; it is only searched for when needed.
+    /// After this line the position is unknown; it is only searched for when needed.
     lost: Option<usize>,
     chunk: Option<usize>,
     steps: Vec<Step>,

@@ -55,7 +55,7 @@ pub enum ProofError {
     Refused(String),
     /// The same for one place of the drawing.
     Unwritable(Box<Finding>),
-    /// The program was not wanted any more.
+    /// The program was no longer wanted.
     Cancelled,
 }
 
@@ -125,7 +125,7 @@ pub(crate) trait Writer {
     /// A path begins at `first`. `from` is the program's position, `None` before the first path: the wire must be taken
     /// there.
     fn begin(&mut self, from: Option<Node>, first: Node, path: &WirePath) -> Proved;
-    /// Pieces of the path, one behind the other.
+    /// Pieces of the path, one after the other.
     fn pieces(&mut self, pieces: &[Piece]) -> Proved;
     /// The path ends at `last`; it is closed where both its ends coincide. `goes_on`: after a stop the next one
     /// continues it from here.

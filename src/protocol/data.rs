@@ -29,7 +29,7 @@ pub(crate) struct FindingData {
     pub(crate) segment: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) radius: Option<f64>,
-    /// The correction that the radius is held against.
+    /// The correction that the radius is compared with.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) required: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -282,15 +282,15 @@ mod tests {
         let polyline = |vertices: Value| json!([{ "handle": "2A", "type": "polyline", "closed": true, "vertices": vertices }]);
         check(
             polyline(json!([[0, 0], [1, null]])),
-            "entity 2A: vertex 1 is not of finite numbers",
+            "entity 2A: vertex 1 has a number that is not finite",
         );
         check(
             polyline(json!([["NaN", 0], [1, 2]])),
-            "entity 2A: vertex 0 is not of finite numbers",
+            "entity 2A: vertex 0 has a number that is not finite",
         );
         check(
             polyline(json!([[0, 0, null], [1, 2]])),
-            "entity 2A: vertex 0 is not of finite numbers",
+            "entity 2A: vertex 0 has a number that is not finite",
         );
         check(polyline(json!([[0], [1, 2]])), "[x, y] or [x, y, bulge]");
         check(polyline(json!([[0, 1, 2, 3]])), "[x, y] or [x, y, bulge]");
@@ -311,7 +311,7 @@ mod tests {
             "entity 1: type is \"spline\"",
         );
         let line = json!({ "handle": "7", "type": "line", "start": [0, 0], "end": [1, 0] });
-        check(json!([line, line]), "handle 7 stands twice");
+        check(json!([line, line]), "handle 7 is repeated");
     }
 
     #[test]

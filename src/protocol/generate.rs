@@ -27,7 +27,7 @@ pub(crate) struct Generate {
     /// Laid over every other level of settings for this request.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) options: Option<Settings>,
-    /// Make the program although errors stand in the drawing.
+    /// Make the program although the drawing has errors.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) force: Option<bool>,
 }
@@ -47,7 +47,7 @@ impl Closure {
     }
 }
 
-/// Result of `wedm/generate`: a program that has been decoded again and held against its path.
+/// Result of `wedm/generate`: a program that has been decoded again and compared with its path.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
 pub(crate) struct Program {

@@ -21,7 +21,7 @@ pub(crate) enum CorrectionSource {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
 pub(crate) struct SettingsInForce {
-    /// mm; what radii are held against: the largest of `corrections`.
+    /// mm; what radii are compared with: the largest of `corrections`.
     pub(crate) correction: f64,
     /// mm; that of each pass.
     pub(crate) corrections: Vec<f64>,
@@ -30,7 +30,7 @@ pub(crate) struct SettingsInForce {
     /// URI of the `wedm.toml` that holds for the document, where there is one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) file: Option<String>,
-    /// What is said of single contours of this drawing, by handle or by a point.
+    /// Settings of single contours of this drawing, by handle or by a point.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub(crate) contours: BTreeMap<String, ContourSettings>,
 }

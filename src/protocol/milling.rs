@@ -33,7 +33,7 @@ pub(crate) struct MilledContour {
     pub length: f64,
     /// K: by how much the electrode gets shorter in a layer, as a share of its height.
     pub wear_of_layer: f64,
-    /// What each layer is fed at its begin.
+    /// What each layer is fed at its beginning.
     pub feed: f64,
     /// What the last one is.
     pub(crate) last_feed: f64,

@@ -168,7 +168,7 @@ pub(crate) struct RepairsOf {
     pub(crate) segment: Option<usize>,
 }
 
-/// Result of `wedm/repairs`: the preferred one first; none where the finding is not there any more.
+/// Result of `wedm/repairs`: the preferred one first; none where the finding is no longer there.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub(crate) struct Repairs {
     pub(crate) repairs: Vec<Repair>,

@@ -55,7 +55,7 @@ pub(crate) struct SimulatedBlock {
     pub(crate) sweep: Option<f64>,
     /// Index of the contour; a pause is between two of them.
     pub(crate) contour: usize,
-    /// Where the wire's upper end stands behind the block; not there where that is where the machine stops.
+    /// Where the wire's upper end is after the block; not there where that is where the machine stops.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) upper_end: Option<Point>,
 }

@@ -124,7 +124,7 @@ impl Wanted {
 
 impl State {
     /// Answers a request by `work`: at once where the document is small, else on a worker. An answer about a document
-    /// that has changed meanwhile is dropped.
+    /// that has changed in the meantime is dropped.
     pub(crate) fn answer<T: Send + 'static>(
         &mut self,
         asked: Asked,

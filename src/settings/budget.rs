@@ -15,7 +15,7 @@ pub struct Budget {
 }
 
 impl Budget {
-    /// The looks at a drawing of so many segments.
+    /// The looks at a drawing of this many segments.
     pub(crate) fn granted(&self, segments: usize) -> u64 {
         let of_segments = self.looks_of_a_segment.saturating_mul(segments as u64);
         self.looks.saturating_add(of_segments)

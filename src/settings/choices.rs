@@ -53,7 +53,7 @@ choices! {
         Compact,
         /// Fixed columns with spaces.
         Aligned,
-        /// Aligned, with block number and the absolute end point in mm behind the block.
+        /// Aligned, with block number and the absolute end point in mm after the block.
         Checking,
     }
 
@@ -102,7 +102,7 @@ choices! {
         /// other the way has a corner, where there is room for one.
         #[default]
         Perpendicular,
-        /// Along an arc that is tangent to the path, on the wire's side, behind a straight piece that is tangent to the arc. Its radius is
+        /// Along an arc that is tangent to the path, on the wire's side, after a straight piece that is tangent to the arc. Its radius is
         /// a third of the lead, halved until it fits, and not below the correction.
         Arc,
     }

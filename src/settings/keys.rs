@@ -24,7 +24,7 @@ const ARC_FIT: Range = Range::of(1e-6, 0.1);
 /// Digits of controllers: with fewer than four nothing larger than a millimetre could be cut.
 const DIGITS: Range = Range::of(4.0, 9.0);
 
-/// Digits behind the point of millimetres: from micrometres to nanometres.
+/// Digits after the decimal point of millimetres: from micrometres to nanometres.
 const DECIMALS: Range = Range::of(3.0, 6.0);
 
 /// Distances after which an electrode is fed: no machine goes finer than a micrometre.
@@ -41,14 +41,14 @@ tables! {
     Settings() {
         /// Wire radius + spark gap, mm. It says how far the wire's centre runs from the contour.
         correction: f64 = 0.10 => number in Range::ABOVE_ZERO;
-        /// Diameter of the wire, mm. With `gap` it says the correction where no `correction` is set: half the diameter + gap; when one of the
-        /// two is set the other has its default there. Beside `correction` or `passes.corrections` it says how thick the wire is, see
-        /// [`pass-order`](rules/pass-order.md). A later level that sets one of the two and no `correction` says the correction anew.
+        /// Diameter of the wire, mm. With `gap` it gives the correction where no `correction` is set: half the diameter + gap; when one of the
+        /// two is set the other has its default there. Together with `correction` or `passes.corrections` it says how thick the wire is, see
+        /// [`pass-order`](rules/pass-order.md). A later level that sets one of the two and no `correction` sets the correction again.
         #[serde(alias = "wire-diameter")]
         wire_diameter: f64 = 0.18 => number in Range::ABOVE_ZERO;
         /// Spark gap, mm. See `wire-diameter`.
         gap: f64 = 0.01 => number in Range::FROM_ZERO;
-        /// Where the wire runs, for contours of which neither the entity nor its layer says.
+        /// Where the wire runs, for contours whose entity and layer do not say.
         side: SideSetting = SideSetting::Both => name;
         /// Unit of drawings that do not say.
         units: UnitSetting = UnitSetting::Mm => name;
@@ -67,17 +67,17 @@ tables! {
         /// [`unsupported-entity`](rules/unsupported-entity.md).
         linetypes: BTreeMap<String, Role> => roles;
         /// Role of the contour that holds an entity, by the entity's handle, before layers and colours. Handles are those of one drawing:
-        /// in a `wedm.toml` that holds for several they mean each one's own entity of that name.
+        /// in a `wedm.toml` that applies to several they mean each one's own entity of that name.
         contours: BTreeMap<String, Role> => roles;
         /// Role of what is drawn in a colour, by itself or by its layer, where neither entity nor layer has one. Colours are `red`, `yellow`,
         /// `green`, `cyan`, `blue`, `magenta`, `white`, `1` to `255` (AutoCAD colour index), `#rrggbb`; in DXF.
         colors: BTreeMap<String, Role> => colors;
-        /// What is said of one drawing, by the name of its file: `[drawings."plate.dxf".suppress.2A]`.
+        /// Settings of one drawing, by the name of its file: `[drawings."plate.dxf".suppress.2A]`.
         drawings: BTreeMap<String, DrawingSettings> => tables;
         /// How near the arcs lie to the ellipses and splines that they stand for, mm.
         #[serde(alias = "arc-fit")]
         arc_fit: f64 = 0.001 => number in ARC_FIT;
-        /// Severity of a rule, by its name. What is set here holds also where a case would be milder; the defaults stand on
+        /// Severity of a rule, by its name. What is set here applies even where a case would be milder; the defaults are on
         /// [each rule's page](rules/).
         rules: BTreeMap<String, RuleSeverity> => rules;
         /// Address of the page of a rule, such as `https://edm.example/rules/{rule}.html`: `{rule}` stands for its name. Findings link there.
@@ -93,25 +93,25 @@ tables! {
         /// Milling by an electrode.
         milling: MillingSettings => table;
         /// Parts that are drawn in one place and never meet in one rule, each by its name with the layers it is drawn on; what is on no layer
-        /// of them is a part of its own. With `pair.clearance`, parts are held against each other:
+        /// of them is a part of its own. With `pair.clearance`, parts are compared with each other:
         /// [`does-not-fit`](rules/does-not-fit.md).
         workpieces: BTreeMap<String, Vec<String>> => layers_by_name;
         /// [Profiles](programs.md#profiles) of ISO programs of your own, by name.
         profiles: BTreeMap<String, ProfileSettings> => tables;
     }
 
-    /// What is said of one drawing.
+    /// Settings of one drawing.
     DrawingSettings() {
-        /// Findings that somebody has looked at and lets stand, by the handle of the entity at which they are told and the name of the
+        /// Findings that somebody has looked at and lets stand, by the handle of the entity at which they are reported and the name of the
         /// rule, with the reason: [suppressions](rules/README.md#suppressions).
         suppress: BTreeMap<String, BTreeMap<String, String>> => reasons;
-        /// What is said of one contour, by the handle of an entity of it or by a point of it: `[drawings."plate.dxf".contours.2A]`,
+        /// Settings of one contour, by the handle of an entity of it or by a point of it: `[drawings."plate.dxf".contours.2A]`,
         /// `[drawings."plate.dxf".contours."12.5,40"]`, in [its own keys](programs.md#one-contour). It comes before `contours`,
         /// `program.thread`, `program.entry` and `program.order`.
         contours: BTreeMap<String, ContourSettings> => tables;
     }
 
-    /// What is said of one contour of one drawing. Points are in drawing units.
+    /// Settings of one contour of one drawing. Points are in drawing units.
     ContourSettings() {
         /// Where the wire runs.
         side: Role => name;
@@ -126,7 +126,7 @@ tables! {
 
     /// Corrections of a multi-pass cut.
     Passes() {
-        /// Correction of each pass from rough to finish, mm, in place of `correction`: a program cuts each contour so often. They fall:
+        /// Correction of each pass from rough to finish, mm, in place of `correction`: a program cuts each contour that often. They decrease:
         /// [`pass-order`](rules/pass-order.md).
         corrections: Vec<f64> => numbers in Range::ABOVE_ZERO;
         /// Spark gap of each pass, mm. Not set: `gap` for all.
@@ -136,7 +136,7 @@ tables! {
         /// Words of an ISO program that say where the control finds the correction of each pass. Not set: the profile's `register` for the
         /// first pass, its number counted on for the others.
         registers: Vec<String> => words;
-        /// What each pass cuts in a minute, mm²/min: length × `job.thickness` / rate is its time. Not set: nothing is said of times.
+        /// What each pass cuts in a minute, mm²/min: length × `job.thickness` / rate is its time. Not set: no times are reported.
         rates: Vec<f64> => numbers in Range::ABOVE_ZERO;
         /// What the passes after the first make of a corner that the wire runs inside of. With `constant-stock` the last one leaves a
         /// radius there, the difference of the first and the last correction added to the wire's: [`sharp-corner`](rules/sharp-corner.md).
@@ -160,7 +160,7 @@ tables! {
         /// part's side, or within the correction of the contour, is not the hole but the entry beside it.
         thread: PointSetting => point_setting;
         /// Point `[x, y]` of the contour where the cut begins, in drawing units. A table has them by handle. Else the point beside an "O"
-        /// that means it, under `as-picked` the begin of the entity picked first, the point nearest to the thread hole, else the middle of
+        /// that means it, under `as-picked` the beginning of the entity picked first, the point nearest to the thread hole, else the middle of
         /// the longest line, else the point of the longest arc with the largest x, or its middle.
         entry: PointSetting => point_setting;
         /// Length of the lead from thread hole to the wire's path where no thread hole is given, mm. Halved until it fits. Not set: the hole
@@ -172,7 +172,7 @@ tables! {
         /// too. 0: none. A table by handle says it for each contour by itself; those that it does not name keep none.
         tab: LengthSetting => length_setting in Range::FROM_ZERO;
         /// Diameter of the start holes, mm. Where no thread hole is given it is proposed where such a hole keeps the correction and 0.1 mm
-        /// from every contour; one that does not is said: [`start-hole`](rules/start-hole.md). The drill list is made by `wedm holes`.
+        /// from every contour; one that does not is reported: [`start-hole`](rules/start-hole.md). The drill list is made by `wedm holes`.
         #[serde(alias = "start-hole")]
         start_hole: f64 => number in Range::ABOVE_ZERO;
         /// How the wire comes from the thread hole to its path and goes back.
@@ -185,15 +185,15 @@ tables! {
         closing_overlap: f64 = 0.0 => number in Range::FROM_ZERO;
         /// Order of the contours; what lies within one always comes before it.
         order: Order = Order::InsideFirst => name;
-        /// What stands between the contours of one program.
+        /// What comes between the contours of one program.
         jumps: Jumps = Jumps::Blocks => name;
         /// Where the correction is applied.
         compensation: Compensation = Compensation::Path => name;
         /// Digits of the controller's numbers in 3B and 4B. Longer blocks are split when they are written, and a fault
-        /// ([`too-many-digits`](rules/too-many-digits.md)) where they stand.
+        /// ([`too-many-digits`](rules/too-many-digits.md)) where they are read.
         digits: u8 = 6 => whole in DIGITS;
-        /// In what the numbers of an ISO program are that does not say so (G20, G21). Not set: mm, and a hint ([`units`](rules/units.md))
-        /// where its size speaks for inches.
+        /// Unit of the numbers of an ISO program that does not state it (G20, G21). Not set: mm, and a hint ([`units`](rules/units.md))
+        /// where its size suggests inches.
         units: UnitSetting => name;
         /// The drawing that programs belong to, from their own folder on, which they are compared with:
         /// [`not-the-drawing`](rules/not-the-drawing.md). Not set: the one that a comment of the program names, else the DXF of the same name.
@@ -233,8 +233,8 @@ tables! {
         holder: f64 => number in Range::FROM_ZERO;
     }
 
-    /// Milling by a cylindrical electrode that wears while it erodes, layer by layer: [milling](programs.md#milling). Where nothing is said of
-    /// a wire, a drawing is judged for the electrode: half its diameter + `milling.gap` is the correction then.
+    /// Milling by a cylindrical electrode that wears while it erodes, layer by layer: [milling](programs.md#milling). Where no wire
+    /// is set, a drawing is judged for the electrode: half its diameter + `milling.gap` is the correction then.
     MillingSettings() {
         /// Diameter of the electrode, mm.
         #[serde(alias = "tool-diameter")]
@@ -250,7 +250,7 @@ tables! {
         /// How the feed makes up for the wear of the electrode.
         #[serde(alias = "wear-compensation")]
         wear_compensation: WearCompensation = WearCompensation::Uniform => name;
-        /// Way after which `linear` feeds anew, mm.
+        /// Way after which `linear` feeds again, mm.
         step: f64 => number in MILLING_STEPS;
         /// Whether the round ends of an open slot are counted among what a layer erodes.
         #[serde(alias = "slot-ends")]
@@ -259,7 +259,7 @@ tables! {
 
     /// What somebody has set of a profile.
     ProfileSettings(as Profile, name: String) {
-        /// The profile whose values hold where none is set: one that ships, `generic` by default.
+        /// The profile whose values apply where none is set: one that ships, `generic` by default.
         base: String => base;
         /// G90 or G91.
         coordinates: Coordinates = Coordinates::Absolute => name;
@@ -267,7 +267,7 @@ tables! {
         zero: Zero = Zero::Drawing => name;
         /// Millimetres with a decimal point, or whole micrometres without one.
         unit: NumberUnit = NumberUnit::Mm => name;
-        /// Digits behind the point of millimetres.
+        /// Digits after the decimal point of millimetres.
         decimals: u8 = 3 => whole in DECIMALS;
         /// How I and J lead to an arc's centre.
         center: CenterRule = CenterRule::StartToCenter => name;
@@ -276,18 +276,18 @@ tables! {
         full_circles: bool = false => truth;
         /// True: G00 to G03 and coordinates that have not changed are left out.
         modal: bool = false => truth;
-        /// Between the words of a block.
+        /// Spaces between the words of a block.
         spaces: bool = true => truth;
         /// Step of the N numbers; 0 for none.
         numbers: u32 = 0_u32 => whole in Range::of(0.0, 1000.0);
         /// What ends a line.
         #[serde(alias = "line-end")]
         line_end: LineEnd = LineEnd::Lf => name;
-        /// Lines before everything. `{x}` and `{y}` are the place where the wire is threaded first.
+        /// Lines before everything else. `{x}` and `{y}` are the place where the wire is threaded first.
         begin: Vec<String> = [] => lines;
         /// Word that says where the control finds the correction of the first pass; that of the second has the next number.
         register: String = "D1" => word;
-        /// Lines before each contour. `{side}` is G41 or G42, `{register}` where the correction of the pass stands; a line with `{side}` is
+        /// Lines before each contour. `{side}` is G41 or G42, `{register}` where the correction of the pass is; a line with `{side}` is
         /// left out where the offset is in the coordinates.
         #[serde(alias = "contour-begin")]
         contour_begin: Vec<String> = [] => lines;

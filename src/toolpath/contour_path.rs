@@ -25,7 +25,7 @@ use std::sync::atomic::Ordering::Relaxed;
 /// Walls up to this long, mm, are left out where there is no path otherwise.
 const CRUMB: f64 = 4e-6;
 
-/// Walls up to this long, mm, are left out where a path does not hold its proof otherwise.
+/// Walls up to this long, mm, are left out where a path does not pass its proof otherwise.
 const SPECK: f64 = 4e-5;
 
 /// How a path runs along a contour.
@@ -65,7 +65,7 @@ pub(super) enum Fault {
     Nothing,
     /// There are several places for the wire with no way from one to the other.
     Several { near: Point, wall: usize },
-    /// There is a path, but it does not hold its proof.
+    /// There is a path, but it does not pass its proof.
     Unproved { wall: usize },
 }
 
@@ -136,7 +136,7 @@ impl Job<'_> {
         self.laid_within(walls, own, along, Known::default())
     }
 
-    /// The path along a contour, proved; `walls` have the wire on the side of that sign. That of an open one runs from beside the begin of
+    /// The path along a contour, proved; `walls` have the wire on the side of that sign. That of an open one runs from beside the beginning of
     /// the first wall to beside the end of the last. What is `known` is not looked at again.
     pub(super) fn laid_within(
         &self,
@@ -302,7 +302,7 @@ impl Job<'_> {
         self.vouched(&proof, &raw, path, tipped)
     }
 
-    /// A path, where it holds its proof.
+    /// A path, where it passes its proof.
     fn vouched(
         &self,
         proof: &Proof,

@@ -23,7 +23,7 @@ pub(crate) fn each<Made: Send>(
     all
 }
 
-/// The same behind others.
+/// The same after others.
 pub(super) fn extend<Made: Send>(
     all: &mut Vec<Made>,
     count: usize,
@@ -36,7 +36,7 @@ pub(super) fn extend<Made: Send>(
     }
 }
 
-/// The sum of so many numbers, the same one whatever the cores are.
+/// The sum of this many numbers, the same one whatever the cores are.
 pub(super) fn sum(count: usize, of: impl Fn(usize) -> f64 + Sync + Send) -> f64 {
     let parts = each(count.div_ceil(STEP), 2, |part| {
         let numbers = part * STEP..((part + 1) * STEP).min(count);
@@ -45,7 +45,7 @@ pub(super) fn sum(count: usize, of: impl Fn(usize) -> f64 + Sync + Send) -> f64 
     parts.into_iter().sum()
 }
 
-/// True where that is so for one of so many.
+/// True where that is so for one of this many.
 pub(super) fn any(
     count: usize,
     at_a_time: usize,

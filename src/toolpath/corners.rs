@@ -54,7 +54,7 @@ pub(super) struct Joining {
     pub(crate) tolerance: f64,
 }
 
-/// What is behind an element.
+/// What follows an element.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Joint {
     At(Point),
@@ -79,7 +79,7 @@ pub(super) fn is_roll(key: usize) -> bool {
 }
 
 impl Offsets<'_> {
-    /// The wall behind another.
+    /// The wall after another.
     pub(super) fn behind(&self, wall: usize) -> usize {
         match wall + 1 == self.walls.len() {
             true => 0,
@@ -87,7 +87,7 @@ impl Offsets<'_> {
         }
     }
 
-    /// The way behind a wall.
+    /// The way after a wall.
     pub(super) fn way(&self, wall: usize) -> Way {
         corner(
             self.walls[wall].geometry.end(),
@@ -155,7 +155,7 @@ impl Offsets<'_> {
         })
     }
 
-    /// The directions before and behind the end of a wall.
+    /// The directions before and after the end of a wall.
     fn turn(&self, wall: usize) -> [Vector; 2] {
         [self.tangents[wall][1], self.tangents[self.behind(wall)][0]]
     }
@@ -444,7 +444,7 @@ pub(super) fn between(segment: &Segment, start: Point, end: Point) -> Segment {
     }
 }
 
-/// True where one point of an arc's circle is seen to lie behind the other in its sense: both are on the half of the circle that the middle of
+/// True where one point of an arc's circle is seen to lie after the other in its sense: both are on the half of the circle that the middle of
 /// the arc is on. False says nothing.
 fn is_seen_forward(segment: &Segment, start: Point, end: Point) -> bool {
     let Some(arc) = segment

@@ -17,7 +17,7 @@ use crate::geometry::{Bounds, Segment};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// Where more segments have changed, everything is made anew.
+/// Where more segments have changed, everything is made again.
 const MOST: usize = 64;
 
 /// What has changed in a part.

@@ -10,7 +10,7 @@ use super::loops::Loops;
 use super::offset::Wall;
 use crate::geometry::Point;
 
-/// The walls of an open contour, and behind them the same backwards.
+/// The walls of an open contour, and after them the same backwards.
 pub(super) fn there_and_back(walls: &[Wall]) -> Vec<Wall> {
     let back = walls.iter().rev().map(|wall| Wall {
         geometry: wall.geometry.reversed(),

@@ -403,7 +403,7 @@ mod tests {
             (vec![], [1, 4, 0, 2, 3]),
             (vec![(3, 1)], [3, 1, 4, 0, 2]),
             (vec![(3, 2), (0, 1)], [1, 4, 0, 3, 2]),
-            // A hole may have a place of its own before that, never behind it.
+            // A hole may have a place of its own before that, never after it.
             (vec![(3, 2), (0, 3), (4, 1)], [4, 3, 1, 0, 2]),
             (vec![(4, 9), (0, 3)], [1, 4, 0, 2, 3]),
         ] {

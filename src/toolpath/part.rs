@@ -22,7 +22,7 @@ pub(crate) struct Edge {
     pub geometry: Segment,
     /// Where the wire turned, and left its own radius.
     pub(crate) turned_about: Option<Point>,
-    /// The walls that the path follows before and behind, by index.
+    /// The walls that the path follows before and after, by index.
     walls: [usize; 2],
 }
 
@@ -80,7 +80,7 @@ impl Edge {
 
 impl Part {
     /// The segment of the drawing that an edge stands for at a point of it: of those that the wire does not follow the nearest, else the
-    /// one behind the corner.
+    /// one after the corner.
     pub(crate) fn segment_at(&self, edge: usize, at: Point) -> Option<(EntityId, usize)> {
         let [before, behind] = self.edges[edge].walls;
         let count = self.drawn.len();

@@ -189,7 +189,7 @@ impl Job<'_> {
         Ok(Offset::Beside(wanted, Box::new(unled)))
     }
 
-    /// Where a start hole is to be in an opening of which nothing is said: in the deepest point.
+    /// Where a start hole is to be in an opening for which nothing is set: in the deepest point.
     fn with_proposed(&self, index: usize, wanted: Requested, contours: &Contours) -> Requested {
         let says_nothing = wanted.thread.is_none()
             && wanted.entry.is_none()

@@ -271,7 +271,7 @@ impl Proof<'_> {
             && (piece.length() - raw.length()).abs() <= self.rounding
     }
 
-    /// True for a stretch that is seen to be too near to the wall of the path before or behind it: most is cut off at a corner, by the wall that
+    /// True for a stretch that is seen to be too near to the wall of the path before or after it: most is cut off at a corner, by the wall that
     /// comes next.
     pub(super) fn is_taken(
         &self,

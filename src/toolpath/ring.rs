@@ -47,7 +47,7 @@ pub(super) fn trimmed_from(raw: &Raw, first: usize) -> Option<Pieces> {
 /// The elements round a contour, from which what is used up is taken out.
 struct Ring<'a> {
     raw: &'a Raw<'a>,
-    /// Behind each element.
+    /// After each element.
     joints: Vec<Joint>,
     before: Vec<u32>,
     after: Vec<u32>,
@@ -151,7 +151,7 @@ impl<'a> Ring<'a> {
         (self.count >= 2).then_some(())
     }
 
-    /// The points behind all elements, where they meet the next.
+    /// The points after all elements, where they meet the next.
     fn settle_all(&mut self) {
         let Ring {
             raw,
@@ -173,7 +173,7 @@ impl<'a> Ring<'a> {
         });
     }
 
-    /// The point behind element `index`; where the two do not meet, the shorter one.
+    /// The point after element `index`; where the two do not meet, the shorter one.
     fn settle(&mut self, index: usize) -> Result<Point, usize> {
         let near = match self.joints[index] {
             Joint::At(point) => return Ok(point),

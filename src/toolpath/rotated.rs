@@ -69,7 +69,7 @@ impl Rotated {
         Some(if back { piece.end() } else { piece.start() })
     }
 
-    /// The pieces of it, or of the way back along it, behind a lead. They take the place of the path: a long one is not copied.
+    /// The pieces of it, or of the way back along it, after a lead. They take the place of the path: a long one is not copied.
     pub(super) fn into_segments(
         mut self,
         back: bool,
@@ -133,7 +133,7 @@ mod tests {
     use super::*;
     use crate::drawing::EntityId;
 
-    /// A path that is entered anywhere, gone either way, behind a lead or without, is its pieces in their order.
+    /// A path that is entered anywhere, gone either way, after a lead or without, is its pieces in their order.
     #[test]
     fn the_pieces_are_those_of_the_path_in_the_order_in_which_they_are_gone() {
         let corners = [[0.0, 0.0], [4.0, 0.0], [4.0, 3.0], [1.0, 5.0], [0.0, 3.0]];

@@ -19,7 +19,7 @@ pub(super) struct Rough {
 }
 
 impl Job<'_> {
-    /// The paths of all passes from that of the first, which is there; those behind it are made at once. Only the first where it has none.
+    /// The paths of all passes from that of the first, which is there; those after it are made at once. Only the first where it has none.
     pub(super) fn each_pass(
         &self,
         walls: &[Wall],

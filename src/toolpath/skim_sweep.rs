@@ -155,7 +155,7 @@ impl<'a> Sweep<'a> {
         Some(offsets.roll_between(key / 2, ends, angles))
     }
 
-    /// Where a piece ends, and whether the one behind it is what comes next of all; of both what they are cut from.
+    /// Where a piece ends, and whether the one after it is what comes next of all; of both what they are cut from.
     fn joint(&self, at: usize, whole: &Segment, behind: &Segment) -> Option<(Point, bool)> {
         let (key, next) = (self.key(at), self.key(self.behind(at)));
         let offsets = &self.proof.offsets;
@@ -235,7 +235,7 @@ impl<'a> Sweep<'a> {
         Some(element)
     }
 
-    /// The keys of what is left out behind a piece.
+    /// The keys of what is left out after a piece.
     fn between(&self, at: usize) -> impl Iterator<Item = usize> {
         let (key, next) = (self.key(at), self.key(self.behind(at)));
         let offsets = &self.proof.offsets;
@@ -246,7 +246,7 @@ impl<'a> Sweep<'a> {
         all.filter(|&key| !is_roll(key) || offsets.roll(key / 2).is_some())
     }
 
-    /// True where something is missing at or behind a piece.
+    /// True where something is missing at or after a piece.
     fn is_missing(&self, path: &[Element], at: usize) -> bool {
         let own = [path[at]];
         let (before, behind) = (&path[self.before(at)], &path[self.behind(at)]);

@@ -13,14 +13,14 @@ use super::ring::trimmed_from;
 use crate::geometry::Segment;
 use std::ops::Range;
 
-/// Walls that are laid anew about what has changed.
+/// Walls that are laid again about what has changed.
 const ABOUT: usize = 16;
 
 /// Where the changes spread over more walls, or the contour has hardly more, everything is made
-/// anew.
+/// again.
 const MOST: usize = 128;
 
-/// Some walls that are laid anew, round a contour from the first on.
+/// Some walls that are laid again, round a contour from the first on.
 struct Stretch {
     first: usize,
     count: usize,
@@ -30,12 +30,12 @@ struct Stretch {
 
 /// What stands in the place of some pieces of a path.
 pub(super) struct Splice {
-    /// The pieces before and behind, which stay, by where they were.
+    /// The pieces before and after, which stay, by where they were.
     left: usize,
     right: usize,
     /// Those between, in the order in which they are gone.
     new: Vec<Element>,
-    /// Where the end of the contour lies among them, so many come before it.
+    /// Where the end of the contour lies among them, that many come before it.
     before_the_end: Option<usize>,
 }
 
@@ -92,7 +92,7 @@ impl Splice {
             }));
         };
         match self.before_the_end {
-            // Of the pieces between, those behind the end of the contour come first.
+            // Of the pieces between, those after the end of the contour come first.
             Some(before) => {
                 path.extend(&self.new[before..]);
                 old(self.right..self.left + 1, &mut path);
@@ -155,7 +155,7 @@ fn changed(kept: &Kept, count: usize) -> Option<(usize, usize)> {
 }
 
 impl Stretch {
-    /// Lays so many walls that have changed, with those about them.
+    /// Lays this many walls that have changed, with those about them.
     fn laid(walls: &[Wall], first: usize, changed: usize, joining: &Joining) -> Option<Stretch> {
         let count = changed + 2 * ABOUT;
         let some = (first..first + count).map(|wall| walls[wall % walls.len()]);
@@ -168,7 +168,7 @@ impl Stretch {
             tangents: own.tangents(),
             joining,
         });
-        // What goes may hang on what is looked at first: that of all walls begins with the first wall.
+        // What goes may depend on what is looked at first: that of all walls begins with the first wall.
         let begin = walls
             .len()
             .checked_sub(first)
@@ -189,7 +189,7 @@ impl Stretch {
         self.pieces[piece].1.wall
     }
 
-    /// Which piece it was that stands with its neighbours between what is before and what is behind it, now as before.
+    /// Which piece it was that stands with its neighbours between what is before and what is after it, now as before.
     fn parts_two(&self, kept: &Kept, count: usize, piece: usize) -> Option<usize> {
         let was = |piece: usize| {
             let element = &self.pieces[piece].1;

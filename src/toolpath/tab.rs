@@ -359,7 +359,7 @@ fn reversed(piece: &PathSegment) -> PathSegment {
     }
 }
 
-/// What lies before a point of a way, and what behind it: the last place of the way that is there.
+/// What lies before a point of a way, and what after it: the last place of the way that is there.
 fn split(mut way: Vec<Element>, at: Point, rounding: f64) -> (Vec<Element>, Vec<Element>) {
     let is_there = |element: &Element| element.geometry.distance_to(at) <= rounding;
     let Some(index) = way.iter().rposition(is_there) else {

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-/// Where the numbers of a block stand that are lengths, those behind it in its line among them.
+/// Where the numbers of a block stand that are lengths, those after it in its line among them.
 pub(super) fn lengths(text: &str, block: &Range<usize>) -> Vec<Range<usize>> {
     let line_end = text[block.end..]
         .find('\n')
@@ -29,7 +29,7 @@ pub(super) fn lengths(text: &str, block: &Range<usize>) -> Vec<Range<usize>> {
     found
 }
 
-/// The text with one of its numbers changed by so many µm; `None` where it has no such sign.
+/// The text with one of its numbers changed by this many µm; `None` where it has no such sign.
 pub(super) fn with_number(text: &str, number: &Range<usize>, by: i64) -> Option<String> {
     let own = &text[number.clone()];
     let new = match own.split_once('.') {
@@ -48,7 +48,7 @@ pub(super) fn with_number(text: &str, number: &Range<usize>, by: i64) -> Option<
     Some(text)
 }
 
-/// The text with one block changed by so many µm in X or Y, with what follows from that; `None` where it has none that is large enough.
+/// The text with one block changed by this many µm in X or Y, with what follows from that; `None` where it has none that is large enough.
 pub(super) fn changed(text: &str, block: &Range<usize>, by: i64, axis: usize) -> Option<String> {
     let own = &text[block.clone()];
     let new = if own.trim_start().starts_with(['B', 'b']) {

@@ -306,7 +306,7 @@ fn rows() -> Vec<Row> {
     ]
 }
 
-/// Of what is unchanged nothing is said; where the drawing is found in it, a block in its middle that is changed by 3 µm is named, and no other.
+/// Of what is unchanged nothing is reported; where the drawing is found in it, a block in its middle that is changed by 3 µm is named, and no other.
 #[test]
 fn without_settings_what_a_program_shows_is_taken_for_its_settings() {
     let settings = settings_of("");

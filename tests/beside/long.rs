@@ -29,7 +29,7 @@ fn ring(count: usize) -> Vec<[f64; 3]> {
     (0..count).map(vertex).collect()
 }
 
-/// Where a machine that counts has drifted to behind thousands of arcs is no fault of any of them.
+/// Where a machine that counts has drifted to after thousands of arcs is no fault of any of them.
 #[test]
 fn long_programs_of_short_arcs_follow_their_drawing() {
     for (count, format, keys) in [

@@ -106,7 +106,7 @@ fn traced(text: &str, format: Format, settings: &Effective) -> Traced {
     Traced::of(&program::Document::read(language, text.into(), settings))
 }
 
-/// A plate, its lower right corner moved by so many mm.
+/// A plate, its lower right corner moved by this many mm.
 fn plate(moved: f64) -> [(Shape, Role); 1] {
     let vertices = vec![
         [0.1234, 0.2345, 0.0],

@@ -6,7 +6,7 @@ use wedm::beside::{Drawn, compare};
 use wedm::drawing::Role;
 use wedm::program::Format;
 
-/// Where a guess has another tab than the program, it parts from it before the stop and behind it: that says nothing of the program.
+/// Where a guess has another tab than the program, it parts from it before the stop and after it: that says nothing of the program.
 #[test]
 fn an_unchanged_program_with_a_tab_that_the_settings_do_not_know_has_nothing_said() {
     let written = "correction = 0.137\n[program]\ntab = 2.5\nlead = \"straight\"\n";

@@ -55,7 +55,7 @@ fn rows() -> Vec<Row> {
     rows
 }
 
-/// Neither the side of a contour, nor correction, passes, lead, tab or overlap is known: of an unchanged program nothing is said.
+/// Neither the side of a contour, nor correction, passes, lead, tab or overlap is known: of an unchanged program nothing is reported.
 /// `WEDM_CASES=1 cargo test --test beside without_settings` asks it of every row, else of some.
 #[test]
 fn without_settings_nothing_is_said_of_an_unchanged_program() {
@@ -93,7 +93,7 @@ fn without_settings_nothing_is_said_of_an_unchanged_program() {
     assert!(all > 3 && 2 * followed >= all, "{followed} of {all}");
 }
 
-/// A correction of four places is not guessed to the last of them, nor is an overlap on a circle: of an unchanged program nothing is said.
+/// A correction of four places is not guessed to the last of them, nor is an overlap on a circle: of an unchanged program nothing is reported.
 #[test]
 fn a_correction_of_four_places_and_an_overlap_name_nothing_of_a_circle() {
     let settings = settings_of("");

@@ -110,7 +110,7 @@ fn judge_otherwise(of: &Otherwise, picks: &[(f64, usize, bool)]) -> Vec<(&'stati
     if !whole.differences.is_empty() {
         return vec![("invented", format!("{:?}\n{text}", whole.differences))];
     }
-    // How it was written is not known, and no block of it is held against the drawing.
+    // How it was written is not known, and no block of it is compared with the drawing.
     if whole.follows.is_empty() {
         return vec![("nothing", format!("no block is known\n{text}"))];
     }
@@ -171,7 +171,7 @@ fn judge_otherwise(of: &Otherwise, picks: &[(f64, usize, bool)]) -> Vec<(&'stati
     wrong
 }
 
-/// Programs of which the drawing's settings do not know how they were written: nothing is said of those that are unchanged, of a change
+/// Programs of which the drawing's settings do not know how they were written: nothing is reported about those that are unchanged, of a change
 /// just its own line. `WEDM_CASES=500 cargo test --test beside otherwise -- --nocapture` tells of each that is not so.
 #[test]
 fn programs_that_were_written_otherwise_are_known() {

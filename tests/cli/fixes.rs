@@ -33,7 +33,7 @@ fn a_fix_changes_its_numbers_and_no_other_byte() {
     }
 }
 
-/// What stands twice goes, and is counted beside the arcs.
+/// What is repeated goes, and is counted beside the arcs.
 #[test]
 fn repairs_of_every_rule_are_said() {
     let desk = Desk::new();
@@ -83,7 +83,7 @@ fn what_cannot_be_repaired_is_said_and_the_rest_is_repaired() {
         &[
             "!1 arc repaired",
             "!not repaired: both.dxf:",
-            "!which is damaged: mend that first",
+            "!which is damaged: repair that first",
         ],
     );
     check(&desk, "inspect fixed.dxf --output json", 1, &["0.101"]);

@@ -159,7 +159,7 @@ fn a_program_says_what_it_comes_to() {
     }
     let ended = desk.run("generate plate.dxf -o plate.3b --lang zh");
     assert!(ended.stderr.contains("轮廓 A2 的落料：24.7 g"), "{ended:?}");
-    // What is asked for and cannot be said names its keys; where nothing is asked nothing is said.
+    // What is asked for and cannot be said names its keys; where nothing is asked nothing is reported.
     desk.write("wedm.toml", "side = \"auto\"\n[job]\nthickness = 40\n");
     check(
         &desk,

@@ -150,7 +150,7 @@ fn a_program_in_gb_18030_is_written_as_it_was() {
         });
         behind.collect()
     };
-    let note = "!note: what is not UTF-8 is read as GB 18030, and written so";
+    let note = "!note: what is not UTF-8 is read as GB 18030, and written back as such";
     check(
         &desk,
         "check gb.3b",
@@ -323,7 +323,7 @@ fn a_pair_is_held_in_each_other_and_its_programs_are_written_once() {
     desk.write("tight_fillet-plate.3b", "mine");
     let again = desk.run(&format!("pair tight_fillet.dxf {thin}"));
     assert!(
-        again.code == Some(2) && again.stderr.contains("it is there already"),
+        again.code == Some(2) && again.stderr.contains("it already exists"),
         "{again:?}"
     );
     assert_eq!(desk.read("tight_fillet-plate.3b"), b"mine");
@@ -337,7 +337,7 @@ fn a_pair_is_held_in_each_other_and_its_programs_are_written_once() {
         missing.code == Some(2)
             && missing
                 .stderr
-                .contains("says nothing without pair.clearance"),
+                .contains("has no effect without pair.clearance"),
         "{missing:?}"
     );
     let missing = desk.run("fit tight_fillet.dxf");

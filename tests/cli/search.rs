@@ -116,7 +116,7 @@ fn formats_that_are_not_read_are_named_and_not_skipped() {
         0,
         &[
             "0 files checked",
-            "!warning: nothing is found whose name ends with one of .dxf, ",
+            "!warning: no file is found whose name ends with one of .dxf, ",
         ],
     );
     assert!(!desk.run("check strange").stderr.contains("a.txt"));

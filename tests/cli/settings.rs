@@ -25,7 +25,7 @@ fn a_settings_file_is_begun() {
         assert!(text.contains(&format!("\n{line}\n")), "{line}: {text}");
     }
     assert!(!text.contains("#:schema"), "{text}");
-    check(&desk, begin, 2, &["!it is there already"]);
+    check(&desk, begin, 2, &["!it already exists"]);
     desk.write(
         "work/wedm.schema.json",
         desk.run("config schema").stdout.as_bytes(),

@@ -257,20 +257,20 @@ mod unix {
                 &desk,
                 &format!("format {name} --in-place"),
                 2,
-                &["!it is no regular file"],
+                &["!it is not a regular file"],
             );
             check(
                 &desk,
                 &format!("fix {name} --in-place"),
                 2,
-                &["!it is no regular file"],
+                &["!it is not a regular file"],
             );
         }
         check(
             &desk,
             "fix pipe.dxf --in-place",
             2,
-            &["!it is no regular file"],
+            &["!it is not a regular file"],
         );
     }
 
@@ -284,13 +284,13 @@ mod unix {
             &desk,
             "check zero.dxf",
             2,
-            &["!zero.dxf: it holds more than 268435456 bytes"],
+            &["!zero.dxf: it has more than 268435456 bytes"],
         );
         check(
             &desk,
             "check clean.dxf --config zero.toml",
             2,
-            &["!zero.toml: it holds more than"],
+            &["!zero.toml: it has more than"],
         );
         check(&desk, "check null.3b", 0, &[]);
         make_pipe(&desk, "pipe.dxf");
@@ -357,7 +357,7 @@ fn a_program_without_end_is_refused() {
         "B1000B0B1000GXL1\nB0B1000B1000GYL2\nB1000B0B1000GXL3\nB0B1000B1000GYL4\nDD\n",
     );
     let refused = &[
-        "!error: far.dxf: the program would have more than 2000000 blocks: no machine takes as many",
+        "!error: far.dxf: the program would have more than 2000000 blocks: no machine takes that many",
     ];
     check(
         &desk,
@@ -371,7 +371,7 @@ fn a_program_without_end_is_refused() {
         "G01 X9000000. Y0\nG01 X-9000000. Y0\n".repeat(200),
     );
     let refused =
-        &["!far.iso: the program would have more than 2000000 blocks: no machine takes as many"];
+        &["!far.iso: the program would have more than 2000000 blocks: no machine takes that many"];
     check(
         &desk,
         "convert far.iso --force --format 3b -o out.3b",
@@ -384,7 +384,7 @@ fn a_program_without_end_is_refused() {
         "[milling]\ntool-diameter = 1\ngap = 0.05\nlayer = 0.001\ndepth = 1\nwear = 0.02\nwear-compensation = \"linear\"\nstep = 0.001\n",
     );
     let refused =
-        &["!line.dxf: the program would have more than 2000000 blocks: no machine takes as many"];
+        &["!line.dxf: the program would have more than 2000000 blocks: no machine takes that many"];
     check(
         &desk,
         "generate line.dxf --format milling -o out.iso",

@@ -76,7 +76,7 @@ fn the_correction_is_never_lost_without_a_word() {
         assert!(errors.contains(said), "{from} to {to}: {errors}");
         assert!(!folder.path().join(format!("out.{to}")).exists());
     }
-    // Nor what a program does behind the calls that are followed.
+    // Nor what a program does after the calls that are followed.
     let (code, _, errors) = wedm(folder.path(), "convert calls.iso --format 3b -o out.calls");
     let said = "line 5: the program is not followed as a whole";
     assert!(code == 1 && errors.contains(said), "{errors}");

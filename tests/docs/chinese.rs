@@ -79,7 +79,7 @@ fn the_list_of_rules_in_chinese_is_the_english_one() {
             .lines()
             .find(|line| line.starts_with(&format!("| [{name}](")))
             .unwrap_or_else(|| panic!("docs/rules/README.md does not list {name} yet"));
-        // Behind the last bar stands nothing; before it the four kinds of documents.
+        // After the last bar stands nothing; before it the four kinds of documents.
         let cells: Vec<&str> = row.rsplitn(6, " |").collect();
         let dots: String = cells[1..5]
             .iter()

@@ -35,7 +35,7 @@ fn sources() -> Vec<(String, PathBuf, String)> {
         for line in read(&path).lines() {
             let code = line.split("//").next().unwrap();
             if is_for_tests && let Some(name) = code.strip_prefix("mod ") {
-                // What stands behind a module of tests within a file is of tests too.
+                // What stands after a module of tests within a file is of tests too.
                 let Some(name) = name.strip_suffix(';') else {
                     break;
                 };
@@ -61,7 +61,7 @@ fn sources() -> Vec<(String, PathBuf, String)> {
     sources
 }
 
-/// What a source names behind `crate::`: the first name, or those of a list in braces.
+/// What a source names after `crate::`: the first name, or those of a list in braces.
 fn rooms_named(source: &str) -> Vec<String> {
     let name_at = |text: &str| {
         let is_of_name = |c: &char| c.is_alphanumeric() || *c == '_';

@@ -61,7 +61,7 @@ fn links(page: &str) -> Vec<String> {
     links
 }
 
-/// One command of a `console` block: what follows `$ `, the lines shown behind it, and the code that `$ echo $?` shows.
+/// One command of a `console` block: what follows `$ `, the lines shown after it, and the code that `$ echo $?` shows.
 struct Shown {
     command: String,
     lines: Vec<String>,

@@ -72,7 +72,7 @@ fn the_list_of_rules_is_the_table_of_rules() {
 /// The head of the table that says why cells of the list stay empty.
 const REASONS: &str = "| rules | why not elsewhere |\n|---|---|\n";
 
-/// The rows of that table: a rule that is not found in every kind of document says why on its page, in one line behind `mark`. Rules
+/// The rows of that table: a rule that is not found in every kind of document says why on its page, in one line after `mark`. Rules
 /// that say the same share a row.
 pub(super) fn reasons(folder: &str, mark: &str, comma: &str) -> String {
     let mut rows: Vec<(String, String)> = Vec::new();
@@ -95,7 +95,7 @@ pub(super) fn reasons(folder: &str, mark: &str, comma: &str) -> String {
         assert_eq!(
             (reason.is_some(), said.next()),
             (asks, None),
-            "{folder}/{name}.md says in one line behind {mark:?} why it is not found elsewhere, if it is not"
+            "{folder}/{name}.md says in one line after {mark:?} why it is not found elsewhere, if it is not"
         );
         let Some(reason) = reason else { continue };
         match rows.iter_mut().find(|(other, _)| other == reason) {
@@ -158,7 +158,7 @@ fn rules_are_found_where_the_table_says() {
         rules.map(move |rule| (ending.to_owned(), rule.name().to_owned()))
     });
     let said: BTreeSet<_> = said.collect();
-    // Said behind 100,000 findings, where a path is asked for, and where no path is known that holds its proof.
+    // Said after 100,000 findings, where a path is asked for, and where no path is known that passes its proof.
     let elsewhere = [Rule::More, Rule::LeadIn, Rule::UnprovedPath].map(Rule::name);
     let unsaid: Vec<_> = found.difference(&said).collect();
     let unfound = said.difference(&found);
@@ -300,7 +300,7 @@ fn the_pages_say_where_their_rules_work() {
     assert!(count >= 2, "no page says it");
 }
 
-/// What stands behind the first word of a page's "Default severity: ".
+/// What stands after the first word of a page's "Default severity: ".
 fn severity_on_page(rule: Rule) -> String {
     let name = rule.name();
     let page = read(&root().join(format!("docs/rules/{name}.md")));

@@ -18,7 +18,7 @@ pub enum Outcome {
     Right,
     /// It means what the fault made of it.
     Untouched,
-    /// It means something else, which closes as exactly as what was meant, and nothing is said of it.
+    /// It means something else, which closes as exactly as what was meant, and nothing is reported about it.
     Plausible,
     Wrong,
 }

@@ -117,7 +117,7 @@ pub(super) fn check(program: &str, found: &str, other: &str) {
     let faulty = with(program, found, other);
     assert!(
         !findings(&mut read(group_of(&faulty), &faulty)).is_empty(),
-        "nothing is said of\n{faulty}"
+        "nothing is reported of\n{faulty}"
     );
     let document = read(group_of(&faulty), &faulty);
     let offered = |finding: &wedm::finding::Finding| {

@@ -84,7 +84,7 @@ fn a_faulty_program_is_judged_alike_in_the_mirror() {
     );
 }
 
-/// A circle that does not come round, behind a block that stands twice: rounding does not decide whether it is blamed.
+/// A circle that does not come round, after a block that is repeated: rounding does not decide whether it is blamed.
 #[test]
 fn a_circle_that_does_not_come_round_is_judged_alike_in_the_mirror() {
     let text = "B9900B0B9900GXL1\nB9900B0B9900GXL1\nB9900B0B39300GYNR1\nB9900B0B9900GXL3\nDD\n";

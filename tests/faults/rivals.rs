@@ -3,7 +3,7 @@
 use super::chance::Chance;
 use super::known::{check, check_untouched, fixed, with};
 
-/// A contour with a way out behind its tab.
+/// A contour with a way out after its tab.
 const TAB: &str = "B250B144B250GXL4\nB84B143B190GYNR3\nB0B2507B2507GYL2\nB151B1B150GXSR2\nB1199B0B1199GXL1\nB0B2976B2976GYL2\n\
                    B165B0B165GXSR2\nB116B0B116GXL1\nB0B219B219GYSR1\nB0B2922B2922GYL4\nB1143B0B1143GXL1\nB0B217B218GYSR1\n\
                    B0B4946B4946GYL4\nB138B0B137GXSR4\nB2934B0B2934GXL3\nB1B139B138GYSR3\nB0B1507B1507GYL2\nD\n\

@@ -1,4 +1,4 @@
-//! Punch and plate that are both drawn, held against each other.
+//! Punch and plate that are both drawn, compared with each other.
 
 use super::{circle, drawing, findings, fit_of, polyline, rounded, settings, snapshot};
 use std::sync::Arc;

@@ -1,6 +1,6 @@
 //! Settings of which something is missing for a fit, or that contradict each other.
 
-use super::{circle, snapshot};
+use super::{circle, document};
 use wedm::job;
 use wedm::settings::{Effective, from_toml};
 
@@ -9,7 +9,9 @@ fn what_is_missing_for_a_fit_is_named() {
     let check = |text: &str, expected: &str| {
         let (read, _) = from_toml(text);
         let own = Effective::of(&read);
-        let refusal = job::fit(&snapshot(&circle(5.0), &own), &()).unwrap_err();
+        let document = document(&circle(5.0), &own);
+        let snapshot = document.snapshot().expect("a drawing");
+        let refusal = job::fit(&document, &snapshot, &()).unwrap_err();
         assert!(
             refusal.sentence(1.0).contains(expected),
             "{text}: {}",
@@ -57,7 +59,7 @@ fn settings_that_contradict_each_other_are_named_at_their_key() {
     check(
         "[pair]\ndrawn-as = \"punch\"\nclearance = 0.01\n",
         "clearance",
-        "expected wire-diameter and gap beside it",
+        "expected wire-diameter and gap as well",
     );
     check(
         "wire-diameter = 0.2\ngap = 0.01\n[pair]\nclearance = 0.01\n",
@@ -67,7 +69,7 @@ fn settings_that_contradict_each_other_are_named_at_their_key() {
     check(
         "[pair]\ndrawn-as = \"plate\"\n",
         "drawn-as",
-        "says nothing without pair.clearance",
+        "has no effect without pair.clearance",
     );
     check(
         "side = \"auto\"\n[pair]\ndrawn-as = \"plate\"\n",
@@ -82,11 +84,11 @@ fn settings_that_contradict_each_other_are_named_at_their_key() {
     check(
         "[pair]\nholder = 0.01\n",
         "holder",
-        "expected pair.drawn-as beside it",
+        "expected pair.drawn-as as well",
     );
     check(
         "[workpieces]\nA = [\"X\"]\nB = [\"X\"]\n",
         "workpieces",
-        "the layer X is of the workpieces A and B",
+        "the layer X belongs to the workpieces A and B",
     );
 }

@@ -75,7 +75,7 @@ proptest! {
         prop_assert!((jumps - nearest_next(&points)).abs() < 1e-6, "{jumps}");
     }
 
-    /// A hole that is proposed and of which nothing is said keeps its distance from everything, lies as deep as any point of a fine grid, and
+    /// A hole that is proposed and of which nothing is reported keeps its distance from everything, lies as deep as any point of a fine grid, and
     /// no lead comes nearer to another contour than the correction.
     #[test]
     fn proposed_holes_keep_clear_of_everything(

@@ -188,7 +188,7 @@ pub(super) fn shown(document: &mut Document) -> (Vec<String>, Vec<String>) {
     )
 }
 
-/// What is said of a line that is missing may hang on the lines of the next polyline.
+/// What is said of a line that is missing may depend on the lines of the next polyline.
 #[test]
 fn what_is_typed_behind_a_damaged_polyline_is_read_as_if_afresh() {
     let settings = Arc::new(Effective::of(&Settings::default()));

@@ -32,7 +32,7 @@ fn found(drawing: &Drawing, mut analysis: Analysis) -> Vec<String> {
 proptest! {
     #![proptest_config(ProptestConfig { cases: cases(300), failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// More lies on and across each other than is compared: what is left out hangs on the drawing alone.
+    /// More lies on and across each other than is compared: what is left out depends on the drawing alone.
     #[test]
     fn what_is_left_out_is_what_is_left_out_afresh(
         start in proptest::collection::vec((geometry(), role()), 0..40),
@@ -66,7 +66,7 @@ proptest! {
 proptest! {
     #![proptest_config(ProptestConfig { cases: cases(20), failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// A comb finer than the wire, in which enough is seen near its beginning: an edit behind that looks at no more than itself.
+    /// A comb finer than the wire, in which enough is seen near its beginning: an edit after that looks at no more than itself.
     #[test]
     fn a_comb_of_which_the_end_is_not_compared_is_read_as_if_afresh(
         rows in 1..4usize,

@@ -3,7 +3,7 @@
 use super::*;
 use wedm::finding::Rule;
 
-/// One corner: how far it stands out, and the bulge behind it.
+/// One corner: how far it stands out, and the bulge after it.
 type Corner = (f64, f64);
 
 /// All round a ring, over and over. Of the second kind a wire uses up what is left at every corner.
@@ -15,7 +15,7 @@ fn corners() -> impl Strategy<Value = Vec<Corner>> {
     ]
 }
 
-/// What an edit does at a corner: takes so many away, and puts others there.
+/// What an edit does at a corner: takes this many away, and puts others there.
 type Change = (usize, usize, Vec<Corner>);
 
 fn corner() -> impl Strategy<Value = Corner> {

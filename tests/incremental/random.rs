@@ -8,7 +8,7 @@ proptest! {
     #[test]
     fn incremental_equals_fresh(
         start in proptest::collection::vec((geometry(), role()), 0..12),
-        // Now and then so much at once that all is looked at anew.
+        // Now and then so much at once that all is looked at again.
         edits in proptest::collection::vec(
             prop_oneof![8 => proptest::collection::vec(edit(), 1..3), 1 => proptest::collection::vec(edit(), 18..22)],
             1..12,
@@ -65,7 +65,7 @@ proptest! {
         for (geometry, layer) in start {
             drawing.push(on_layer(geometry, layer));
         }
-        // A pair that is there from the begin.
+        // A pair that is there from the beginning.
         for (layer, by) in [(1, 0.0), (2, 0.05)] {
             let (low, high) = (-10.0 - by, -4.0 + by);
             let vertices = [(low, low), (high, low), (high, high), (low, high)];

@@ -124,7 +124,7 @@ fn outlines_that_come_to_lie_on_each_other_are_told_as_if_afresh() {
     }
 }
 
-/// What local rules saw behind a splice has other indices now: in the pieces behind, and in a piece that is travelled backwards in
+/// What local rules saw after a splice has other indices now: in the pieces after, and in a piece that is travelled backwards in
 /// what lies before it in the entity.
 #[test]
 fn a_splice_that_changes_the_count_moves_what_was_seen_behind_it() {
@@ -249,7 +249,7 @@ proptest! {
 proptest! {
     #![proptest_config(ProptestConfig { cases: cases(4), failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// Of many runs, in rows over each other, with teeth that are pointed or square: what hangs on runs that an edit does not reach
+    /// Of many runs, in rows over each other, with teeth that are pointed or square: what depends on runs that an edit does not reach
     /// is kept, also while a vertex that is thrown across them makes the contour cross itself.
     #[test]
     fn dead_ends_of_many_runs_are_told_as_if_afresh(
@@ -287,7 +287,7 @@ proptest! {
     }
 }
 
-/// A notch that tapers leaves something of itself to a wire outside of the contour alone: which side that is hangs on the contour about it.
+/// A notch that tapers leaves something of itself to a wire outside of the contour alone: which side that is depends on the contour about it.
 #[test]
 fn dead_ends_are_told_where_another_contour_turns_the_wire_to_their_side() {
     let settings = Arc::new(Effective::of(&Settings {
@@ -382,7 +382,7 @@ fn a_contour_that_goes_back_on_itself_has_no_side_wherever_its_area_is_summed_fr
 proptest! {
     #![proptest_config(ProptestConfig { cases: cases(400), failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// Whether an arc that is too tight can be replaced hangs on all of its run, and on what the run meets.
+    /// Whether an arc that is too tight can be replaced depends on all of its run, and on what the run meets.
     #[test]
     fn what_crowded_arcs_are_told_is_told_as_if_afresh(
         bulges in proptest::collection::vec(prop_oneof![Just(0.9), Just(0.3), Just(0.0), -1.0..1.0f64], 2..9),

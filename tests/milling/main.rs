@@ -1,4 +1,4 @@
-//! Milling by an electrode that wears: the program as a control runs it, held against path, feeds and a simulation of our own.
+//! Milling by an electrode that wears: the program as a control runs it, compared with path, feeds and a simulation of our own.
 
 mod programs;
 mod refusals;

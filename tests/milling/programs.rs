@@ -17,7 +17,7 @@ impl Move {
         self.from[2] == self.to[2]
     }
 
-    /// Where it goes at its begin or its end.
+    /// Where it goes at its beginning or its end.
     fn direction(&self, at: [f64; 3]) -> [f64; 2] {
         let [dx, dy] = match self.center {
             None => [0, 1].map(|axis| self.to[axis] - self.from[axis]),

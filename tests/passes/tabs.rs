@@ -131,7 +131,7 @@ fn four_b_stops_before_its_tab_and_goes_on_in_one_contour() {
     let lines: Vec<&str> = tab.text.lines().collect();
     let stop = lines.iter().position(|line| *line == "D").expect("a stop");
     assert_eq!(lines.iter().filter(|line| **line == "D").count(), 1);
-    // What stands behind it is the tab and the way out.
+    // What stands after it is the tab and the way out.
     assert!(
         lines[stop + 1].starts_with("B3000B0B3000GX"),
         "{}",

@@ -1,4 +1,4 @@
-//! Leads among random parts, held against distances alone.
+//! Leads among random parts, compared with distances alone.
 
 use super::{CORRECTION, along, circle, drawing, handle, rectangle, settings, threads};
 use proptest::prelude::*;

@@ -1,7 +1,7 @@
 //! Every refactoring at every fixture: the text that it makes, or why it refuses, as it is recorded in a file. Of long texts, and of
 //! those that are made of faulty programs, a hash is recorded.
 //!
-//! `UPDATE_EXPECT=1 cargo test --test programs refactor` records anew what they do.
+//! `UPDATE_EXPECT=1 cargo test --test programs refactor` records again what they do.
 
 use super::language_of;
 use expect_test::expect_file;
@@ -48,7 +48,7 @@ fn hash(bytes: &[u8]) -> u64 {
     })
 }
 
-/// What is selected: nothing, and so everything; a block by the cursor, up to so many; some lines.
+/// What is selected: nothing, and so everything; a block by the cursor, up to that many; some lines.
 fn selections(program: &program::Document, most: usize) -> Vec<(String, Range<usize>)> {
     let text = program.text();
     let lines: BTreeSet<usize> = program
@@ -133,7 +133,7 @@ fn refactorings_do_what_is_recorded_and_bring_no_error() {
             {
                 let id = id.trim_start_matches("refactor.rewrite.");
                 let profile = title
-                    .strip_prefix("Write anew as profile ")
+                    .strip_prefix("Rewrite as profile ")
                     .and_then(|title| title.split(':').next())
                     .unwrap_or_default();
                 say(&format!("{id} {profile} at {place}"), edits);

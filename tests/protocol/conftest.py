@@ -44,7 +44,7 @@ CAPABILITIES: dict[str, Any] = {
 
 def pytest_configure() -> None:
     if not os.access(WEDM, os.X_OK):
-        pytest.exit(f"{WEDM} is no program: build it with `cargo build --release`, or name it in WEDM", returncode=2)
+        pytest.exit(f"{WEDM} is not a program: build it with `cargo build --release`, or name it in WEDM", returncode=2)
 
 
 class Plain(LanguageClientProtocol):

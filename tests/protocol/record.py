@@ -36,7 +36,7 @@ def frames(stream: BinaryIO, onward: BinaryIO, said_by: str, record: TextIO, sta
                 line = {"at": round(time.monotonic() - started, 3), "from": said_by, "message": message}
                 record.write(json.dumps(line, ensure_ascii=False, separators=(",", ":")) + "\n")
                 record.flush()
-        # Passed on when it is written down: what it brings about stands behind it.
+        # Passed on when it is written down: what it brings about stands after it.
         onward.write(chunk)
         onward.flush()
 
@@ -48,7 +48,7 @@ def main() -> int:
         return 2
     server = subprocess.Popen([os.environ.get("WEDM", "wedm"), *sys.argv[1:]], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
     assert server.stdin is not None and server.stdout is not None
-    # Added to, so that a server that the client starts again stands behind the first one.
+    # Added to, so that a server that the client starts again stands after the first one.
     with open(target, "a", encoding="utf-8") as record:
         started, lock = time.monotonic(), threading.Lock()
         answers = threading.Thread(target=frames, args=(server.stdout, sys.stdout.buffer, "server", record, started, lock), daemon=True)

@@ -24,7 +24,7 @@ from pygls.protocol import default_converter
 
 SESSIONS = sorted((Path(__file__).parent / "sessions").glob("*.jsonl"))
 
-#: Answers that differ are recorded anew.
+#: Answers that differ are recorded again.
 UPDATES = os.environ.get("UPDATE_EXPECT") == "1"
 
 #: Clients of which there must be a session.
@@ -124,7 +124,7 @@ async def test_replay(stranger: Client, said: list[dict[str, Any]]) -> None:
                 params = {**params, "previousResultId": names.get(params["previousResultId"], params["previousResultId"])}
             if "id" in message:
                 waiting[message["id"]] = asyncio.ensure_future(stranger.ask(method, params))
-                # The task sends at its first turn; what comes behind must come behind.
+                # The task sends at its first turn; what comes after must come after.
                 await asyncio.sleep(0)
                 numbers[message["id"]] = stranger.last_number
             else:
@@ -161,7 +161,7 @@ async def test_replay(stranger: Client, said: list[dict[str, Any]]) -> None:
         elif message.get("method") == "textDocument/publishDiagnostics":
             params = message["params"]
             at = (params["uri"], params.get("version"))
-            # Other settings give one version other diagnostics: it is waited for these, or for those of the same version that came behind
+            # Other settings give one version other diagnostics: it is waited for these, or for those of the same version that came after
             # them, since a publish that is overtaken may be left out.
             behind = [one["message"]["params"]["diagnostics"] for one in said[place:] if of_version(one["message"], at)]
             try:

@@ -24,7 +24,7 @@ def tidy(path: Path) -> None:
         if message.get("method") in ("window/logMessage", "$/setTrace"):
             continue
         if message.get("method") == "workspace/didChangeWatchedFiles":
-            # What follows hangs on files that are not kept with the session.
+            # What follows depends on files that are not kept with the session.
             break
         if isinstance(message.get("result"), dict) and "svg" in message["result"]:
             message["result"]["svg"] = "<svg/>"

@@ -150,7 +150,7 @@ fn joints_that_are_nearly_tangent() {
     check(&closed(&SQUARE), None, Rule::NearTangent, 0, true);
 }
 
-/// A slot's end of a half turn, as so many chords.
+/// A slot's end of a half turn, as this many chords.
 pub(crate) fn chords(number: usize) -> Shape {
     let corner = |at: usize| {
         let angle = PI * at as f64 / number as f64 - PI / 2.0;
@@ -179,7 +179,7 @@ fn chords_of_an_arc() {
     check(&round(301), None, Rule::ArcAsChords, 1, true);
 }
 
-/// More chords than one finding holds, behind two lines and up to an open end: one fix makes arcs of all.
+/// More chords than one finding holds, after two lines and up to an open end: one fix makes arcs of all.
 #[test]
 fn chords_without_number_are_made_arcs_by_one_fix() {
     let corner = |at: usize| {

@@ -7,7 +7,7 @@ use wedm::drawing::{Drawing, Entity, Geometry, Role};
 use wedm::finding::{Detail, Finding, Rule};
 use wedm::geometry::Point;
 
-/// A spline that lies there twice goes as a whole, and a line may come in behind one; of what a block reference draws no part goes.
+/// A spline that lies there twice goes as a whole, and a line may come in after one; of what a block reference draws no part goes.
 #[test]
 fn doubles_of_curves_are_deleted_and_those_in_blocks_are_not() {
     let text = |blocks: &str, entities: &str| {
@@ -176,7 +176,7 @@ fn closed_outlines_that_lie_on_each_other_are_doubles() {
             true,
         ),
         (
-            "a vertex more at the begin",
+            "a vertex more at the beginning",
             with(0, (0.0, 2.0, 0.0)),
             polyline(&l),
             true,
@@ -317,7 +317,7 @@ fn what_lies_wholly_on_another_entity_goes_with_fix_all() {
 }
 
 /// Two parts that lie at each other have their border twice: to take one of the two away would open a part, and that is seen
-/// before many such tries use up what may be spent. The one line that is too much is found behind all of them.
+/// before many such tries use up what may be spent. The one line that is too much is found after all of them.
 #[test]
 fn one_double_is_found_among_many_that_close_two_parts() {
     let pairs = 16;

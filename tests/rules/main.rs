@@ -162,7 +162,7 @@ fn count(findings: &[Finding], rule: Rule) -> usize {
     severities(findings, rule).len()
 }
 
-/// The drawing behind the first fix of a finding.
+/// The drawing after the first fix of a finding.
 fn repaired(drawing: &Drawing, analysis: &Analysis, finding: &Finding) -> Drawing {
     let fixes = analysis.fixes(drawing, finding);
     let mut repaired = drawing.clone();
@@ -185,7 +185,7 @@ fn drawings(shape: &Shape, role: Option<Role>) -> Vec<Drawing> {
         .collect()
 }
 
-/// Asserts that the rule sees so many places however the shape is drawn, and, one at a time, that its fixes let them go where
+/// Asserts that the rule sees this many places however the shape is drawn, and, one at a time, that its fixes let them go where
 /// `fixable` says so, leaving nothing worse behind.
 fn check(shape: &Shape, role: Option<Role>, rule: Rule, expected: usize, fixable: bool) {
     for (way, mut drawing) in drawings(shape, role).into_iter().enumerate() {

@@ -74,7 +74,7 @@ fn sizes_that_no_wire_cuts_speak_for_another_unit() {
             sides.iter().any(|side| side * 25.4 > 5000.0),
             "{sides:?}"
         );
-        // And once the odd ones are gone, nothing is said.
+        // And once the odd ones are gone, nothing is reported.
         let last = *drawing.order().last().unwrap();
         let delta = drawing
             .apply(&DrawingEdit {

@@ -1,4 +1,4 @@
-//! A program and its drawing: an edit of either says anew what is unlike in both.
+//! A program and its drawing: an edit of either says again what is unlike in both.
 
 use crate::support::{Client, capabilities};
 use serde_json::{Value, json};
@@ -134,7 +134,7 @@ fn what_is_not_open_is_read_from_disk_and_read_anew() {
     );
     open(&mut client, &uri_of(&drawing), "dxf", &plate(0.05));
     unlike(&mut client, &uri_of(&drawing), 2);
-    // Nothing of the text stands open on disk any more.
+    // Nothing of the text is open on disk any more.
     std::fs::write(&program, "").unwrap();
     changed(&mut client, &program);
     unlike(&mut client, &uri_of(&drawing), 0);
@@ -175,7 +175,7 @@ fn nothing_alike_is_one_information() {
     assert!(
         unlike(&mut client, &program, 1)[0]
             .1
-            .starts_with("nothing of it is like plate.dxf")
+            .starts_with("nothing in it matches plate.dxf")
     );
     unlike(&mut client, &drawing, 1);
     client.shut_down();

@@ -1,4 +1,4 @@
-//! Documents that ask for work beyond all measure: the others are answered all the same, and what was left out is said.
+//! Documents that ask for absurd amounts of work: the others are answered all the same, and what was left out is said.
 
 use crate::support::{Client, PATIENCE, TIGHT, codes, dxf_of, small};
 use serde_json::{Value, json};

@@ -128,19 +128,19 @@ fn a_change_that_cannot_apply_changes_nothing_and_asks_for_the_drawing() {
     check(
         2,
         json!([splice(json!(0), json!(1), json!([[null, 0]]))]),
-        "vertex 0 to insert in 2A is not of finite numbers",
+        "vertex 0 to insert in 2A has a number that is not finite",
     );
     check(
         2,
         json!([splice(json!(0), json!(1), json!([["NaN", 0]]))]),
-        "vertex 0 to insert in 2A is not of finite numbers",
+        "vertex 0 to insert in 2A has a number that is not finite",
     );
     check(
         2,
         json!([{ "handle": "L", "entity": { "handle": "L", "type": "circle", "center": [0, 0], "radius": -1 } }]),
         "radius is -1",
     );
-    check(2, json!([{ "handle": "L" }]), "neither or both");
+    check(2, json!([{ "handle": "L" }]), "both or neither");
     check(1, json!([good]), "version 1 is not newer than 1");
     check(0, json!([good]), "version 0 is not newer than 1");
     check(2, json!("no list"), "does not apply");
@@ -156,7 +156,7 @@ fn numbers_that_overflow_are_refused_like_any_that_are_none() {
     client.open_drawing(URI, json!([tight_plate("2A")]));
     let body = r#"{"jsonrpc":"2.0","method":"wedm/didChangeDrawing","params":{"drawing":{"uri":"cad:///1","version":2},"changes":[{"handle":"2A","vertices":{"start":0,"deleteCount":1,"insert":[[1e999,0]]}}]}}"#;
     client.send_bytes(&crate::support::frame(body));
-    client.logged("vertex 0 to insert in 2A is not of finite numbers");
+    client.logged("vertex 0 to insert in 2A has a number that is not finite");
     let asked = client.asked("wedm/resendDrawing");
     client.respond(&asked, json!({ "drawing": { "uri": URI, "version": 2, "units": "mm", "entities": [wide_plate("2A")] } }));
     assert_eq!(client.diagnostics(URI, 2).len(), 0);
@@ -187,7 +187,7 @@ fn an_unsound_drawing_is_not_opened_and_asked_for_again() {
     check(
         "cad:///doubled",
         json!([tight_plate("2A"), wide_plate("2A")]),
-        "handle 2A stands twice",
+        "handle 2A is repeated",
     );
     check(
         "cad:///null",
@@ -217,14 +217,14 @@ fn an_unsound_drawing_is_not_opened_and_asked_for_again() {
 fn a_change_of_a_drawing_that_is_not_open_asks_for_it() {
     let mut client = Client::start();
     client.change_drawing("cad:///late", 5, json!([]));
-    client.logged("there is no such drawing open");
+    client.logged("no such drawing is open");
     let asked = client.asked("wedm/resendDrawing");
     client.respond(&asked, json!({ "drawing": { "uri": "cad:///late", "version": 5, "entities": [tight_plate("2A")] } }));
     assert_eq!(client.diagnostics("cad:///late", 5).len(), 1);
     // A text is no drawing.
     client.open_text("file:///a.dxf", "dxf", "0\nEOF\n");
     client.change_drawing("file:///a.dxf", 5, json!([]));
-    client.logged("there is no such drawing open");
+    client.logged("no such drawing is open");
     client.shut_down();
 }
 

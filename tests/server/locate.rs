@@ -106,12 +106,12 @@ fn what_is_not_written_anywhere_is_refused_with_its_reason() {
     check(
         json!({ "uri": "cad:///1", "handle": "2A" }),
         -32803,
-        "is no DXF text",
+        "is not DXF text",
     );
     check(
         json!({ "uri": "file:///hole.3b", "position": position }),
         -32803,
-        "is no DXF text",
+        "is not DXF text",
     );
     client.shut_down();
 }

@@ -16,7 +16,7 @@ fn with(key: &str, value: Value) -> Value {
     all
 }
 
-/// The correction that the fault of [`tight_plate`] is held against.
+/// The correction that the fault of [`tight_plate`] is compared with.
 fn required(client: &mut Client, uri: &str, version: i64) -> Value {
     let found = client.diagnostics(uri, version);
     found
@@ -231,7 +231,7 @@ fn an_edit_does_not_wait_until_all_documents_are_judged_under_other_settings() {
     const COUNT: usize = 1_500;
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("wedm.toml"), "correction = 0.07\n").unwrap();
-    // Its own file says what holds for it: it is not among those that are judged anew.
+    // Its own file says what holds for it: it is not among those that are judged again.
     let edited = uri_of(&folder.path().join("edited.dxf"));
     let mut client = Client::start();
     client.open_text(&edited, "dxf", &dxf_of(&[("2A", &TIGHT)]));

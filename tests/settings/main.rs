@@ -1,7 +1,7 @@
 //! Wherever the keys of the settings are listed, the list is that of `src/settings/keys.rs`: the tables of the documentation, the file
 //! that the page of settings shows, the settings page of VS Code, the types of the Python client.
 //!
-//! `UPDATE_EXPECT=1 cargo test --test settings` writes them anew.
+//! `UPDATE_EXPECT=1 cargo test --test settings` rewrites them.
 
 mod clients;
 mod pages;

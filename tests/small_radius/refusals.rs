@@ -64,7 +64,7 @@ fn refused(drawing: &Drawing) -> (usize, Vec<NoFix>) {
     (refused, reasons)
 }
 
-/// The outline with every arc at fault split at a share of it; the new vertex is rounded to so many decimals.
+/// The outline with every arc at fault split at a share of it; the new vertex is rounded to this many decimals.
 fn split(vertices: &[Vertex], share: f64, decimals: i32) -> Vec<Vertex> {
     let scale = 10f64.powi(decimals);
     let round = |number: f64| (number * scale).round() / scale;

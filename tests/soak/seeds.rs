@@ -95,7 +95,7 @@ fn mixed() -> Vec<Value> {
 pub fn models() -> Vec<Model> {
     let program = |name: &str| data(&format!("programs/{name}"));
     let plates = dxf_of(&[("2A", &TIGHT)]);
-    // No program has the name of a drawing: each document is compared with itself alone, opened afresh.
+    // No program has the name of a drawing: each document is compared with itself alone, opened from scratch.
     vec![
         Model::text("file:///plate.dxf", "dxf", &plates),
         Model::text("file:///lines.dxf", "dxf", &lines()),

@@ -85,7 +85,7 @@ pub const CONTRADICTIONS: &[Contradiction] = &[
     row(CROSSED, "side = \"punch\"\nworkpieces.one = [\"A\", \"B\"]\n", "self-intersection", "crosses itself or another"),
     // Pairs.
     row(ONE, "pair.drawn-as = \"punch\"\npair.clearance = 0.01\n", "settings", "expected wire-diameter and gap"),
-    row(ONE, "pair.drawn-as = \"punch\"\n", "settings", "says nothing without pair.clearance"),
+    row(ONE, "pair.drawn-as = \"punch\"\n", "settings", "has no effect without pair.clearance"),
     row(ONE, "pair.clearance = 0.01\n", "settings", "has no pair"),
     row(ONE, "pair.stripper = 0.01\n", "settings", "expected pair.drawn-as"),
     row(ONE, wire!("side = \"punch\"\npair.drawn-as = \"punch\"\npair.clearance = 0.01\n"), "settings", "expected both"),

@@ -248,7 +248,7 @@ impl Client {
     /// Everything that has come by the time the server has answered one more request.
     pub fn settle(&mut self) -> &[Value] {
         let _ = self.request("wedm/settled", json!({}));
-        // The state thread publishes behind a request that it has answered.
+        // The state thread publishes after a request that it has answered.
         let _ = self.request("wedm/inspect", json!({ "uri": "none:" }));
         let _ = self.request("wedm/inspect", json!({ "uri": "none:" }));
         &self.seen

@@ -122,7 +122,7 @@ namespace Wedm.Core
             return entity != null && string.Equals(entity.Layer, Toolpath.PathLayer, StringComparison.OrdinalIgnoreCase) ? null : entity;
         }
 
-        /// <summary>Reads the drawing anew and sends it whole.</summary>
+        /// <summary>Reads the drawing again and sends it whole.</summary>
         internal void Open()
         {
             _session.Notify("wedm/didOpenDrawing", new JObject { ["drawing"] = Whole() });

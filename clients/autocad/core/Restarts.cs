@@ -12,7 +12,7 @@ namespace Wedm.Core
 
         private static readonly double[] Pauses = { 0, 0.5, 1, 2, 4 };
 
-        /// <summary>After a server that has lived this long, the count of ends in a row begins anew.</summary>
+        /// <summary>After a server that has lived this long, the count of ends in a row begins again.</summary>
         private static readonly TimeSpan SoundLife = TimeSpan.FromSeconds(60);
 
         private int _ends;

@@ -145,7 +145,7 @@ namespace Wedm.Tests
             var drawing = Open(host);
             Func<string> generate = () => Outcome((done, refused) => _session.Generate(drawing, "3b", done, refused));
             var refusal = generate();
-            StringAssert.StartsWith("refused: an error stands in the drawing", refusal);
+            StringAssert.StartsWith("refused: the drawing has an error", refusal);
             StringAssert.Contains("arc R 0.050 mm is below the correction 0.100 mm", refusal);
             host.Edit(Plates.WithFillet(2));
             var program = generate();

@@ -16,7 +16,7 @@
         <translation>修复中含有此插件画不出的内容，未作任何修改。</translation>
     </message>
     <message>
-        <source>LibreCAD has kept something else than the repair: press Undo, and repair the saved file with &quot;wedm fix&quot;.</source>
+        <source>LibreCAD has kept something other than the repair: press Undo, and repair the saved file with &quot;wedm fix&quot;.</source>
         <translation>LibreCAD 保存的与修复内容不符：请撤销，再用“wedm fix”修复已保存的文件。</translation>
     </message>
 </context>
@@ -54,7 +54,7 @@
         <translation>线切割</translation>
     </message>
     <message numerus="yes">
-        <source>%n mark(s) taken away.</source>
+        <source>%n mark(s) removed.</source>
         <translation>
             <numerusform>已清除 %n 个标记。</numerusform>
         </translation>
@@ -98,7 +98,7 @@
         <translation>没有画出切割路线。</translation>
     </message>
     <message>
-        <source>what stands there cannot take it, write it there yourself</source>
+        <source>what is there cannot take it, write it there yourself</source>
         <translation>文件中已有的写法容不下它，请自行写入</translation>
     </message>
     <message>
@@ -145,7 +145,7 @@
 <context>
     <name>wedm::Drawing</name>
     <message>
-        <source>entity %1 is no polyline</source>
+        <source>entity %1 is not a polyline</source>
         <translation>图元 %1 不是多段线</translation>
     </message>
     <message>
@@ -432,7 +432,7 @@
         <translation>%1 拒绝启动：%2</translation>
     </message>
     <message>
-        <source>%1 is no wedm server (it calls itself &quot;%2&quot;). Choose the right program with the button &quot;Server…&quot;.</source>
+        <source>%1 is not a wedm server (it calls itself &quot;%2&quot;). Choose the right program with the button &quot;Server…&quot;.</source>
         <translation>%1 不是 wedm 服务器（它自称“%2”）。请用“服务器…”按钮选择正确的程序。</translation>
     </message>
     <message>
@@ -632,7 +632,7 @@
         <translation>%1 层；模拟：底面深 %2 至 %3 mm，电极缩短 %4 mm。</translation>
     </message>
     <message>
-        <source>Findings that stand in the drawing: %1</source>
+        <source>Findings in the drawing: %1</source>
         <translation>图形中的问题：%1</translation>
     </message>
 </context>

@@ -3,7 +3,7 @@
 
     python scaling.py [--files 1000] [--workers 1 2 4] [--repeat 3] [--keep FOLDER]
 
-The archive is made anew from a fixed seed: plates with 8 to 400 rounded openings, a third of them with a corner too tight.
+The archive is made from scratch, from a fixed seed: plates with 8 to 400 rounded openings, a third of them with a corner too tight.
 """
 
 from __future__ import annotations

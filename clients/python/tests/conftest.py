@@ -16,7 +16,7 @@ ROOT = Path(__file__).resolve().parents[3]
 def pytest_configure() -> None:
     named = os.environ.get("WEDM") or str(ROOT / "target/release/wedm")
     if not os.access(named, os.X_OK):
-        pytest.exit(f"{named} is no program: build it with `cargo build --release`, or name it in WEDM", returncode=2)
+        pytest.exit(f"{named} is not a program: build it with `cargo build --release`, or name it in WEDM", returncode=2)
     os.environ["WEDM"] = named
 
 

@@ -194,7 +194,7 @@ def test_a_server_that_dies_of_a_question_is_given_up_with_its_last_words() -> N
         assert rules(server, drawing) == ["2A small-radius"]
         with pytest.raises(ServerDied, match="(?s)has ended 6 times.*code 3.*the roof fell in"):
             server.contours(drawing)
-        # Another call tries anew, and what is open is known again.
+        # Another call tries again, and what is open is known again.
         assert rules(server, drawing) == ["2A small-radius"]
 
 

@@ -102,7 +102,7 @@ def test_changes(server: Server, changes: list[Change], expected: list[str]) -> 
     assert errors(server, drawing) == ["2A 1 small-radius"]
     server.change(drawing, changes)
     assert sorted(errors(server, drawing)) == sorted(expected)
-    # What is held here is what the server holds: telling it anew changes nothing.
+    # What is held here is what the server holds: telling it again changes nothing.
     afresh = server.open(drawing.entities, uri="cad:afresh")
     assert sorted(errors(server, afresh)) == sorted(expected)
 

@@ -385,7 +385,7 @@ export interface Settings {
    */
   correction?: number;
   /**
-   * Diameter of the wire, mm. With `gap` it says the correction where no `correction` is set: half the diameter + gap; when one of the two is set the other has its default there. Beside `correction` or `passes.corrections` it says how thick the wire is, see `pass-order`. A later level that sets one of the two and no `correction` says the correction anew.
+   * Diameter of the wire, mm. With `gap` it gives the correction where no `correction` is set: half the diameter + gap; when one of the two is set the other has its default there. Together with `correction` or `passes.corrections` it says how thick the wire is, see `pass-order`. A later level that sets one of the two and no `correction` sets the correction again.
    */
   wireDiameter?: number;
   /**
@@ -393,7 +393,7 @@ export interface Settings {
    */
   gap?: number;
   /**
-   * Where the wire runs, for contours of which neither the entity nor its layer says.
+   * Where the wire runs, for contours whose entity and layer do not say.
    */
   side?: SideSetting;
   /**
@@ -425,7 +425,7 @@ export interface Settings {
     [k: string]: Role;
   };
   /**
-   * Role of the contour that holds an entity, by the entity's handle, before layers and colours. Handles are those of one drawing: in a `wedm.toml` that holds for several they mean each one's own entity of that name.
+   * Role of the contour that holds an entity, by the entity's handle, before layers and colours. Handles are those of one drawing: in a `wedm.toml` that applies to several they mean each one's own entity of that name.
    */
   contours?: {
     [k: string]: Role;
@@ -437,7 +437,7 @@ export interface Settings {
     [k: string]: Role;
   };
   /**
-   * What is said of one drawing, by the name of its file: `[drawings."plate.dxf".suppress.2A]`.
+   * Settings of one drawing, by the name of its file: `[drawings."plate.dxf".suppress.2A]`.
    */
   drawings?: {
     [k: string]: DrawingSettings;
@@ -447,7 +447,7 @@ export interface Settings {
    */
   arcFit?: number;
   /**
-   * Severity of a rule, by its name. What is set here holds also where a case would be milder; the defaults stand on each rule's page.
+   * Severity of a rule, by its name. What is set here applies even where a case would be milder; the defaults are on each rule's page.
    */
   rules?: {
     [k: string]: RuleSeverity;
@@ -473,7 +473,7 @@ export interface Settings {
    */
   milling?: MillingSettings;
   /**
-   * Parts that are drawn in one place and never meet in one rule, each by its name with the layers it is drawn on; what is on no layer of them is a part of its own. With `pair.clearance`, parts are held against each other: `does-not-fit`.
+   * Parts that are drawn in one place and never meet in one rule, each by its name with the layers it is drawn on; what is on no layer of them is a part of its own. With `pair.clearance`, parts are compared with each other: `does-not-fit`.
    */
   workpieces?: {
     [k: string]: string[];
@@ -490,7 +490,7 @@ export interface Settings {
  */
 export interface Passes {
   /**
-   * Correction of each pass from rough to finish, mm, in place of `correction`: a program cuts each contour so often. They fall: `pass-order`.
+   * Correction of each pass from rough to finish, mm, in place of `correction`: a program cuts each contour that often. They decrease: `pass-order`.
    */
   corrections?: number[];
   /**
@@ -506,7 +506,7 @@ export interface Passes {
    */
   registers?: string[];
   /**
-   * What each pass cuts in a minute, mm²/min: length × `job.thickness` / rate is its time. Not set: nothing is said of times.
+   * What each pass cuts in a minute, mm²/min: length × `job.thickness` / rate is its time. Not set: no times are reported.
    */
   rates?: number[];
   /**
@@ -515,11 +515,11 @@ export interface Passes {
   skimCorner?: SkimCorner;
 }
 /**
- * What is said of one drawing.
+ * Settings of one drawing.
  */
 export interface DrawingSettings {
   /**
-   * Findings that somebody has looked at and lets stand, by the handle of the entity at which they are told and the name of the rule, with the reason: suppressions.
+   * Findings that somebody has looked at and lets stand, by the handle of the entity at which they are reported and the name of the rule, with the reason: suppressions.
    */
   suppress?: {
     [k: string]: {
@@ -527,14 +527,14 @@ export interface DrawingSettings {
     };
   };
   /**
-   * What is said of one contour, by the handle of an entity of it or by a point of it: `[drawings."plate.dxf".contours.2A]`, `[drawings."plate.dxf".contours."12.5,40"]`, in its own keys. It comes before `contours`, `program.thread`, `program.entry` and `program.order`.
+   * Settings of one contour, by the handle of an entity of it or by a point of it: `[drawings."plate.dxf".contours.2A]`, `[drawings."plate.dxf".contours."12.5,40"]`, in its own keys. It comes before `contours`, `program.thread`, `program.entry` and `program.order`.
    */
   contours?: {
     [k: string]: ContourSettings;
   };
 }
 /**
- * What is said of one contour of one drawing. Points are in drawing units.
+ * Settings of one contour of one drawing. Points are in drawing units.
  */
 export interface ContourSettings {
   /**
@@ -585,7 +585,7 @@ export interface ProgramSettings {
    */
   thread?: PointSetting;
   /**
-   * Point `[x, y]` of the contour where the cut begins, in drawing units. A table has them by handle. Else the point beside an "O" that means it, under `as-picked` the begin of the entity picked first, the point nearest to the thread hole, else the middle of the longest line, else the point of the longest arc with the largest x, or its middle.
+   * Point `[x, y]` of the contour where the cut begins, in drawing units. A table has them by handle. Else the point beside an "O" that means it, under `as-picked` the beginning of the entity picked first, the point nearest to the thread hole, else the middle of the longest line, else the point of the longest arc with the largest x, or its middle.
    */
   entry?: PointSetting;
   /**
@@ -597,7 +597,7 @@ export interface ProgramSettings {
    */
   tab?: LengthSetting;
   /**
-   * Diameter of the start holes, mm. Where no thread hole is given it is proposed where such a hole keeps the correction and 0.1 mm from every contour; one that does not is said: `start-hole`. The drill list is made by `wedm holes`.
+   * Diameter of the start holes, mm. Where no thread hole is given it is proposed where such a hole keeps the correction and 0.1 mm from every contour; one that does not is reported: `start-hole`. The drill list is made by `wedm holes`.
    */
   startHole?: number;
   /**
@@ -617,7 +617,7 @@ export interface ProgramSettings {
    */
   order?: Order;
   /**
-   * What stands between the contours of one program.
+   * What comes between the contours of one program.
    */
   jumps?: Jumps;
   /**
@@ -625,11 +625,11 @@ export interface ProgramSettings {
    */
   compensation?: Compensation;
   /**
-   * Digits of the controller's numbers in 3B and 4B. Longer blocks are split when they are written, and a fault (`too-many-digits`) where they stand.
+   * Digits of the controller's numbers in 3B and 4B. Longer blocks are split when they are written, and a fault (`too-many-digits`) where they are read.
    */
   digits?: number;
   /**
-   * In what the numbers of an ISO program are that does not say so (G20, G21). Not set: mm, and a hint (`units`) where its size speaks for inches.
+   * Unit of the numbers of an ISO program that does not state it (G20, G21). Not set: mm, and a hint (`units`) where its size suggests inches.
    */
   units?: UnitSetting;
   /**
@@ -688,8 +688,8 @@ export interface PairSettings {
   holder?: number;
 }
 /**
- * Milling by a cylindrical electrode that wears while it erodes, layer by layer: [milling](programs.md#milling). Where nothing is said of
- * a wire, a drawing is judged for the electrode: half its diameter + `milling.gap` is the correction then.
+ * Milling by a cylindrical electrode that wears while it erodes, layer by layer: [milling](programs.md#milling). Where no wire
+ * is set, a drawing is judged for the electrode: half its diameter + `milling.gap` is the correction then.
  */
 export interface MillingSettings {
   /**
@@ -717,7 +717,7 @@ export interface MillingSettings {
    */
   wearCompensation?: WearCompensation;
   /**
-   * Way after which `linear` feeds anew, mm.
+   * Way after which `linear` feeds again, mm.
    */
   step?: number;
   /**
@@ -730,7 +730,7 @@ export interface MillingSettings {
  */
 export interface ProfileSettings {
   /**
-   * The profile whose values hold where none is set: one that ships, `generic` by default.
+   * The profile whose values apply where none is set: one that ships, `generic` by default.
    */
   base?: string;
   /**
@@ -746,7 +746,7 @@ export interface ProfileSettings {
    */
   unit?: NumberUnit;
   /**
-   * Digits behind the point of millimetres.
+   * Digits after the decimal point of millimetres.
    */
   decimals?: number;
   /**
@@ -762,7 +762,7 @@ export interface ProfileSettings {
    */
   modal?: boolean;
   /**
-   * Between the words of a block.
+   * Spaces between the words of a block.
    */
   spaces?: boolean;
   /**
@@ -774,7 +774,7 @@ export interface ProfileSettings {
    */
   lineEnd?: LineEnd;
   /**
-   * Lines before everything. `{x}` and `{y}` are the place where the wire is threaded first.
+   * Lines before everything else. `{x}` and `{y}` are the place where the wire is threaded first.
    */
   begin?: string[];
   /**
@@ -782,7 +782,7 @@ export interface ProfileSettings {
    */
   register?: string;
   /**
-   * Lines before each contour. `{side}` is G41 or G42, `{register}` where the correction of the pass stands; a line with `{side}` is left out where the offset is in the coordinates.
+   * Lines before each contour. `{side}` is G41 or G42, `{register}` where the correction of the pass is; a line with `{side}` is left out where the offset is in the coordinates.
    */
   contourBegin?: string[];
   /**
@@ -1009,7 +1009,7 @@ export interface RepairsOf {
   segment?: number;
 }
 /**
- * Result of `wedm/repairs`: the preferred one first; none where the finding is not there any more.
+ * Result of `wedm/repairs`: the preferred one first; none where the finding is no longer there.
  */
 export interface Repairs {
   repairs: Repair[];
@@ -1130,7 +1130,7 @@ export interface Generate {
    */
   options?: Settings;
   /**
-   * Make the program although errors stand in the drawing.
+   * Make the program although the drawing has errors.
    */
   force?: boolean;
 }
@@ -1270,7 +1270,7 @@ export interface MilledContour {
    */
   wearOfLayer: number;
   /**
-   * What each layer is fed at its begin.
+   * What each layer is fed at its beginning.
    */
   feed: number;
   /**
@@ -1370,7 +1370,7 @@ export interface FindingData {
   segment?: number;
   radius?: number;
   /**
-   * The correction that the radius is held against.
+   * The correction that the radius is compared with.
    */
   required?: number;
   center?: Point;
@@ -1524,7 +1524,7 @@ export interface SimulatedBlock {
    */
   contour: number;
   /**
-   * Where the wire's upper end stands behind the block; not there where that is where the machine stops.
+   * Where the wire's upper end is after the block; not there where that is where the machine stops.
    */
   upperEnd?: Point;
 }
@@ -1572,7 +1572,7 @@ export interface Located {
  */
 export interface SettingsInForce {
   /**
-   * mm; what radii are held against: the largest of `corrections`.
+   * mm; what radii are compared with: the largest of `corrections`.
    */
   correction: number;
   /**
@@ -1586,7 +1586,7 @@ export interface SettingsInForce {
    */
   file?: string;
   /**
-   * What is said of single contours of this drawing, by handle or by a point.
+   * Settings of single contours of this drawing, by handle or by a point.
    */
   contours?: {
     [k: string]: ContourSettings;
@@ -1611,7 +1611,7 @@ export interface RulePageText {
   text: string;
 }
 /**
- * Result of `wedm/generate`: a program that has been decoded again and held against its path.
+ * Result of `wedm/generate`: a program that has been decoded again and compared with its path.
  */
 export interface Program {
   program: string;

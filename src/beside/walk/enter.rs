@@ -1,4 +1,4 @@
-//! The start of a run: a block that lies on the drawing, with others behind it that continue there.
+//! The start of a run: a block that lies on the drawing, with others after it that continue there.
 
 use super::super::matching::{Found, matching};
 use super::super::placement::Placement;
@@ -48,7 +48,7 @@ impl Walk<'_> {
                 });
             if let Some(found) = found {
                 let by = found.placement.shift - self.placement.shift;
-                // The place of the program was found from its first contour, or from one behind that.
+                // The place of the program was found from its first contour, or from one after that.
                 is_first = self.walked.contours.is_empty();
                 moved = (by.norm() > REACH).then_some(by);
                 best = Some((0, found));
@@ -132,7 +132,7 @@ impl Walk<'_> {
     }
 
     /// Follows from a spot on, at most this many blocks: how many follow, and whether the contour or the program's cut
-    /// ends behind them.
+    /// ends after them.
     pub(in crate::beside) fn verify(
         &self,
         mut placement: Placement,

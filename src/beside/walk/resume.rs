@@ -1,4 +1,4 @@
-//! Whether and where a run goes on behind a block that does not follow.
+//! Whether and where a run goes on after a block that does not follow.
 
 use super::super::placement::{Placement, Reached, stretch};
 use super::super::rounds::Spot;
@@ -12,7 +12,7 @@ const PASSED: usize = 8;
 const SPLIT: usize = 400;
 
 impl Walk<'_> {
-    /// Continues a run behind a block that does not follow, and names it. Returns the block to go on with; `None` where
+    /// Continues a run after a block that does not follow, and names it. Returns the block to go on with; `None` where
     /// nothing follows.
     pub(super) fn resume(&mut self, run: &mut Run, index: usize) -> Option<usize> {
         if run.complete {
@@ -118,7 +118,7 @@ impl Walk<'_> {
         off
     }
 
-    /// The block behind those that share a piece of the drawing with the one at `index`, which ends within it; `None`
+    /// The block after those that share a piece of the drawing with the one at `index`, which ends within it; `None`
     /// where they do not reach its end, a stop or another pass.
     pub(super) fn split_ends(
         &self,
@@ -148,7 +148,7 @@ impl Walk<'_> {
         None
     }
 
-    /// Whether another pass, or the way back, begins at a block or behind a few that lead to it.
+    /// Whether another pass, or the way back, begins at a block or after a few that lead to it.
     pub(super) fn turns(&self, placement: &Placement, spot: &Spot, index: usize) -> bool {
         for next in index..self.traced.blocks.len().min(index + BETWEEN + 1) {
             let block = &self.traced.blocks[next];

@@ -17,7 +17,7 @@ impl Walk<'_> {
                 placement,
             } = loose;
             let gap = self.uncut_from(&run.spot);
-            // A tab is cut behind a stop, or by hand.
+            // A tab is cut after a stop, or by hand.
             let own = |cut: &&[Range<usize>; 2]| cut[0].contains(&run.first);
             let stops = self.traced.cuts.iter().find(own).is_some_and(|[all, _]| {
                 let mut blocks = self.traced.blocks[all.clone()].iter();
@@ -75,7 +75,7 @@ impl Walk<'_> {
         for run in std::mem::take(&mut self.ended) {
             self.begins_late(&run);
         }
-        // A change that moves everything behind it has been named where it is.
+        // A change that moves everything after it has been named where it is.
         let mut changes: Vec<f64> = self.walked.unlike.iter().map(|unlike| unlike.off).collect();
         for run in std::mem::take(&mut self.moved) {
             let by = run.moved.map_or(0.0, |by| by.norm());
@@ -99,7 +99,7 @@ impl Walk<'_> {
         }
     }
 
-    /// An open contour is cut from one end to the other: where a run begins behind that end, and the part between is
+    /// An open contour is cut from one end to the other: where a run begins after that end, and the part between is
     /// uncut, one of the blocks before it should have cut it.
     fn begins_late(&mut self, run: &Run) {
         let entry = run.entry;

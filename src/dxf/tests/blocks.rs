@@ -73,7 +73,7 @@ fn what_blocks_do_not_give_to_the_drawing_is_named() {
     let circle = |radius: u8| format!("0 CIRCLE 8 0 10 0 20 0 40 {radius}");
     let named = |why: &str| format!(r#"information at "CIRCLE": 1 CIRCLE: {why}"#);
     let in_modelspace =
-        named("it stands in the block of the modelspace instead of the section ENTITIES");
+        named("it is in the block of the modelspace instead of the section ENTITIES");
     for (name, expected) in [
         ("*Model_Space", vec![in_modelspace.as_str()]),
         ("$MODEL_SPACE", vec![&in_modelspace]),
@@ -92,7 +92,7 @@ fn what_blocks_do_not_give_to_the_drawing_is_named() {
         circle(1),
         circle(2)
     );
-    let said = r#"warning at "b": a block of this name stands before this one: that one is drawn"#;
+    let said = r#"warning at "b": a block of this name comes before this one: that one is drawn"#;
     check(
         &twice,
         "0 INSERT 5 A 2 B 10 0 20 0",
@@ -198,7 +198,7 @@ fn what_would_never_end_is_refused() {
         (
             &*cycle,
             "2 X",
-            r#"error at "X": the block "X" holds itself: nothing is drawn for this INSERT"#,
+            r#"error at "X": the block "X" contains itself: nothing is drawn for this INSERT"#,
         ),
         (
             SLOT,

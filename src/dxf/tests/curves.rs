@@ -72,7 +72,9 @@ fn a_spline_without_knots_is_drawn_and_one_with_too_few_is_an_error() {
     );
     assert_eq!(
         findings(&document),
-        [r#"warning at "SPLINE": SPLINE has no knots (group code 40): even ones are taken"#]
+        [
+            r#"warning at "SPLINE": SPLINE has no knots (group code 40): evenly spaced ones are taken"#
+        ]
     );
     let drawn = segments(&document);
     for [x, y] in [[0.0, 0.0], [2.5, 2.25], [5.0, 0.0]] {

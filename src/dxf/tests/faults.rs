@@ -17,15 +17,15 @@ fn what_is_no_dxf_gets_one_finding() {
         (b"\n\r\n \n", "the text is empty, expected DXF"),
         (
             b"G21\nG90\nG1 X1 Y1\n",
-            "the text has no DXF records: expected lines of group codes and values, as 0 and SECTION",
+            "the text has no DXF records: expected lines of group codes and values, such as 0 and SECTION",
         ),
         (
             b"1\n2\n3\n4\n",
-            "the text has no DXF records: expected lines of group codes and values, as 0 and SECTION",
+            "the text has no DXF records: expected lines of group codes and values, such as 0 and SECTION",
         ),
         (
             b"hello",
-            "the text has no DXF records: expected lines of group codes and values, as 0 and SECTION",
+            "the text has no DXF records: expected lines of group codes and values, such as 0 and SECTION",
         ),
         (
             b"AC1015\0\0\0\0\x06\x01",
@@ -46,7 +46,7 @@ fn what_is_no_dxf_gets_one_finding() {
         (&[0; 1], "the file is binary, not DXF text"),
         (
             b"\x80\xff\n\xfe\n",
-            "the text has no DXF records: expected lines of group codes and values, as 0 and SECTION",
+            "the text has no DXF records: expected lines of group codes and values, such as 0 and SECTION",
         ),
     ];
     for (bytes, expected) in cases {

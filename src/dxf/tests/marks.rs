@@ -99,7 +99,7 @@ fn a_drawing_lets_a_finding_stand_itself() {
             "DIE",
             "1001 WEDM 1000 suppress_gap_so 1000 suppress_overlap_so",
             vec![useless(
-                "the suppression of overlap at A suppresses nothing here: take it out",
+                "the suppression of overlap at A suppresses nothing here: remove it",
             )],
             vec!["gap: so"],
         ),
@@ -109,7 +109,7 @@ fn a_drawing_lets_a_finding_stand_itself() {
             vec![
                 GAP.to_owned(),
                 useless(
-                    "the suppression of overlap at WEDM_SUPPRESS_overlap_so suppresses nothing here: take it out",
+                    "the suppression of overlap at WEDM_SUPPRESS_overlap_so suppresses nothing here: remove it",
                 ),
             ],
             vec![],

@@ -271,7 +271,7 @@ fn one_fault_is_one_finding_and_harms_no_neighbour() {
         ),
         (
             "0 LINE 8 A 10 1 20 2.5 3.5 11 3 21 4.5",
-            r#"error at "3.5": "3.5" stands where a group code is expected: a line is missing or one too many"#,
+            r#"error at "3.5": found "3.5" where a group code is expected: a line is missing, or there is one too many"#,
         ),
     ] {
         check(&dxf(&format!("{tags} {LINE}")), &[line], &[finding]);
@@ -299,27 +299,27 @@ fn an_empty_line_between_records_takes_nothing_from_either() {
         (
             lines(1),
             5,
-            "warning at \"\": an empty line stands where a group code is expected: it is passed over",
+            "warning at \"\": found an empty line where a group code is expected: it is passed over",
         ),
         (
             lines(1).replace('\n', "\r\n"),
             5,
-            "warning at \"\": an empty line stands where a group code is expected: it is passed over",
+            "warning at \"\": found an empty line where a group code is expected: it is passed over",
         ),
         (
             lines(1).replace("\n\n", "\n  \n"),
             5,
-            "warning at \"  \": an empty line stands where a group code is expected: it is passed over",
+            "warning at \"  \": found an empty line where a group code is expected: it is passed over",
         ),
         (
             lines(2),
             5,
-            "warning at \"\": 2 empty lines stand where a group code is expected: they are passed over",
+            "warning at \"\": found 2 empty lines where a group code is expected: they are passed over",
         ),
         (
             lines(3),
             5,
-            "warning at \"\": 3 empty lines stand where a group code is expected: they are passed over",
+            "warning at \"\": found 3 empty lines where a group code is expected: they are passed over",
         ),
     ] {
         let document = Document::read(text.clone().into_bytes());
@@ -368,7 +368,7 @@ fn the_frame_of_a_text_is_no_contour() {
         &[expected[0], expected[1], contour],
         &[],
     );
-    // After edits of the text and of the frame it is as if read afresh.
+    // After edits of the text and of the frame it is as if read from scratch.
     let whole = dxf(&format!(
         "{circle} {} {text} {}",
         polyline("A8"),

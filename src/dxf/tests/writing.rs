@@ -321,7 +321,7 @@ fn only_the_numbers_that_change_are_touched() {
     };
     assert_eq!(
         refused(&removal),
-        "LWPOLYLINE A would be left with less than two vertices"
+        "LWPOLYLINE A would be left with fewer than two vertices"
     );
     let beyond = DrawingEdit {
         changes: vec![Change::RemoveVertex { entity, index: 2 }],
@@ -374,7 +374,7 @@ fn lines_neither_come_nor_go_where_the_text_is_damaged() {
     let refusal = document.text_edits(&removal).unwrap_err();
     assert_eq!(
         refusal,
-        "lines would come or go near line 25, which is damaged: mend that first"
+        "lines would be added or removed near line 25, which is damaged: repair that first"
     );
     let shift = Change::Reshape {
         entity,

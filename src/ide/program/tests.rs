@@ -23,7 +23,7 @@ fn at_cursor(text: &str) -> (Document, usize) {
 fn says(text: &str, expected: &[&str]) {
     let (document, offset) = at_cursor(text);
     let said = hover(&document, offset)
-        .unwrap_or_else(|| panic!("nothing is said about {text}"))
+        .unwrap_or_else(|| panic!("nothing is reported about {text}"))
         .text;
     for expected in expected {
         assert!(
@@ -253,7 +253,7 @@ fn numbers_are_renamed_counted_and_left_out() {
     );
     assert_eq!(
         renamed(&document, 1, "x"),
-        Err("\"x\" is no block number, expected up to 8 digits".into())
+        Err("\"x\" is not a block number, expected up to 8 digits".into())
     );
 }
 

@@ -1,4 +1,4 @@
-//! So many of what, and words that stand beside what is not text of ours.
+//! How many of what, and words that stand beside what is not text of ours.
 
 declare! {
     arcs(count: usize) => { counted(*count, "arc", "arcs") };

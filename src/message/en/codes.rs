@@ -4,7 +4,7 @@ declare! {
     name_of_the_record_that_begins_here => "name of the record that begins here";
     handle_of_the_record_hexadecimal => "handle of the record (hexadecimal)";
     class_of_the_following_codes => "subclass: which class the following codes belong to";
-    group_of_another_program => "begin or end of a group of another program, in braces";
+    group_of_another_program => "beginning or end of a group of another program, in braces";
     handle_of_the_owner => "handle of the owner";
     handle_of_an_owned_record => "handle of an owned record";
     a_comment => "comment";
@@ -105,8 +105,8 @@ declare! {
     attributes_follow_1_yes => "attributes follow: 1 yes";
     number_of_columns => "number of columns";
     number_of_rows => "number of rows";
-    distance_of_the_columns => "distance of the columns";
-    distance_of_the_rows => "distance of the rows";
+    distance_of_the_columns => "distance between columns";
+    distance_of_the_rows => "distance between rows";
     end_of_the_major_axis_x_from_the_centre => "end of the major axis, x from the centre";
     end_of_the_major_axis_y_from_the_centre => "end of the major axis, y from the centre";
     end_of_the_major_axis_z_from_the_centre => "end of the major axis, z from the centre";
@@ -139,7 +139,7 @@ declare! {
     an_angle => "angle";
     whole_number => "whole number";
     whole_number_of_32_bits_or_more => "whole number of 32 bits or more";
-    begin_of_an_embedded_object => "begin of an embedded object";
+    begin_of_an_embedded_object => "beginning of an embedded object";
     number_of_a_point_or_vector => "number of a point or vector";
     zero_or_one => "0 or 1";
     bytes_hexadecimal => "bytes, hexadecimal";

@@ -2,11 +2,11 @@
 
 declare! {
     it_has_too_many_bytes(bytes, cap) => "it has {bytes} bytes, expected at most {cap}";
-    it_holds_too_many_bytes(cap) => "it holds more than {cap} bytes, expected at most so many";
+    it_holds_too_many_bytes(cap) => "it has more than {cap} bytes, expected at most that many";
     it_is_a_folder => "it is a folder";
-    it_is_no_regular_file => "it is no regular file";
+    it_is_no_regular_file => "it is not a regular file";
     it_is_read_only => "it is read-only";
-    it_is_not_the_file_any_more_that_was_read => "it is not the file any more that was read, nothing is changed";
+    it_is_not_the_file_any_more_that_was_read => "it is no longer the file that was read, nothing is changed";
     its_owner_user_group_cannot_be_kept(uid, gid, error) => "its owner (user {uid}, group {gid}) cannot be kept: {error}";
     no_such_file_or_directory => "no such file or directory";
     permission_denied => "permission denied";

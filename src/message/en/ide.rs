@@ -1,4 +1,4 @@
-//! What an editor is told of a place: hovers, hints, completions, symbols, forms of blocks.
+//! What an editor is told about a place: hovers, hints, completions, symbols, forms of blocks.
 
 declare! {
     // of drawings and programs
@@ -75,11 +75,11 @@ declare! {
     circle => "circle";
     step_about(name, what, turn, centre, radius, sweep) => "**{name}{what}** {turn} about {centre} mm, R {radius} mm, {sweep}";
     from_to_and_length(from, to, length) => "from {from} to {to}, length {length} mm";
-    the_machine_stops_beside_the_ideal_end(um, x, y) => "the machine stops {um:.1} µm beside the ideal end ({x:.4}, {y:.4})";
+    the_machine_stops_beside_the_ideal_end(um, x, y) => "the machine stops {um:.1} µm from the ideal end ({x:.4}, {y:.4})";
     one_of_several_in_this_line => "one of several in this line";
     // of programs: block numbers
     there_is_no_block_number_here => "there is no block number here";
-    is_no_block_number(name) => "{name:?} is no block number, expected up to 8 digits";
+    is_no_block_number(name) => "{name:?} is not a block number, expected up to 8 digits";
     the_number_is_that_of_another_block(number, line) => "N{number} is the block in line {line}";
     // of 3B: what a word means
     number_without_meaning_for_the_path => "**N** block number: it has no meaning for the path";
@@ -125,28 +125,28 @@ declare! {
     arc_with_its_turn_to(radius, degrees, turn, place) => "arc R {radius}, {degrees:.1}° {turn}, to {place}";
     line_back_to_the_start_of_the_contour => "line back to the start of the program's contour";
     line_to_the_end_of_the_lead_in => "line to the end of the lead-in";
-    a_block_whose_rest_is_offered => "a block: J, G and Z are offered behind its third B";
+    a_block_whose_rest_is_offered => "a block: J, G and Z are offered after its third B";
     pause_for_the_wire => "pause: the wire is cut or threaded";
     end_of_the_program => "end of the program";
     // of ISO: what a word means
     value_for_a_place_of_the_table(word, letter, mm) => "**{word}** value for the control's table: where {letter} names this place, the correction is {mm} mm";
-    value_reckoned_from_others(word, holds) => "**{word}** value for the control's table, reckoned from others of it: {holds}";
-    it_hangs_on_places_that_the_program_does_not_fill => "what it comes to hangs on places that the program does not fill";
+    value_reckoned_from_others(word, holds) => "**{word}** value for the control's table, calculated from others in it: {holds}";
+    it_hangs_on_places_that_the_program_does_not_fill => "its value depends on places that the program does not fill";
     it_comes_to_mm(mm) => "it comes to {mm} mm";
     the_corner_is_rounded(word, mm) => "**{word}** the corner at the end of this cut is rounded with R {mm} mm";
-    the_corner_is_chamfered(word, mm) => "**{word}** the corner at the end of this cut is chamfered, from each of its walls {mm} mm";
-    matter_of_the_machine(word) => "**{word}** a matter of the machine: it is kept, not followed";
-    matter_of_the_machine_mostly(word, usual) => "**{word}** a matter of the machine: {usual}. It is kept, not followed";
+    the_corner_is_chamfered(word, mm) => "**{word}** the corner at the end of this cut is chamfered, {mm} mm along each of its walls";
+    matter_of_the_machine(word) => "**{word}** depends on the machine: it is kept, not followed";
+    matter_of_the_machine_mostly(word, usual) => "**{word}** depends on the machine: {usual}. It is kept, not followed";
     the_row_of_the_table_is_in_line(line, row) => "line {line} of the program gives it: `{row}`";
     begin_and_end_on_tape => "**%** where the program begins and ends on tape";
-    block_that_may_be_left_out => "**/** the block is left out where the operator has switched that on: a matter of the machine";
+    block_that_may_be_left_out => "**/** the block is left out if the operator has switched that on, at the machine";
     number_that_a_call_may_name(word) => "**{word}** block number: it has no meaning for the path, but a call (`M98 P…`) may name it";
     number_of_a_program(word) => "**{word}** number of a program, or of a subprogram that `M98 P…` calls";
     radius_of_the_arc(word, mm) => "**{word}** radius of the arc, {mm} mm; a negative one turns by more than 180°";
-    feed_in_a_unit_of_the_machine(word) => "**{word}** feed; its unit is a matter of the machine";
+    feed_in_a_unit_of_the_machine(word) => "**{word}** feed; its unit depends on the machine";
     how_often_the_subprogram_is_run(word) => "**{word}** how often the subprogram that `M98` calls is run";
     runs_the_subprogram(word, number) => "**{word}** runs the subprogram that begins at N{number} or O{number}";
-    how_long_the_machine_waits(word) => "**{word}** how long the machine waits; its unit is a matter of the machine";
+    how_long_the_machine_waits(word) => "**{word}** how long the machine waits; its unit depends on the machine";
     the_wire_stands_at(word, axis, mm) => "**{word}** G92: the wire stands at {axis} {mm} mm";
     along_an_axis_for_another_word(word, mm, axis) => "**{word}** {mm} mm along {axis}, for the word of this line that takes it";
     along_an_axis_from_the_wire(word, mm, axis) => "**{word}** {mm} mm along {axis} from where the wire stands (G91)";
@@ -158,7 +158,7 @@ declare! {
     full_circles_leave_that_open => "full circles leave that open, so it is taken as the profile has it";
     found_from_the_arcs_of_this_program => "found from the arcs of this program, machines differ in it";
     place_of_the_table_as_set(word, index, mm) => "**{word}** place {index} of the control's table of corrections: {mm} mm, as this program sets it";
-    place_of_the_table_of_the_machine(word, index, mm) => "**{word}** place {index} of the control's table of corrections, not a length. What it holds is a matter of the machine: arcs are held against the setting, {mm} mm";
+    place_of_the_table_of_the_machine(word, index, mm) => "**{word}** place {index} of the control's table of corrections, not a length. What it holds depends on the machine: arcs are compared with the setting, {mm} mm";
     upper_guide_along_x_or_y => "the upper guide's way along X or Y, or the taper's";
     a_height => "a height: of the guides, or of the part";
     an_angle_of_the_taper => "an angle, mostly the taper's";
@@ -193,11 +193,11 @@ declare! {
     aligns_the_wire => "aligns the wire";
     shifts_the_zero => "shifts the zero";
     how_the_feed_is_controlled => "how the feed is controlled";
-    stop_as_to_thread_the_wire => "stop: the machine waits for the operator, as to thread the wire";
-    stop_where_switched_on => "stop, where the operator has switched that on";
-    end_of_the_program_back_to_its_begin => "end of the program, back to its begin";
+    stop_as_to_thread_the_wire => "stop: the machine waits for the operator, for instance to thread the wire";
+    stop_where_switched_on => "stop, if the operator has switched that on";
+    end_of_the_program_back_to_its_begin => "end of the program, back to its beginning";
     runs_a_subprogram => "runs the subprogram that P names, as often as L says";
-    end_of_a_subprogram_goes_on_behind_the_call => "end of a subprogram: goes on behind the call";
+    end_of_a_subprogram_goes_on_behind_the_call => "end of a subprogram: continues after the call";
     the_next_move_ignores_that_the_wire_touches => "on fast-wire controls the next move ignores that the wire touches";
     threads_the_wire => "threads the wire";
     cuts_the_wire_off => "cuts the wire off";
@@ -228,20 +228,20 @@ declare! {
     the_next_block_number => "the next block number";
     the_wire_stands_at_the_zero => "the wire stands at the zero";
     cuts_a_line => "cuts along a straight line";
-    cuts_an_arc_clockwise => "cuts along an arc clockwise: I and J are offered behind Y";
-    cuts_an_arc_counter_clockwise => "cuts along an arc counter-clockwise: I and J are offered behind Y";
+    cuts_an_arc_clockwise => "cuts along an arc clockwise: I and J are offered after Y";
+    cuts_an_arc_counter_clockwise => "cuts along an arc counter-clockwise: I and J are offered after Y";
     moves_without_cutting => "moves without cutting";
     ends_the_correction => "ends the correction";
     the_wire_runs_on_the_left => "the wire runs on the left of the contour";
     the_wire_runs_on_the_right => "the wire runs on the right of the contour";
     coordinates_are_absolute => "coordinates are absolute";
     says_where_the_wire_stands => "says where the wire stands";
-    stop_to_thread_the_wire => "stop, as to thread the wire";
+    stop_to_thread_the_wire => "stop, for instance to thread the wire";
     a_line_of_the_profile => "a line of the profile";
     line_back_to_where_the_cut_began => "line back to where the cut began";
     line_to_the_end_of_the_way_in => "line to the end of the way in";
     radius_and_turn_of_the_arc(radius, degrees, about) => "R {radius:.3}, {degrees:.1}°{about}";
     the_arc_that_r_means => ", the arc that R means";
-    leaves_the_block_before_without_a_corner => ", leaves the block before without a corner";
+    leaves_the_block_before_without_a_corner => ", leaves the block before it without a corner";
     on_layer_vertices(layer, vertices) => "{layer}, {vertices}";
 }

@@ -2,23 +2,23 @@
 
 declare! {
     no_contour_that_is_cut_is_on_the_layer(layer) => "no contour that is cut has an entity on the layer \"{layer}\"";
-    an_error_stands_in_the_drawing => "an error stands in the drawing";
+    an_error_stands_in_the_drawing => "the drawing has an error";
     the_path_was_given_up => "the path was given up";
     laying_the_path => "laying the wire's path";
     writing_and_proving => "writing and proving the program";
-    the_program_does_not_hold_its_proof(reason) => "the program does not hold its proof: {reason}";
+    the_program_does_not_hold_its_proof(reason) => "the program does not pass its proof: {reason}";
     no_program_of_this_drawing(reason) => "no program could be proved for this drawing: {reason}";
-    four_b_ends_with_an_open_contour => "4B cannot say where the wire stands behind an open contour: one can only be the last of a program, cut in one pass; cut it by itself, or choose another format";
-    four_b_has_no_tab => "4B holds one contour for all passes: it has a tab with one pass alone, and no overlap; set tab or closing-overlap to 0, or choose another format";
+    four_b_ends_with_an_open_contour => "4B cannot say where the wire is after an open contour: such a contour can only be the last of a program, cut in one pass; cut it by itself, or choose another format";
+    four_b_has_no_tab => "4B has one contour for all passes: it can have a tab only with a single pass, and no overlap; set tab or closing-overlap to 0, or choose another format";
     no_other_program(reason) => "no other program could be proved for this one, and none is written: {reason}";
     a_target_that_is_not_written(name, names) => "{name:?} is not written, expected dxf, {names}";
     it_cuts_nothing => "it cuts nothing";
     a_drawing_is_no_program => "it is a drawing, expected a program (.3b, .iso)";
     a_program_is_no_drawing => "it is a program, expected a drawing (.dxf)";
-    nothing_is_said_of_a_wire(format) => "nothing is said of a wire, only [milling] of an electrode: choose the format milling, or set correction or wire-diameter for {format}";
+    nothing_is_said_of_a_wire(format) => "no wire is set, only an electrode in [milling]: choose the format milling, or set correction or wire-diameter for {format}";
     a_pair_is_not_milled => "a pair is cut by a wire: expected 3b, 4b or iso";
     the_electrode_wears_more_than_a_layer(wear) => "the electrode gets {wear:.2} layers shorter in each layer along this contour: the floor is uneven within one layer; a larger electrode or a shorter contour wears less";
     the_step_is_longer(step, length) => "milling.step is {step} mm, longer than a layer of this contour, {length:.3} mm: expected a shorter step";
     the_floor_is_uneven(wear, least, most) => "the electrode gets {wear:.2} layers shorter in each layer along this contour: the floor is uneven within one layer, in the end {least:.4} to {most:.4} mm deep; a larger electrode or a shorter contour wears less";
-    it_is_milled => "an electrode mills it layer by layer: its heights belong to its moves, and it is no path of a wire";
+    it_is_milled => "an electrode mills it layer by layer: its heights belong to its moves, and it is not the path of a wire";
 }

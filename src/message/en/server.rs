@@ -1,17 +1,17 @@
-//! What the server answers, and what stands in a picture.
+//! What the server answers, and what is written in a picture.
 
 declare! {
-    the_document_has_changed_meanwhile => "the document has changed meanwhile";
+    the_document_has_changed_meanwhile => "the document has changed in the meantime";
     no_path_can_be_made => "no path can be made";
     internal_error(panic_text) => "internal error: {panic_text}";
-    there_is_no_such_drawing_open => "there is no such drawing open";
+    there_is_no_such_drawing_open => "no such drawing is open";
     internal_error_the_document_could_not_be_judged => "internal error: the document could not be judged; its text is kept and is tried again with the next change";
     looking_for_fixes => "Looking for fixes";
     internal_error_in(name) => "internal error in {name}";
     there_is_no_rule_named(name) => "there is no rule named {name}";
     was_ignored(method, reason) => "{method} was ignored: {reason}";
     internal_error_in_a_method(name, panic_text) => "internal error in {name}: {panic_text}";
-    was_open_already(uri) => "{uri} was open already: the new text or drawing takes its place";
+    was_open_already(uri) => "{uri} was already open: the new text or drawing takes its place";
     is_not_open(uri) => "{uri} is not open";
     was_changed_without_being_open(uri) => "{uri} was changed without being open as a text: nothing was done";
     was_closed_without_being_open(uri) => "{uri} was closed without being open as a text";
@@ -28,33 +28,33 @@ declare! {
     version_is_older_than(version, newest) => "version {version} is older than {newest}";
     holds_no_drawing(uri) => "{uri} holds no drawing";
     is_a_program_expected_a_drawing(uri) => "{uri} is a program, expected a drawing";
-    is_no_uri(uri) => "{uri:?} is no URI";
+    is_no_uri(uri) => "{uri:?} is not a URI";
     settings_in(level, message) => "settings in {level}: {message}";
-    the_file_cannot_be_taken(reason) => "the file cannot be taken: {reason}";
+    the_file_cannot_be_taken(reason) => "the file cannot be used: {reason}";
     was_changed_to_an_older_version(uri, newer, version) => "{uri} was changed to version {newer}, which is older than {version}: applied all the same";
     version_is_not_newer_than(newer, version) => "version {newer} is not newer than {version}";
     the_command_takes_one_argument(shape) => "the command takes one argument {shape}";
     the_argument_misfits(misfit, error) => "the argument {misfit}: {error}";
     the_command_is_not_known(command, expected) => "command is \"{command}\", expected \"{expected}\"";
-    is_no_drawing_edit => "is no drawing edit";
+    is_no_drawing_edit => "is not a drawing edit";
     is_a_text_expected_a_drawing(uri) => "{uri} is a text, expected a drawing";
     the_client_applies_no_drawing_edits => "the client did not declare experimental.wedm.applyDrawingEdit: apply the argument yourself";
     does_not_fit => "does not fit";
     the_client_applies_no_text_edits => "the client did not declare workspace.applyEdit, so it cannot be asked to change its text";
-    is_no_program(uri) => "{uri} is no program";
-    is_no_dxf_text(uri) => "{uri} is no DXF text, expected a document in which segments are written";
+    is_no_program(uri) => "{uri} is not a program";
+    is_no_dxf_text(uri) => "{uri} is not DXF text, expected a document in which segments are written";
     expected_either_position_or_handle => "expected either position or handle";
     there_is_no_segment_in(segment, handle, last) => "there is no segment {segment} in {handle}, expected 0 to {last}";
-    is_no_program_with_block_numbers(uri) => "{uri} is no program, expected one with block numbers";
+    is_no_program_with_block_numbers(uri) => "{uri} is not a program, expected one with block numbers";
     the_document_is_a_program => "the document is a program, expected a drawing";
     there_is_no_entity(handle) => "there is no entity {handle}";
     the_feed_is_not_above_0(feed) => "feed is {feed}, expected mm/min above 0";
     holds_no_program(uri) => "{uri} holds no program";
     is_a_drawing_expected_a_program(uri) => "{uri} is a drawing, expected a program";
-    errors_stand_in_the_drawing(errors) => "{errors} errors stand in the drawing";
+    errors_stand_in_the_drawing(errors) => "the drawing has {errors} errors";
     too_many_positions_are_asked_for(positions, places) => "{positions} positions are asked for, expected at most {places}";
     a_message_holds_too_much(body, limit) => "a message of {body} bytes holds more than {limit} lists, objects and values";
-    a_message_is_an_object => "a message is an object, expected no list and no bare value";
+    a_message_is_an_object => "a message has to be an object, not a list or a bare value";
     the_id_is_neither_number_nor_string => "the id is neither a whole number nor a string";
     the_method_is_not_a_string => "the method is not a string";
     jsonrpc_is_not_2_0 => "jsonrpc is not \"2.0\"";
@@ -66,8 +66,8 @@ declare! {
     no_whole_header_within_bytes(header_cap) => "no whole header within {header_cap} bytes, expected Content-Length and a blank line";
     the_stream_ends_within_a_header => "the stream ends within a header";
     a_header_without_content_length => "a header without Content-Length";
-    is_no_header_line(shown) => "\"{shown}\" is no header line, expected Content-Length and a blank line";
-    the_next_frame_begins_within_a_body(length) => "the next frame begins before {length} bytes of body came";
+    is_no_header_line(shown) => "\"{shown}\" is not a header line, expected Content-Length and a blank line";
+    the_next_frame_begins_within_a_body(length) => "the next frame begins before {length} bytes of body arrived";
     the_stream_ends_within_a_body(length) => "the stream ends within a body of {length} bytes";
     a_segment_tighter_than_the_correction(handle, segment, radius, required) => "{handle} · segment {segment} · R {radius:.3} mm, the correction is {required:.3} mm";
     on_layer_not_cut(kind, handle, layer) => "{kind} {handle} on layer {layer}, not cut";
@@ -101,7 +101,7 @@ declare! {
     leads_nowhere => "leads nowhere";
     listing_radii => "Listing radii";
     listing_contours => "Listing contours";
-    holding_the_parts_in_each_other => "Holding the parts in each other";
+    holding_the_parts_in_each_other => "Fitting the parts into each other";
     generating_the_programs => "Generating the programs";
     the_parts_fit => "The parts fit";
     the_parts_do_not_fit => "The parts do not fit";

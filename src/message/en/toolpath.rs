@@ -7,7 +7,7 @@ declare! {
     contour_is_open_and_cannot_be_entered_at(handle, x, y) => "contour {handle} is open and cannot be entered at ({x}, {y}), expected one of its ends";
     contour_is_open_the_side_of_the_wire_is_not_known(handle) => "contour {handle} is open: the side of the wire is not known; close it, or set compensation to none to cut it as drawn";
     side_of_contour_is_not_known(handle) => "side of contour {handle} is not known: say opening or punch";
-    the_thread_hole_comes_nearer_to_the_contour(x, y, correction, x1, y1) => "the thread hole ({x:.3}, {y:.3}) comes nearer to the contour than the correction {correction:.3} mm: the wire can stand at ({x1:.3}, {y1:.3}) alone";
+    the_thread_hole_comes_nearer_to_the_contour(x, y, correction, x1, y1) => "the thread hole ({x:.3}, {y:.3}) comes nearer to the contour than the correction {correction:.3} mm: the wire can only stand at ({x1:.3}, {y1:.3})";
     there_is_no_entity_with_the_handle(handle) => "there is no entity with the handle {handle}";
     entity_belongs_to_no_contour_that_is_cut(handle) => "entity {handle} belongs to no contour that is cut";
     there_is_no_contour_to_cut => "there is no contour to cut";
@@ -18,9 +18,9 @@ declare! {
     no_contour_keeps_a_tab(key) => "{key}: no contour of this program keeps a tab; punches do, and openings whose slug is heavier than job.slug-limit";
     the_tab_is_longer_than_contour(tab, handle, length) => "the tab of {tab:.3} mm leaves nothing of contour {handle}, which is {length:.3} mm long: expected a shorter tab";
     the_overlap_is_longer_than_contour(overlap, handle, length) => "the overlap of {overlap:.3} mm goes all round contour {handle}, which is {length:.3} mm long: expected a shorter one";
-    no_tab_fits_at(x, y) => "no tab begins at ({x:.3}, {y:.3}): the wire does not come there";
+    no_tab_fits_at(x, y) => "no tab begins at ({x:.3}, {y:.3}): the wire does not pass there";
     the_start_hole_cuts_into(diameter, x, y, handle, by) => "the start hole of Ø {diameter:.3} mm at ({x:.3}, {y:.3}) cuts {by:.3} mm into contour {handle}";
-    the_start_hole_comes_near(diameter, x, y, left, handle, correction, clear) => "the start hole of Ø {diameter:.3} mm at ({x:.3}, {y:.3}) leaves {left:.3} mm beside contour {handle}, expected the correction {correction:.3} mm and {clear} mm";
+    the_start_hole_comes_near(diameter, x, y, left, handle, correction, clear) => "the start hole of Ø {diameter:.3} mm at ({x:.3}, {y:.3}) leaves {left:.3} mm beside contour {handle}, expected the correction {correction:.3} mm plus {clear} mm";
     the_start_holes_meet(diameter, x, y, handle, x1, y1) => "the start hole of Ø {diameter:.3} mm at ({x:.3}, {y:.3}) meets that of contour {handle} at ({x1:.3}, {y1:.3})";
     no_start_hole_fits_in(diameter, handle, depth, most) => "no start hole of Ø {diameter:.3} mm has room in contour {handle}: its deepest point is {depth:.3} mm from the next contour, expected at most Ø {most:.3} mm";
     no_start_hole_at_all_fits_in(diameter, handle, depth) => "no start hole of Ø {diameter:.3} mm has room in contour {handle}: its deepest point is {depth:.3} mm from the next contour; expected a thread hole that is given elsewhere";
@@ -35,8 +35,8 @@ declare! {
     one_is_given_for_several_contours(what, count) => "one {what} is given for {count} contours: choose one contour by its handle, or give a table by handle";
     entry => "entry";
     whether_it_fits_needs(missing) => "whether the parts fit is not known: expected {missing} to be set";
-    no_contour_has_a_partner => "no contour of a workpiece has a partner in another one: there is no pair to cut (--force writes the programs none the less)";
+    no_contour_has_a_partner => "no contour of a workpiece has a partner in another one: there is no pair to cut (--force writes the programs all the same)";
     a_pair_needs(missing) => "the corrections of a pair are not known: expected {missing} to be set";
-    no_contour_is_of_a_pair => "no contour is of a pair: expected closed contours that the wire runs on both sides of, or two workpieces in each other";
-    passes_run_on_both_sides_of_the_contour(part) => "some passes of the {part} run on the one side of the contour, some on the other: the clearance lies between their corrections";
+    no_contour_is_of_a_pair => "no contour belongs to a pair: expected closed contours that the wire runs on both sides of, or two workpieces, one in the other";
+    passes_run_on_both_sides_of_the_contour(part) => "some passes of the {part} run on one side of the contour, some on the other: the clearance lies between their corrections";
 }

@@ -1,4 +1,4 @@
-//! Edits of programs with many stops, in every language, leave what is known of them as read afresh, and look at what they touch.
+//! Edits of programs with many stops, in every language, leave what is known of them as read from scratch, and look at what they touch.
 
 use crate::program::{Document, Language};
 use crate::settings::Effective;

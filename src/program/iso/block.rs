@@ -26,7 +26,7 @@ impl Motion {
         Motion::CounterClockwise,
     ];
 
-    /// That of a number behind G.
+    /// That of a number after G.
     pub(super) fn of(number: Number) -> Option<Motion> {
         let index = usize::try_from(number.mantissa).ok()?;
         Motion::ALL
@@ -190,7 +190,7 @@ impl Code {
     /// `#1=4`.
     const VARIABLE: Code = Code(0);
     const SKIP: Code = Code(1);
-    /// The text behind a colon.
+    /// The text after a colon.
     const SECOND: Code = Code(2);
     /// TP and TN.
     const PLANE: Code = Code(3);
@@ -294,7 +294,7 @@ struct Reader {
     block: Block,
     /// M98 stands in it.
     calls: bool,
-    /// The number behind P, which M98 or a word that takes the coordinates explains.
+    /// The number after P, which M98 or a word that takes the coordinates explains.
     p: Option<(Option<u32>, Range<usize>)>,
 }
 

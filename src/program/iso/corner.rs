@@ -1,4 +1,4 @@
-//! Corners that the control makes: R on a straight cut, `,R` and `,C` behind any. The move ends early, the corner's own
+//! Corners that the control makes: R on a straight cut, `,R` and `,C` after any. The move ends early, the corner's own
 //! follows, and the next one begins where that ends.
 
 use super::block::{Block, Corner, Motion};
@@ -6,7 +6,7 @@ use super::machine::Machine;
 use super::moves::{Bend, Course, Move, Reading, added, apart, bend_about, micrometres};
 use crate::geometry::{Locus, Point, Segment, cross, turn};
 
-/// The next move is searched for in this many lines behind a corner's.
+/// The next move is searched for in this many lines after a corner's.
 pub(crate) const REACH: usize = 64;
 
 /// Two cuts that turn by less than this have no corner, radians.
@@ -18,7 +18,7 @@ pub(crate) struct Turned {
     /// The move up to where the corner begins; the whole move where there is no corner to make.
     pub(crate) made: Move,
     pub(crate) corner: Option<Move>,
-    /// How many lines behind it were read.
+    /// How many lines after it were read.
     pub(crate) looked_at: usize,
     /// The next move keeps its place, however far the wire has been moved before.
     pub(crate) is_fixed: bool,

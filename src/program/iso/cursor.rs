@@ -3,7 +3,7 @@
 use super::word::{Number, Term, Token, Value, WordFault};
 use std::ops::Range;
 
-/// The digits that a number may have before its decimal point, and those that are read behind it; more than any control
+/// The digits that a number may have before its decimal point, and those that are read after it; more than any control
 /// takes.
 const MOST_DIGITS: u32 = 9;
 
@@ -134,7 +134,7 @@ impl Cursor<'_> {
         Token::Foreign
     }
 
-    /// `,R2.` behind its comma.
+    /// `,R2.` after its comma.
     fn corner(&mut self, start: usize) -> Token {
         self.skip_space();
         if let Some(letter @ (b'R' | b'C')) = self.peek().map(|byte| byte.to_ascii_uppercase()) {
@@ -153,7 +153,7 @@ impl Cursor<'_> {
         self.skip(|byte| !matches!(byte, b' ' | b'\t' | b'(' | b';'));
     }
 
-    /// A comment behind its `(`; those within it are part of it.
+    /// A comment after its `(`; those within it are part of it.
     fn comment(&mut self, start: usize) -> Token {
         let mut depth = 1_usize;
         while let Some(byte) = self.peek() {
@@ -248,7 +248,7 @@ impl Cursor<'_> {
         found
     }
 
-    /// The value behind `H001=`: one number, or a list up to the next letter, comment or end.
+    /// The value after `H001=`: one number, or a list up to the next letter, comment or end.
     fn definition(&mut self, letter: u8, index: Number) -> Token {
         self.at += 1;
         self.skip_space();
@@ -342,7 +342,7 @@ impl Cursor<'_> {
         let is_number = |byte: Option<u8>| {
             byte.is_some_and(|byte| byte.is_ascii_digit() || matches!(byte, b'.' | b'O' | b'o'))
         };
-        // `N10O0001`: the number of a program behind that of a block.
+        // `N10O0001`: the number of a program after that of a block.
         if letter == b'N'
             && digits > 0
             && self.line[at + 1..]
@@ -443,7 +443,7 @@ impl Cursor<'_> {
         }))
     }
 
-    /// A corner's word stands behind the comma at the cursor.
+    /// A corner's word stands after the comma at the cursor.
     fn is_corner(&self) -> bool {
         let mut rest = self
             .line

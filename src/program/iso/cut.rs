@@ -61,7 +61,7 @@ impl JoinedCut {
         }
     }
 
-    /// This cut followed by the next, which goes on from its end: behind the stop at its tab, if there was one.
+    /// This cut followed by the next, which goes on from its end: after the stop at its tab, if there was one.
     pub(crate) fn append(&mut self, next: JoinedCut) {
         if self.stops > 0 {
             self.before_tab.get_or_insert(self.sum.moves);
@@ -86,7 +86,7 @@ impl JoinedCut {
         Some(at)
     }
 
-    /// Names its stretches anew.
+    /// Names its stretches again.
     pub(crate) fn renumber(&mut self, moved: &dyn Fn(usize) -> usize) {
         let parts = self.parts.iter_mut().map(|(stretch, _)| stretch);
         let lines = [&mut self.first_line.0, &mut self.last_line.0];

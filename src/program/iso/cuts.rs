@@ -85,7 +85,7 @@ impl Document {
         byte + start as usize..byte + end as usize
     }
 
-    /// The first part from a place on; behind the last stretch where there is none.
+    /// The first part from a place on; after the last stretch where there is none.
     fn first_from(&self, (stretch, part): PartAt) -> PartAt {
         let stretches = self.stretches();
         let is_here = |of: &Stretch| part < of.part_count();
@@ -99,7 +99,7 @@ impl Document {
             .map_or((stretches.len(), 0), |(stretch, _)| (stretch, 0))
     }
 
-    /// The cut that begins at a part; `None` for one that is known to be sound, and behind the last.
+    /// The cut that begins at a part; `None` for one that is known to be sound, and after the last.
     fn cut_from(&self, (stretch, part): PartAt) -> Option<JoinedCut> {
         let own = self.stretches().get(stretch)?;
         let mut cut = JoinedCut::of(own, stretch, part)?;
@@ -247,7 +247,7 @@ impl OpenCut {
     }
 }
 
-/// Open cuts that continue each other behind stops.
+/// Open cuts that continue each other after stops.
 struct OpenCuts<'a> {
     document: &'a Document,
     cuts: Vec<OpenCut>,

@@ -25,8 +25,8 @@ use std::sync::{Arc, OnceLock};
 
 /// An ISO program as text, with the effects of its lines.
 ///
-/// The effect of a line depends on those before it, so a program is kept as stretches with the state before and behind
-/// each. An edit runs the stretches that it touched, and those behind whose state changes; a stretch that only moved is
+/// The effect of a line depends on those before it, so a program is kept as stretches with the state before and after
+/// each. An edit runs the stretches that it touched, and those after them whose state changes; a stretch that only moved is
 /// shifted. A program that calls subprograms is run again with each edit.
 #[derive(Clone, Debug)]
 pub struct Document {

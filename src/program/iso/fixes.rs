@@ -255,7 +255,7 @@ fn bare_fixes(document: &Document, range: &Range<usize>) -> Vec<TextFix> {
     vec![fix(fine), fix(format!("{found}."))]
 }
 
-/// A straight cut behind the last one that leads back to where the cut began, or to where its way in ended.
+/// A straight cut after the last one that leads back to where the cut began, or to where its way in ended.
 fn closing_fix(document: &Document, range: &Range<usize>) -> Option<TextFix> {
     let text = document.text();
     let line = text.line_of(range.start);
@@ -297,7 +297,7 @@ fn closing_fix(document: &Document, range: &Range<usize>) -> Option<TextFix> {
     Some(TextFix::text(FixKind::Close { length }, false, edit))
 }
 
-/// True where the next moving line behind `line` has its own G word, or would cut straight anyway.
+/// True where the next moving line after `line` has its own G word, or would cut straight anyway.
 fn goes_on_by_itself(document: &Document, line: usize, motion: Motion) -> bool {
     let mut behind = (line + 1..document.text().line_count()).map(|line| document.block(line));
     let next = behind.find(|block| {

@@ -72,7 +72,7 @@ impl Document {
         ))
     }
 
-    /// The number of the next block behind a line that has one.
+    /// The number of the next block after a line that has one.
     pub(crate) fn number_behind(&self, line: usize) -> Option<u32> {
         self.lines_behind(line)
             .find_map(|line| self.block(line).number)

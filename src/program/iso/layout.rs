@@ -96,7 +96,7 @@ fn formed(line: &[u8], parted: bool) -> Option<String> {
                     .map(|character| character.to_ascii_uppercase()),
             );
         }
-        // Behind a comment in brackets a space precedes the next word in every form.
+        // After a comment in brackets a space precedes the next word in every form.
         may_touch = *token == Token::Skip;
     }
     let is_blank = |rest: &[u8]| rest.iter().all(|byte| matches!(byte, b' ' | b'\t'));

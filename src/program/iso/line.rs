@@ -257,7 +257,7 @@ impl Line<'_> {
 }
 
 impl Document {
-    /// The edit that puts a word behind the block number of a line; `None` in another code page.
+    /// The edit that puts a word after the block number of a line; `None` in another code page.
     pub(super) fn with_word(&self, line: usize, word: &str) -> Option<TextEdit> {
         let text = self.text();
         let new = String::from_utf8(with_word(text.line(line), word, self.is_parted())).ok()?;
@@ -265,7 +265,7 @@ impl Document {
     }
 }
 
-/// A line with a word put behind its block number.
+/// A line with a word put after its block number.
 pub(super) fn with_word(line: &[u8], word: &str, parted: bool) -> Vec<u8> {
     let mut at = 0;
     let mut is_first = true;

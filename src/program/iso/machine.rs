@@ -40,7 +40,7 @@ pub(crate) struct Machine {
     pub(crate) ended: bool,
     /// An electrode has been fed downwards: it mills layer by layer, and no wire cuts.
     pub(crate) mills: bool,
-    /// The corner behind the last move was cut off: the distance of the next move's start from its sharp point.
+    /// The corner after the last move was cut off: the distance of the next move's start from its sharp point.
     pub(crate) cut_short: Option<Place>,
     pub(crate) trail: Trail,
 }
@@ -56,7 +56,7 @@ pub(crate) enum Behind {
     Stop,
 }
 
-/// The last cut, without a stop or a rapid behind it.
+/// The last cut, without a stop or a rapid after it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Trail {
     /// The last cut and the one before, relative to their end.
@@ -147,7 +147,7 @@ impl Machine {
     /// The same; returns the move as its words say it, and where it begins.
     pub(crate) fn steer(&mut self, block: &Block, reading: &Reading) -> Option<Steered> {
         self.inch = block.inch.unwrap_or(self.inch);
-        // Whether a line is followed hangs on its words alone, not on where the wire is.
+        // Whether a line is followed depends on its words alone, not on where the wire is.
         let is_unread = block.broken || self.leads_too_far(block, reading);
         if let Some(incremental) = block.incremental {
             self.incremental = incremental;

@@ -286,7 +286,7 @@ pub(crate) fn distance(a: Place, b: Place) -> f64 {
     (x as f64).hypot(y as f64)
 }
 
-/// Whether two places are one, within so many µm.
+/// Whether two places are one, within this many µm.
 pub(super) fn meet(one: Place, other: Place, tolerance: f64) -> bool {
     distance(one, other) / 1e3 <= tolerance
 }

@@ -26,7 +26,7 @@ pub(crate) struct Order {
     pub(crate) called: FxHashSet<u32>,
     /// Lines that call a subprogram which is not in the text, with its number.
     pub(crate) missing: Vec<(usize, u32)>,
-    /// Subprograms that run on into the blocks behind them: the line behind which M99 is missing, with the number.
+    /// Subprograms that run on into the blocks after them: the line after which M99 is missing, with the number.
     pub(crate) unreturned: Vec<(usize, u32)>,
     /// The line at which the calls were no longer followed: they go too deep or never end.
     pub(crate) endless: Option<usize>,
@@ -55,7 +55,7 @@ pub(crate) fn order(text: &SourceText) -> Order {
     walk.order
 }
 
-/// The line of each N and O number; the last one where it stands several times, since subprograms stand behind the end.
+/// The line of each N and O number; the last one where it stands several times, since subprograms stand after the end.
 pub(super) fn labels(text: &SourceText) -> FxHashMap<u32, usize> {
     let mut labels = FxHashMap::default();
     for line in 0..text.line_count() {

@@ -26,9 +26,9 @@ pub(crate) struct Part {
     pub(crate) open: bool,
     /// It continues the one before.
     pub(crate) continues: bool,
-    /// The stop behind it, before any other move, bytes from the start of the stretch; [`SEVERAL`] for more than one.
+    /// The stop after it, before any other move, bytes from the start of the stretch; [`SEVERAL`] for more than one.
     pub(crate) stop: Option<u32>,
-    /// Another stop follows the one behind it without a move between: an open cut is meant to end there.
+    /// Another stop follows the one after it without a move between: an open cut is meant to end there.
     pub(crate) ends_open: bool,
     /// The side on which the control let the wire run, where it is the same from the second move to the one before the
     /// last.

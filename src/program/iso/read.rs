@@ -1,4 +1,4 @@
-//! Runs lines: the meaning of each, the state behind it, and its faults.
+//! Runs lines: the meaning of each, the state after it, and its faults.
 
 #![warn(clippy::indexing_slicing)]
 
@@ -19,7 +19,7 @@ use std::ops::Range;
 const LARGEST_CORRECTION: f64 = 5e6;
 
 impl Stretch {
-    /// Runs the first `count` of `lines`, each with the byte at which it begins, counted from `start`; the lines behind
+    /// Runs the first `count` of `lines`, each with the byte at which it begins, counted from `start`; the lines after
     /// complete the last of them.
     pub(crate) fn run<'a>(
         lines: impl Lines<'a>,
@@ -438,7 +438,7 @@ pub(crate) trait Lines<'a>: Iterator<Item = (usize, &'a [u8])> + Clone {}
 
 impl<'a, I: Iterator<Item = (usize, &'a [u8])> + Clone> Lines<'a> for I {}
 
-/// The lines behind a line.
+/// The lines after a line.
 struct Ahead<'l, L> {
     lines: &'l L,
     /// The number of lines in the stretch.
@@ -450,7 +450,7 @@ impl<'a, L: Lines<'a>> Ahead<'_, L> {
         self.lines.clone().map(|(_, line)| line)
     }
 
-    /// How many of the lines read are behind the stretch.
+    /// How many of the lines read are after the stretch.
     fn beyond(&self, looked_at: usize) -> u32 {
         looked_at.saturating_sub(self.left) as u32
     }

@@ -36,7 +36,7 @@ pub(super) struct Ran<'a> {
     block: &'a Block,
     /// Its move, and the corner that the control makes at its end.
     made: [Option<Move>; 2],
-    /// The state behind it.
+    /// The state after it.
     pub(super) machine: &'a Machine,
 }
 
@@ -91,7 +91,7 @@ impl Document {
         }
     }
 
-    /// Hands out the moves in the order in which they run, each with its line and the state behind it.
+    /// Hands out the moves in the order in which they run, each with its line and the state after it.
     pub(crate) fn moves(&self, each: &mut dyn FnMut(usize, Move, &Machine)) {
         for stretch in 0..self.stretches().len() {
             self.run_lines(stretch, &mut |ran| {
@@ -148,7 +148,7 @@ impl Document {
             .map(|(_, stretch)| stretch.after)
     }
 
-    /// The state behind a line.
+    /// The state after a line.
     pub(crate) fn machine_behind(&self, line: usize) -> Option<Machine> {
         self.run_up_to(line, true).map(|(_, stretch)| stretch.after)
     }
@@ -158,13 +158,13 @@ impl Document {
         self.begun(self.run_up_to(line, false)?)
     }
 
-    /// The cut in progress behind a line.
+    /// The cut in progress after a line.
     pub(crate) fn begun_cut_with(&self, line: usize) -> Option<BegunCut> {
         self.begun(self.run_up_to(line, true)?)
     }
 
     fn begun(&self, (index, own): (usize, Stretch)) -> Option<BegunCut> {
-        // Only the last stretch with the start of a cut matters, and those behind.
+        // Only the last stretch with the start of a cut matters, and those after.
         let before = &self.stretches()[..index];
         let from = before.iter().rposition(Stretch::bounds_cuts).unwrap_or(0);
         let mut begun: Option<BegunCut> = None;
@@ -180,7 +180,7 @@ impl Document {
     }
 }
 
-/// The cut in progress behind a part, which goes on with the one before.
+/// The cut in progress after a part, which goes on with the one before.
 fn begun_by(before: Option<BegunCut>, part: &Part) -> Option<BegunCut> {
     let last = part.last[1];
     let first = before.unwrap_or(BegunCut {

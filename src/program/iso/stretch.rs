@@ -1,6 +1,6 @@
-//! Some lines of a program, run: the state behind them, their findings, and their cuts.
+//! Some lines of a program, run: the state after them, their findings, and their cuts.
 //!
-//! A program is kept as stretches of lines, so that an edit runs only the stretch that it touched, and those behind it
+//! A program is kept as stretches of lines, so that an edit runs only the stretch that it touched, and those after it
 //! whose state changes. A stretch that only moved is shifted, not run.
 
 use super::block::{Block, Code, Offset};
@@ -22,7 +22,7 @@ pub(crate) struct Pathless {
 }
 
 impl Pathless {
-    /// The state behind it.
+    /// The state after it.
     pub(crate) fn after(&self) -> Machine {
         self.stretch.after
     }
@@ -97,7 +97,7 @@ pub(crate) struct Stretch {
     pub(crate) definitions: Vec<Definition>,
     /// The first lengths without a decimal point that are not 0, and the first with one.
     pub(crate) lengths: [Vec<(u32, u32)>; 2],
-    /// How many lines behind its own decide how its last ones run.
+    /// How many lines after its own decide how its last ones run.
     pub(crate) ahead: u32,
     /// Whether the wire's position was lost since the last rapid or stop matters before the first
     /// one here, and not only to the part that goes on from before.
@@ -122,7 +122,7 @@ pub(crate) struct Stretch {
     pub(crate) ends_open_before: bool,
     /// A line of that cut has a fault.
     pub(crate) faulty_before: bool,
-    /// The first words behind the end.
+    /// The first words after the end.
     pub(crate) behind_end: Option<(u32, u32)>,
     /// The last line with any content.
     pub(crate) last_words: Option<(u32, u32)>,
@@ -190,7 +190,7 @@ impl Stretch {
         })
     }
 
-    /// A cut begins or ends in here: the lines behind do not depend on those before.
+    /// A cut begins or ends in here: the lines after do not depend on those before.
     pub(crate) fn bounds_cuts(&self) -> bool {
         self.ends_cut_before.is_some()
             || !self.gone.is_empty()

@@ -7,7 +7,7 @@ use std::ops::Range;
 /// The kinds of such words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::program) enum Words {
-    /// Those that position the upper guide: U, V, a second contour behind a colon.
+    /// Those that position the upper guide: U, V, a second contour after a colon.
     Guide,
     /// Those and the ones that tilt the wire: G51, G52, G140 to G142, TP, TN.
     All,

@@ -2,7 +2,7 @@
 //!
 //! A program can tilt it in three ways: by an angle (G51 to the left of the way, G52 to the right, with A or T; G50
 //! ends it; G141, G142 and G140 the same), by the distance of the upper guide from the lower one (U, V), or by a second
-//! contour behind a colon. An angle needs the height between the programmed plane and the other one: TP and TN, else
+//! contour after a colon. An angle needs the height between the programmed plane and the other one: TP and TN, else
 //! the workpiece's.
 
 use super::block::{Offset, read_line};
@@ -93,7 +93,7 @@ enum Lean {
     Own(Segment),
 }
 
-/// A move with how the wire leans behind it.
+/// A move with how the wire leans after it.
 struct Leaning {
     line: usize,
     lower: Segment,
@@ -165,7 +165,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Executes a line; `machine` is the state behind it.
+    /// Executes a line; `machine` is the state after it.
     fn read(&mut self, line: usize, bytes: &[u8], machine: &Machine) {
         self.own = None;
         let mut said = Words::default();
@@ -210,7 +210,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The move of the upper end behind the colon. Omitted words are those of the lower end.
+    /// The move of the upper end after the colon. Omitted words are those of the lower end.
     fn follow(&mut self, bytes: &[u8], machine: &Machine) {
         let block = read_line(bytes, 1, |_| {});
         let before = self.upper.unwrap_or(Machine {
@@ -229,7 +229,7 @@ impl<'a> Reader<'a> {
         self.upper = Some(upper);
     }
 
-    /// A move, and how the wire leans behind it.
+    /// A move, and how the wire leans after it.
     fn leaning(&mut self, line: usize, made: &Move) -> Leaning {
         let lean = self.lean(made);
         Leaning {
@@ -292,7 +292,7 @@ struct Words {
     tool: Option<Number>,
     guide: [Option<Number>; 2],
     planes: [Option<Number>; 2],
-    /// The byte behind the colon.
+    /// The byte after the colon.
     second: Option<usize>,
 }
 

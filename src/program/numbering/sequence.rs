@@ -6,7 +6,7 @@ use crate::finding::Fault;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::program) struct Numbered {
     pub(crate) number: Option<u32>,
-    /// The first block behind a pause: counting may begin again.
+    /// The first block after a pause: counting may begin again.
     pub(crate) is_after_pause: bool,
     /// Unreadable: whether it has a number is unknown.
     pub(crate) is_unread: bool,
@@ -131,7 +131,7 @@ impl<P> Sequence<P> {
         })
     }
 
-    /// Takes the next block; `next` is the one behind it.
+    /// Takes the next block; `next` is the one after it.
     pub(crate) fn push(&mut self, block: &Numbered, next: Option<&Numbered>, place: P) {
         let Sequence {
             step,

@@ -1,4 +1,4 @@
-//! The continuation of an open cut behind a stop: the tab of its contour, or pieces that return to the start together.
+//! The continuation of an open cut after a stop: the tab of its contour, or pieces that return to the start together.
 
 use super::contour::{Ends, is_tab};
 use super::lay::mixed;
@@ -9,12 +9,12 @@ use std::ops::Range;
 /// Stops in one contour, to hold the part before its last piece is cut.
 const STOPS_WITHIN: usize = 16;
 
-/// Those of them behind which a tab is searched for.
+/// Those of them after which a tab is searched for.
 const TABS_WITHIN: usize = 4;
 
 /// Consecutive cuts with a stop between them, from an open one on, as a language provides them.
 pub(crate) trait BehindStops {
-    /// Takes the cut behind the next stop; `None` where none continues there.
+    /// Takes the cut after the next stop; `None` where none continues there.
     fn take_next(&mut self) -> Option<()>;
 
     /// The cuts taken so far, with the open one, as one.
@@ -26,11 +26,11 @@ pub(crate) trait BehindStops {
     /// The mark of the last of them: equal ways with the same stops have equal marks.
     fn last_mark(&self) -> u64;
 
-    /// The last one is a contour of its own or the way to one: no cut behind it is a tab of those before.
+    /// The last one is a contour of its own or the way to one: no cut after it is a tab of those before.
     fn last_stands_alone(&self) -> bool;
 }
 
-/// Whether cuts up to a stop and the one behind it are a contour and its tab, by the marks of them
+/// Whether cuts up to a stop and the one after it are a contour and its tab, by the marks of them
 /// all: what an edit leaves alone is not worked out again.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct KnownTabs {

@@ -1,6 +1,6 @@
 //! Where a contour closes: the one answer for the rules, the outline, conversion and refactorings of every language.
 //!
-//! A contour is closed where the way behind its way in returns to the end of the way in, or to the start, however many
+//! A contour is closed where the way after its way in returns to the end of the way in, or to the start, however many
 //! blocks the way in has; a way out may follow. A stop while the contour is open belongs to the contour if a block goes
 //! on from that very point and then closes or meets the contour: the stop holds the part while its tab is cut.
 
@@ -15,7 +15,7 @@ const SHORT_LEADS: usize = 6;
 /// The most blocks of a way out that does not lead to the start.
 const LONGEST_WAY_OUT: usize = 12;
 
-/// Within this many blocks behind a stop one must meet the open contour.
+/// Within this many blocks after a stop one must meet the open contour.
 const BEHIND_A_STOP: usize = 16;
 
 /// The ends of a way: for nearly all ways they alone show that it closes.
@@ -179,7 +179,7 @@ const TANGENT: f64 = 0.1;
 /// A contour this many times as long as what leads to it and away from it is the contour, however these lie.
 const DOMINANT: f64 = 3.0;
 
-/// Whether the blocks before a closed piece of a way and those behind it are leads, not a part of a contour that
+/// Whether the blocks before a closed piece of a way and those after it are leads, not a part of a contour that
 /// touches itself.
 fn are_leads(
     way: &dyn Way,
@@ -347,8 +347,8 @@ pub(crate) fn not_closed(way: &dyn Way) -> Option<Fault> {
     Some(Fault::NotClosed { x: by.x, y: by.y })
 }
 
-/// Whether a way behind a stop belongs to the open contour before it: it closes the contour or meets it. `before` are
-/// the blocks up to the stop, `whole` those and the ones behind it.
+/// Whether a way after a stop belongs to the open contour before it: it closes the contour or meets it. `before` are
+/// the blocks up to the stop, `whole` those and the ones after it.
 pub(crate) fn is_tab(before: &dyn Way, behind: &dyn Way, whole: &dyn Way) -> Option<bool> {
     if before.count() == 0 || behind.count() == 0 || goes_round(before)? || goes_round(behind)? {
         return Some(false);

@@ -277,7 +277,7 @@ impl Tangle<'_> {
         sum < length
     }
 
-    /// The way `reach` before and behind a place on one of its pieces, or its ends; `None` where an end is at the
+    /// The way `reach` before and after a place on one of its pieces, or its ends; `None` where an end is at the
     /// place.
     fn ends(&self, stand: &Stand, reach: f64) -> Option<[Point; 2]> {
         Some([

@@ -28,7 +28,7 @@ type Pair = (u64, u64, [i64; 2], bool);
 /// Pieces of two parts that come near each other, by their indices there, and the cost of finding them.
 type Near = (Box<[(u32, u32)]>, usize);
 
-/// The known results for pairs of parts, and for what goes on behind stops.
+/// The known results for pairs of parts, and for what goes on after stops.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Known {
     pairs: FxHashMap<Pair, Near>,
@@ -196,7 +196,7 @@ impl Found {
             else {
                 continue;
             };
-            // The corner that a control makes behind a block belongs to that block.
+            // The corner that a control makes after a block belongs to that block.
             let before = crossing.second.checked_sub(1);
             let is_corner = before.and_then(|before| way.range(before)) == Some(own.clone());
             let piece = way.piece(crossing.second).filter(|_| !is_corner);
@@ -390,7 +390,7 @@ fn crossings_of_pass(way: &PartedWay<'_>, pass: &Range<usize>, aside: f64) -> Of
     .all_crossings()
 }
 
-/// The step to the side behind the stop, to cut the tab in another pass than the one before, µm; 0 where there is none.
+/// The step to the side after the stop, to cut the tab in another pass than the one before, µm; 0 where there is none.
 fn aside_at_stop(way: &PartedWay<'_>) -> f64 {
     let across = || {
         let behind = way.stop()?;

@@ -58,7 +58,7 @@ pub(crate) struct PartedWay<'a> {
     pub(super) firsts: Vec<usize>,
     pieces: Vec<OnceCell<Vec<Segment>>>,
     totals: Totals,
-    /// Before and behind the first and the last block, where they are known beforehand.
+    /// Before and after the first and the last block, where they are known beforehand.
     ends: Option<[[Node; 2]; 2]>,
 }
 

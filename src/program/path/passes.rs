@@ -100,7 +100,7 @@ impl Before<'_> {
         }
     }
 
-    /// Its passes from a block of this way on, behind `known` ones, if one begins there, both ways go on alike, and as
+    /// Its passes from a block of this way on, after `known` ones, if one begins there, both ways go on alike, and as
     /// many of them are looked at.
     fn from(
         &self,
@@ -175,7 +175,7 @@ struct Begun {
 
 /// Among the rounds that begin with one of the next pieces, the end of the one that returns to its
 /// start first, and its box, which is that of the first pass: the way in and out may return to
-/// their own start, behind all passes.
+/// their own start, after all passes.
 fn round_from(
     way: &dyn Way,
     from: usize,
@@ -378,7 +378,7 @@ mod tests {
         assert!(findings.iter().any(|one| one.rule.name() == "not-judged"));
     }
 
-    /// A way with a stop behind the first `before` of its places.
+    /// A way with a stop after the first `before` of its places.
     fn stopping(way: &[[f64; 2]], before: usize) -> Vec<Option<[f64; 2]>> {
         let mut way: Vec<_> = way.iter().copied().map(Some).collect();
         way.insert(before, None);

@@ -95,7 +95,7 @@ impl Trace {
     }
 
     /// The same program as its blocks mean it: every step begins at the intended end of the one before, without the
-    /// drift of a counting machine. Where the program states a place anew, it begins there.
+    /// drift of a counting machine. Where the program states a new place, it begins there.
     pub(crate) fn into_meant(mut self) -> Trace {
         let mut follower = Follower::from(self.start);
         for step in &mut self.steps {
@@ -149,7 +149,7 @@ impl Trace {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Follower {
     pub(crate) at: Point,
-    /// Where the machine stands behind the last step.
+    /// Where the machine stands after the last step.
     stands: Point,
 }
 
@@ -161,7 +161,7 @@ impl Follower {
         }
     }
 
-    /// Where it begins the next step. The program may state a place anew: the wire was taken there.
+    /// Where it begins the next step. The program may state a new place: the wire was taken there.
     pub(crate) fn begin(&mut self, step: &Step) -> Point {
         self.at += step.start - self.stands;
         self.stands = step.end;
@@ -176,7 +176,7 @@ pub(crate) struct CutSteps<'a> {
     head: Cow<'a, [Step]>,
     tail: Vec<Step>,
     totals: Totals,
-    /// From the cut's beginning to that of each step of the head, and behind the last, as the blocks mean it, µm.
+    /// From the cut's beginning to that of each step of the head, and after the last, as the blocks mean it, µm.
     to_head: Vec<Vector>,
     /// The same for the steps of the tail.
     to_tail: Vec<Vector>,
@@ -223,7 +223,7 @@ impl<'a> CutSteps<'a> {
         }
     }
 
-    /// The same with a stop behind this many steps, before its tab.
+    /// The same with a stop after this many steps, before its tab.
     pub(crate) fn stopping(mut self, stop: Option<usize>) -> CutSteps<'a> {
         self.totals.stop = stop;
         self
@@ -243,7 +243,7 @@ impl<'a> CutSteps<'a> {
         self.head.get(index).or_else(in_tail)
     }
 
-    /// Where the machine stands before a step, or behind the last.
+    /// Where the machine stands before a step, or after the last.
     fn stands(&self, index: usize) -> Option<Point> {
         if index == self.totals.count {
             return self.step(index.checked_sub(1)?).map(|step| step.end);
@@ -286,7 +286,7 @@ impl Way for CutSteps<'_> {
     }
 }
 
-/// From somewhere to the beginning of each step, and behind the last.
+/// From somewhere to the beginning of each step, and after the last.
 fn sums(from: Vector, steps: &[Step]) -> Vec<Vector> {
     let mut sums = vec![from];
     sums.extend(steps.iter().scan(from, |at, step| {

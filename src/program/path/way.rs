@@ -46,7 +46,7 @@ pub(crate) struct Totals {
     pub(crate) count: usize,
     pub(crate) arcs: usize,
     pub(crate) writing: Writing,
-    /// Blocks before its first stop, if it holds one: the tab is behind.
+    /// Blocks before its first stop, if it holds one: the tab is after.
     pub(crate) stop: Option<usize>,
 }
 
@@ -62,7 +62,7 @@ pub(crate) trait Way {
         self.totals().stop
     }
 
-    /// The position before a block, or behind the last.
+    /// The position before a block, or after the last.
     fn node(&self, index: usize) -> Option<Node>;
     /// The curve of a block at its intended start; a line without length where it leads nowhere.
     fn piece(&self, index: usize) -> Option<Segment>;
@@ -121,12 +121,12 @@ impl HeldWay {
         &self.pieces
     }
 
-    /// Marks that the next block is behind a stop.
+    /// Marks that the next block is after a stop.
     pub(crate) fn stop_here(&mut self) {
         self.totals.stop.get_or_insert(self.pieces.len());
     }
 
-    /// Adds a block: its curve from the intended position, and the machine's position behind it.
+    /// Adds a block: its curve from the intended position, and the machine's position after it.
     pub(crate) fn push(&mut self, piece: Segment, is_arc: bool, end: Node) {
         self.pieces.push(piece);
         self.nodes.push(end);

@@ -11,7 +11,7 @@ const WIDEST: f64 = 2.9;
 /// Lines that end this far, µm, beside one line are parts of it.
 const COLLINEAR: f64 = 1.5;
 
-/// Half the turn of the arc that smoothly fills the gap between the direction before it and the one behind it, radians;
+/// Half the turn of the arc that smoothly fills the gap between the direction before it and the one after it, radians;
 /// `None` where there is none, or it would be a line.
 pub(in crate::program) fn half_turn_between(
     before: Vector,
@@ -24,7 +24,7 @@ pub(in crate::program) fn half_turn_between(
     is_arc.then_some(half)
 }
 
-/// True for two straight pieces, one behind the other, that would have been written as one.
+/// True for two straight pieces, one after the other, that would have been written as one.
 pub(in crate::program) fn is_one_line(one: Vector, other: Vector) -> bool {
     turn(one, other).abs() * one.norm().min(other.norm()) <= COLLINEAR
 }

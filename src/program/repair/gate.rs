@@ -294,7 +294,7 @@ impl Taken {
             before.is_none_or(|(_, other)| other.range.end < edit.range.start)
         };
         let lines = |edit: &TextEdit| {
-            // An insertion behind a line does not change it.
+            // An insertion after a line does not change it.
             let (first, last) = (text.line_of(edit.range.start), text.line_of(edit.range.end));
             let is_behind = edit.range.is_empty()
                 && edit.range.start == text.line_range(first).end

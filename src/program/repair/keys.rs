@@ -7,7 +7,7 @@ pub(in crate::program) enum Key {
     Digit,
     /// A digit was lost.
     Lost,
-    /// A digit stands twice.
+    /// A digit is repeated.
     Doubled,
     /// Any other digit is too many.
     More,

@@ -113,7 +113,7 @@ pub(in crate::program) trait Contour {
     /// The possible displacement of a block lost before another one, µm.
     fn gaps(&self, index: usize) -> Vec<Vector>;
 
-    /// The directions before and behind a gap; `None` where no arc fills it.
+    /// The directions before and after a gap; `None` where no arc fills it.
     fn headings(&self, index: usize) -> Option<[Vector; 2]>;
 
     /// The block along a line or an arc from the origin, and its cost.

@@ -6,7 +6,7 @@ use super::scan::Scan;
 use super::words::{Words, word_of};
 use crate::text::head;
 
-/// A point behind a block, mm.
+/// A point after a block, mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StatedPoint {
     pub(crate) at: [f64; 2],
@@ -133,7 +133,7 @@ fn has_block_parts(text: &[u8]) -> bool {
     text.windows(2).any(is_part)
 }
 
-/// Words behind a block without the mark of a comment: a remark on the block. At least two letters that begin nothing
+/// Words after a block without the mark of a comment: a remark on the block. At least two letters that begin nothing
 /// of a block, after a space.
 pub(super) fn is_remark(line: &[u8], at: usize, words: &Words<'_>) -> bool {
     let rest = line.get(at..).unwrap_or_default();
@@ -154,7 +154,7 @@ pub(super) fn is_remark(line: &[u8], at: usize, words: &Words<'_>) -> bool {
 /// Whether text has enough of a block to be a broken one.
 pub(super) fn wants_to_be_a_block(text: &[u8]) -> bool {
     let code = before_comment(head(text, 160));
-    // Letters B, and those with a digit behind them; axes; quadrants.
+    // Letters B, and those with a digit after them; axes; quadrants.
     let (mut letters, mut numbers, mut axes, mut ends) = (0, 0, 0, 0);
     let is_letter =
         |byte: &u8| matches!(byte, b'B' | b'b' | b'G' | b'g' | b'L' | b'l' | b'R' | b'r');

@@ -80,7 +80,7 @@ pub(crate) struct JoinedCut {
     sum: Sum,
     /// The way between two contours, without the wire.
     is_jump: bool,
-    /// Blocks before its first stop, where it goes on behind that.
+    /// Blocks before its first stop, where it goes on after that.
     stop: Option<usize>,
 }
 

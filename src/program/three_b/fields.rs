@@ -25,7 +25,7 @@ pub struct Fields {
     pub(crate) side: Option<Range<usize>>,
     /// `L1`, `SR2`, `NR3`.
     pub motion: Range<usize>,
-    /// Behind the last byte.
+    /// After the last byte.
     pub(crate) end: usize,
 }
 

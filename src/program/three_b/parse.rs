@@ -1,7 +1,7 @@
 //! Reads 3B and 4B text line by line: compact, spaced, aligned and checking layouts, with comments, block numbers and
 //! coordinates.
 //!
-//! Lines are independent. An unreadable block gives one fault, and reading goes on behind it; where the meaning is
+//! Lines are independent. An unreadable block gives one fault, and reading goes on after it; where the meaning is
 //! plain (a lost `B`, `B25` for `N25`), the block is read and the fault reported beside it. Text that does not look
 //! like a block is handed out as [`Item::Text`]: only its place among the blocks distinguishes a heading from a fault.
 
@@ -25,7 +25,7 @@ pub enum Item {
         range: Range<usize>,
         /// `N12`, or the number of a row.
         number: Option<u32>,
-        /// Absolute end point in mm behind the block.
+        /// Absolute end point in mm after the block.
         stated_end: Option<StatedPoint>,
         /// The additional part of a 4B block.
         part: Option<PartArc>,
@@ -55,7 +55,7 @@ pub enum Item {
     Fault(SyntaxFault),
 }
 
-/// Reads a whole text; line ends are LF, CR LF and CR. Other text behind the first block is a fault.
+/// Reads a whole text; line ends are LF, CR LF and CR. Other text after the first block is a fault.
 pub fn read(text: &[u8], words: &Words<'_>) -> (Vec<Item>, Vec<SyntaxFault>) {
     let (mut items, mut faults) = (Vec::new(), Vec::new());
     let mut has_block = false;
@@ -155,7 +155,7 @@ fn not_plain(line: &[u8], readable: &[u8], words: &Words<'_>) -> Option<SyntaxFa
 
 fn read_plain_line(line: &[u8], offset: usize, words: &Words<'_>, each: &mut dyn FnMut(Item)) {
     let mut tokens = Tokens::of(line);
-    // A block waits for the next token, because its coordinates stand behind it.
+    // A block waits for the next token, because its coordinates stand after it.
     let mut waiting: Option<Item> = None;
     let mut number = None;
     while let Some((token, range)) = tokens.next(words) {
@@ -216,7 +216,7 @@ fn read_plain_line(line: &[u8], offset: usize, words: &Words<'_>, each: &mut dyn
     waiting.into_iter().for_each(each);
 }
 
-/// The fault of a broken block; its range is the text there up to the next space. Behind the end there is nothing to
+/// The fault of a broken block; its range is the text there up to the next space. After the end there is nothing to
 /// underline, so the last byte stands for it.
 fn broken(rest: &[u8], column: usize, at: usize, expected: &str) -> SyntaxFault {
     let length = rest.iter().position(u8::is_ascii_whitespace);

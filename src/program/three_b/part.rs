@@ -156,7 +156,7 @@ pub(super) fn rounded(
     })
 }
 
-/// The way in and the way out, both towards the begin of the contour.
+/// The way in and the way out, both towards the beginning of the contour.
 fn leads(path: &WirePath, scale: f64, begin: Point, correction: f64) -> [Vec<Segment>; 2] {
     let thread = path.thread_hole * scale;
     let arc_of = |source: Source| {
@@ -310,7 +310,7 @@ struct Transition {
     /// The share of the piece before at which it begins.
     leaves: f64,
     arc: Arc,
-    /// The share of the piece behind at which it ends.
+    /// The share of the piece after it at which it ends.
     meets: f64,
 }
 

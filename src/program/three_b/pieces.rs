@@ -29,7 +29,7 @@ pub(crate) enum Field {
     Motion,
     Pause,
     End,
-    /// Absolute end point behind a block, with its `;` if any.
+    /// Absolute end point after a block, with its `;` if any.
     Coordinates,
     /// `Start Point = x , y`, with its `;` if any.
     StartPoint,
@@ -198,7 +198,7 @@ impl Cutter<'_> {
         self.add(Field::Motion, fields.motion);
     }
 
-    /// The pieces of an unfinished or unreadable block, and behind them one that is none, up to the next space or
+    /// The pieces of an unfinished or unreadable block, and after them one that is none, up to the next space or
     /// comment; and their end.
     fn push_broken(&mut self, start: usize) -> usize {
         let scan = Scan::of(self.line.get(start..).unwrap_or_default());

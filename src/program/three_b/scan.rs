@@ -66,11 +66,11 @@ pub(super) struct Found {
     pub(crate) quadrant: Option<Quadrant>,
     /// `NR1`.
     pub(crate) motion_range: Range<usize>,
-    /// Behind the last byte read.
+    /// After the last byte read.
     pub(crate) end: usize,
     /// The place where it stops being a sound block.
     pub(crate) stopped: Option<Expected>,
-    /// Reading goes on behind damage.
+    /// Reading goes on after damage.
     goes_on: bool,
 }
 
@@ -102,7 +102,7 @@ impl Scan {
         scan
     }
 
-    /// Reads on behind damage.
+    /// Reads on after damage.
     pub(super) fn all_of(text: &[u8]) -> Scan {
         let mut scan = Scan::default();
         scan.read(text, true);
@@ -325,7 +325,7 @@ struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    /// The place behind space and the bars of a table.
+    /// The place after space and the bars of a table.
     #[inline]
     fn at_next(&mut self) -> usize {
         while let Some(byte) = self.text.get(self.at) {
@@ -371,7 +371,7 @@ impl Reader<'_> {
         found
     }
 
-    /// Takes the letter behind space.
+    /// Takes the letter after space.
     #[inline]
     fn take_next(&mut self, letter: u8) -> bool {
         self.at_next();

@@ -41,7 +41,7 @@ impl Deref for Local {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Part {
     entries: (u32, u32),
-    /// The word behind it, at the end of its entries.
+    /// The word after it, at the end of its entries.
     pub(crate) word: Option<(Word, bool)>,
     /// There is a block in it, readable or not.
     pub(crate) has_blocks: bool,
@@ -181,7 +181,7 @@ pub(super) struct Stretch {
     pub(crate) texts: usize,
     /// Blocks that could not be read.
     pub(crate) unread: usize,
-    /// Entries with a number, and blocks with an end point behind them.
+    /// Entries with a number, and blocks with an end point after them.
     pub(crate) numbered: usize,
     pub(crate) stated: usize,
     pub(crate) numbering: Numbering,

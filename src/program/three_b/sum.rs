@@ -157,7 +157,7 @@ fn nanometres(um: [i64; 2]) -> i64 {
     ((um[0] as f64).hypot(um[1] as f64) * 1e3).round() as i64
 }
 
-/// True for a part that is searched for crossings: behind a faulty block the path is not the intended one.
+/// True for a part that is searched for crossings: after a faulty block the path is not the intended one.
 pub(super) fn may_cross_itself(sum: &Sum) -> bool {
     sum.blocks >= FEWEST_CROSSING && sum.errors == 0
 }

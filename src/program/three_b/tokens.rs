@@ -23,7 +23,7 @@ const MOST_LOOKS: usize = 64;
 pub(super) enum Token {
     /// `N12` before a block.
     Number(u32),
-    /// Absolute end point behind a block.
+    /// Absolute end point after a block.
     Coordinates(StatedPoint),
     /// Coordinates with commas for points.
     DecimalCommas,
@@ -61,7 +61,7 @@ pub(super) fn readable(line: &[u8]) -> Cow<'_, [u8]> {
 /// The position in a line.
 pub(super) struct Tokens<'a> {
     line: &'a [u8],
-    /// Behind the last token.
+    /// After the last token.
     pub(crate) at: usize,
     /// A block has been read in this line.
     behind_block: bool,
@@ -97,7 +97,7 @@ impl<'a> Tokens<'a> {
         }
     }
 
-    /// The next token and its place. Behind coordinates the rest of the line is ignored.
+    /// The next token and its place. After coordinates the rest of the line is ignored.
     pub(super) fn next(&mut self, words: &Words<'_>) -> Option<(Token, Range<usize>)> {
         self.skip_space();
         let start = self.at;
@@ -258,7 +258,7 @@ impl<'a> Tokens<'a> {
         (Token::Broken(expected), at..at)
     }
 
-    /// Goes behind the quadrant at the end of a broken block, where more blocks may follow, or to the end.
+    /// Goes past the quadrant at the end of a broken block, where more blocks may follow, or to the end.
     pub(super) fn skip_broken_block(&mut self) {
         let rest = self.from(self.at);
         let comment = memchr::memchr(b';', rest).unwrap_or(rest.len());

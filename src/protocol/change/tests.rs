@@ -49,7 +49,7 @@ fn what_cannot_apply_is_refused_whole_and_named() {
         json!([{ "handle": "Z", "entity": null }]),
         "no entity Z to delete",
     );
-    check(json!([{ "handle": "Z" }]), "neither or both");
+    check(json!([{ "handle": "Z" }]), "both or neither");
     check(
         json!([{ "handle": "B", "entity": null }, splice("B", 0, 0, json!([]))]),
         "change 1: there is no entity B",

@@ -59,7 +59,7 @@ impl Electrode {
 /// The next step of the electrode on its way along a contour. Ways count from the entry of the contour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Step {
-    /// It is fed to so many mm below the surface.
+    /// It is fed to this many mm below the surface.
     Feed(f64),
     /// It goes along the contour; back where `to` lies before `from`.
     Along { from: f64, to: f64 },
@@ -91,7 +91,7 @@ impl Layers {
         }
     }
 
-    /// No more blocks than these are written for the layers along a way of so many pieces.
+    /// No more blocks than these are written for the layers along a way of this many pieces.
     pub(crate) fn blocks(&self, pieces: usize) -> usize {
         let feeds = match self.electrode.compensation {
             WearCompensation::Linear => self.length / self.electrode.step,
@@ -131,7 +131,7 @@ impl Layers {
             let mut done = 0.0;
             if compensation == WearCompensation::Linear {
                 let per_mm = self.electrode.wear_along() * height;
-                // The wear behind the last step is fed with the next layer.
+                // The wear after the last step is fed with the next layer.
                 let steps = (self.length / self.electrode.step - 1e-9).floor() as usize;
                 for at in (1..=steps).map(|number| number as f64 * self.electrode.step) {
                     step(along(done, at))?;

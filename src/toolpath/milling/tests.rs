@@ -219,7 +219,7 @@ fn layers_go_to_and_fro_and_the_last_one_is_what_is_left() {
     }
 }
 
-/// What is worn behind the last step is fed with the next layer: nothing is lost, whatever the step.
+/// What is worn after the last step is fed with the next layer: nothing is lost, whatever the step.
 #[test]
 fn linear_feeds_come_to_the_wear_of_the_layers_whatever_the_step() {
     for step in [0.1, 0.3, 0.5, 1.7, 6.0] {

@@ -167,7 +167,7 @@ fn is_simple(outline: &[[f64; 3]]) -> bool {
         && (0..count).all(|a| (a + 1..count).all(|b| apart(a, b)))
 }
 
-/// An outline about the origin, with a hook behind one of its corners: back, forth, and on.
+/// An outline about the origin, with a hook after one of its corners: back, forth, and on.
 fn hooked() -> impl Strategy<Value = Vec<[f64; 3]>> {
     let corner = (
         1.0_f64..6.0,

@@ -4,7 +4,7 @@ use super::{damaged, with};
 use crate::chance::Chance;
 use std::ops::Range;
 
-/// The words of an ISO line: letter, and the bytes of the number behind it. Comments are left out.
+/// The words of an ISO line: letter, and the bytes of the number after it. Comments are left out.
 fn words(line: &str) -> Vec<(char, Range<usize>)> {
     let bytes = line.as_bytes();
     let mut words = Vec::new();

@@ -5,7 +5,7 @@ use super::*;
 /// What pokes into the side of a part, as the vertices from its right mouth to its left one.
 type Feature = Vec<(f64, f64, f64)>;
 
-/// The corner rounded with R, as so many chords between points of the arc.
+/// The corner rounded with R, as this many chords between points of the arc.
 fn chorded(at: Point, before: Point, behind: Point, radius: f64, chords: usize) -> Vec<Point> {
     let (to_before, to_behind) = ((before - at).normalize(), (behind - at).normalize());
     let half = to_before.dot(&to_behind).clamp(-1.0, 1.0).acos() / 2.0;

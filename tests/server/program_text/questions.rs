@@ -209,7 +209,7 @@ fn blocks_are_completed_and_their_form_is_shown() {
             "completion",
             at(3, 13),
             "/0/detail",
-            json!("R 5.000, 90.0°, leaves the block before without a corner"),
+            json!("R 5.000, 90.0°, leaves the block before it without a corner"),
         ),
         ("completion", at(4, 0), "/0/label", json!("G01 X0. Y0.")),
         ("signatureHelp", at(3, 13), "/activeParameter", json!(2)),

@@ -1,4 +1,4 @@
--- What wedm reads. An `.nc` or `.iso` that is no program of a wire machine can be given another type in your own configuration.
+-- What wedm reads. An `.nc` or `.iso` that is not a program of a wire machine can be given another type in your own configuration.
 vim.filetype.add {
     extension = {
         dxf = 'dxf', DXF = 'dxf',

@@ -65,7 +65,7 @@ end)
 return {
     cmd = { program.find() },
     filetypes = { 'dxf', '3b', 'wire-iso' },
-    -- Neovim heeds the version of an edit but does not announce it: without this a fix would be made in a text that has changed meanwhile.
+    -- Neovim heeds the version of an edit but does not announce it: without this a fix would be made in a text that has changed in the meantime.
     capabilities = { workspace = { workspaceEdit = { documentChanges = true } } },
     root_markers = { 'wedm.toml', '.git' },
     before_init = function(params, config)

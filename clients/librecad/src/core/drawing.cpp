@@ -38,7 +38,7 @@ QString splice(Entity &entity, const Change &change)
 {
     const qint64 size = entity.vertices.size();
     if (entity.kind != Kind::Polyline)
-        return QCoreApplication::translate("wedm::Drawing", "entity %1 is no polyline").arg(change.handle);
+        return QCoreApplication::translate("wedm::Drawing", "entity %1 is not a polyline").arg(change.handle);
     if (change.start < 0 || change.deleteCount < 0 || qint64(change.start) + change.deleteCount > size)
         return QCoreApplication::translate("wedm::Drawing", "vertices %1 to %2 of %3, which has %4")
             .arg(change.start)

@@ -113,7 +113,7 @@ void Server::initialized(const Answer &answer)
     const QJsonValue protocol =
         result.value("capabilities").toObject().value("experimental").toObject().value("wedm").toObject().value("protocol");
     if (!protocol.isDouble()) {
-        refuse(tr("%1 is no wedm server (it calls itself \"%2\"). Choose the right program with the button \"Server…\".")
+        refuse(tr("%1 is not a wedm server (it calls itself \"%2\"). Choose the right program with the button \"Server…\".")
                    .arg(QDir::toNativeSeparators(m_program), info.value("name").toString()));
         return;
     }

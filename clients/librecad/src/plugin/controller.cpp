@@ -175,7 +175,7 @@ void Controller::run(const QString &command, Document_Interface &drawing)
             write(drawing);
     } else if (command == QLatin1String(command::CLEAR)) {
         const int count = clearLayer(drawing, MARK_LAYER);
-        m_panel->setMessage(tr("%n mark(s) taken away.", nullptr, count), Panel::Tone::Plain);
+        m_panel->setMessage(tr("%n mark(s) removed.", nullptr, count), Panel::Tone::Plain);
     } else if (command == QLatin1String(command::CLEAR_PATH)) {
         const bool any = clearLayer(drawing, PATH_LAYER) > 0;
         m_panel->setMessage(any ? tr("The wire path is taken away.") : tr("No wire path is drawn."), Panel::Tone::Plain);
@@ -272,7 +272,7 @@ void Controller::connectSession()
             m_hole.takeBack();
             post([](Session &session) { session.reloadSettings(); });
         }
-        holeKept(holds ? QString() : tr("what stands there cannot take it, write it there yourself"));
+        holeKept(holds ? QString() : tr("what is there cannot take it, write it there yourself"));
     });
     connect(m_session, &Session::inspected, this, [this](const QString &uri, int, const QSharedPointer<Inspection> &inspection) {
         if (OpenDrawing *open = m_drawings.find(uri)) {

@@ -45,7 +45,7 @@ QString written(const Program &program)
     else if (program.format != QLatin1String("iso"))
         text += QLatin1Char(' ') + tr("A control that counts J drifts by %1, %2 µm.").arg(micrometres(program.closureX), micrometres(program.closureY));
     if (!program.warnings.isEmpty())
-        text += QLatin1Char('\n') + tr("Findings that stand in the drawing: %1").arg(program.warnings.mid(0, NAMED).join(QStringLiteral("; ")));
+        text += QLatin1Char('\n') + tr("Findings in the drawing: %1").arg(program.warnings.mid(0, NAMED).join(QStringLiteral("; ")));
     return text;
 }
 

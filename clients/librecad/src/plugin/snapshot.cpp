@@ -432,7 +432,7 @@ bool applyRepair(Document_Interface &drawing, const Repair &repair, QString *fai
         }
     }
     if (there.contains(false)) {
-        *failure = QObject::tr("LibreCAD has kept something else than the repair: press Undo, and repair the saved file with \"wedm fix\".");
+        *failure = QObject::tr("LibreCAD has kept something other than the repair: press Undo, and repair the saved file with \"wedm fix\".");
         return false;
     }
     return true;

@@ -36,7 +36,7 @@ public:
     void read(Document_Interface &drawing, qint64 milliseconds);
     bool isBegun() const { return m_isBegun; }
     bool isComplete() const { return m_isBegun && m_next == m_size; }
-    /// What was read; the next one begins anew.
+    /// What was read; the next one begins again.
     Snapshot take();
     void drop() { take(); }
 

@@ -622,7 +622,7 @@ private slots:
         QCOMPARE(kept, after.isEmpty() ? before : after);
     }
 
-    /// The server is killed; a drawing that changed meanwhile is right again in the next one.
+    /// The server is killed; a drawing that changed in the meantime is right again in the next one.
     void killedAndBackAgain()
     {
         Talk talk;
@@ -687,7 +687,7 @@ private slots:
             << "wedm 9.1.0 at .* speaks protocol 2, this plugin speaks protocol 1";
         QTest::newRow("another language server")
             << QByteArray(R"({"jsonrpc":"2.0","id":1,"result":{"serverInfo":{"name":"clangd"},"capabilities":{}}})")
-            << "is no wedm server \\(it calls itself \"clangd\"\\)";
+            << "is not a wedm server \\(it calls itself \"clangd\"\\)";
         QTest::newRow("an error") << QByteArray(R"({"jsonrpc":"2.0","id":1,"error":{"code":-32603,"message":"no room"}})") << "refuses to start: no room";
     }
     void otherServers()

@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 _PAUSES = (0.0, 0.5, 1.0, 2.0, 4.0)
-# Seconds. After a server that has lived this long, the count of ends in a row begins anew.
+# Seconds. After a server that has lived this long, the count of ends in a row begins again.
 _SOUND_LIFE = 60.0
 
 #: Ends in a row after which it is not started again.

@@ -446,7 +446,7 @@ class Program(Value):
     def __repr__(self) -> str:
         warned = counted(len(self.warnings), "warning") if self.warnings else ""
         lengths = [f"cut {self.length:.3f} mm", f"jumps {self.jumps:.3f} mm" if self.jumps else ""]
-        said = listed([counted(self.blocks, "block"), *lengths, f"at most {self.deviation:.2f} µm beside it", warned])
+        said = listed([counted(self.blocks, "block"), *lengths, f"at most {self.deviation:.2f} µm from the path", warned])
         return f"<{type(self).__name__}: {said}>"
 
     def __str__(self) -> str:

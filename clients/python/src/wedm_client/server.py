@@ -60,7 +60,7 @@ Source = Union[str, "os.PathLike[str]", Iterable[Any], Any]
 
 # A repair may make room for the next one; no drawing has needed more than a few rounds.
 _MOST_ROUNDS = 50
-# How often a repair is asked for again because the document has changed meanwhile.
+# How often a repair is asked for again because the document has changed in the meantime.
 _MOST_TRIES = 5
 
 
@@ -456,7 +456,7 @@ class Server:
         lines = document._lines() if isinstance(document, TextDocument) else None
         meant = [one for one in published.diagnostics if diagnostic_from_json(one, lines) == diagnostic]
         if not meant:
-            raise Outdated(f"the finding does not stand in version {document.version} of {document.uri}", CONTENT_MODIFIED)
+            raise Outdated(f"the finding is not in version {document.version} of {document.uri}", CONTENT_MODIFIED)
         found = self._offered(document, meant[0]["range"], meant[:1], "quickfix")
         return sorted(found, key=lambda action: not action.preferred)
 
@@ -521,7 +521,7 @@ class Server:
         """Multiplies every length of a 3B program by the factor; contours still close.
 
         :raises Refused: the program cannot be scaled, or the factor is out of range; the message says why.
-        :raises Outdated: the program has changed meanwhile; nothing was changed.
+        :raises Outdated: the program has changed in the meantime; nothing was changed.
         """
         params = types.ExecuteCommandParams("wedm.scale", [{"uri": program.uri, "factor": factor}])
         version = program.version

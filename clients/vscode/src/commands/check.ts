@@ -31,7 +31,7 @@ export class PathCheck implements vscode.Disposable {
       return;
     }
     if (target.scheme !== "file") {
-      void vscode.window.showErrorMessage(t("Wire EDM: {0} is no file on disk.", target.toString()));
+      void vscode.window.showErrorMessage(t("Wire EDM: {0} is not a file on disk.", target.toString()));
       return;
     }
     const found = await this.server.find();

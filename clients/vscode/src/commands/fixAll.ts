@@ -21,7 +21,7 @@ export async function fixAll(server: Server, front: Front): Promise<void> {
   if (offered === "none") {
     void vscode.window.showInformationMessage(t("Wire EDM: there is nothing that can be repaired safely."));
   } else if (offered === "outdated" || offered.textDocument.version !== document.version || !(await apply(document, offered))) {
-    void vscode.window.showWarningMessage(t("Wire EDM: the text has changed meanwhile, nothing was done."));
+    void vscode.window.showWarningMessage(t("Wire EDM: the text has changed in the meantime, nothing was done."));
   }
 }
 

@@ -137,7 +137,7 @@ async function answer(error: unknown, how: How, ask: () => Promise<Sides | undef
 
 function told(generated: Program, format: Format): string {
   const blocks = generated.blocks === 1 ? t("1 block") : t("{0} blocks", generated.blocks);
-  const path = t("cut {0} mm, jumps {1} mm, decoded again at most {2} µm beside it", generated.length.toFixed(1), (generated.jumps ?? 0).toFixed(1), generated.deviation.toFixed(2));
+  const path = t("cut {0} mm, jumps {1} mm, decoded again at most {2} µm from the path", generated.length.toFixed(1), (generated.jumps ?? 0).toFixed(1), generated.deviation.toFixed(2));
   // A drift that rounds to zero has no sign.
   const [x, y] = [generated.closure.x, generated.closure.y].map((drift) => (Math.round(drift * 100) / 100 + 0).toFixed(2));
   const drift = ENDINGS[format][0] === "iso" ? "" : t("; a controller that counts J drifts by {0}, {1} µm", x ?? "", y ?? "");
@@ -146,7 +146,7 @@ function told(generated: Program, format: Format): string {
   const slugs = (generated.work?.slugs ?? []).map(({ contour, mass }) => t("{0}: {1} g", contour, mass.toFixed(1)));
   const drops = slugs.length === 0 ? "" : t("; what drops out: {0}", slugs.slice(0, SLUGS).join(", ") + (slugs.length > SLUGS ? ", …" : ""));
   const { length } = generated.warnings;
-  const stand = length === 1 ? t(" 1 finding stands in the drawing.") : t(" {0} findings stand in the drawing.", length);
+  const stand = length === 1 ? t(" The drawing has 1 finding.") : t(" The drawing has {0} findings.", length);
   const warnings = length === 0 ? "" : stand;
   return t("{0}, {1}{2}.", blocks, path, drift + minutes + milled + drops) + warnings;
 }

@@ -1,4 +1,4 @@
-// The live picture: made anew after each edit, and in step with the cursor in both directions.
+// The live picture: made again after each edit, and in step with the cursor in both directions.
 
 import * as vscode from "vscode";
 import { LSPErrorCodes, ResponseError } from "vscode-languageclient/node";
@@ -253,7 +253,7 @@ export class Picture implements vscode.Disposable {
     const actions = await vscode.commands.executeCommand<vscode.CodeAction[]>("vscode.executeCodeActionProvider", ...asked);
     const action = actions.find(({ title, edit }) => title === wanted.title && edit !== undefined);
     if (action?.edit === undefined || !(await vscode.workspace.applyEdit(action.edit))) {
-      void vscode.window.showInformationMessage(t("Wire EDM: the drawing has changed meanwhile, and the repair is not offered any more."));
+      void vscode.window.showInformationMessage(t("Wire EDM: the drawing has changed in the meantime, and the repair is no longer offered."));
     }
   }
 

@@ -105,7 +105,7 @@ export class Radii implements vscode.TreeDataProvider<Row>, vscode.Disposable {
       this.#view.description = uri === undefined ? "" : `${uri.path.split("/").pop() ?? ""}: ${summary(list)}`;
       this.#view.message = uri !== undefined && list.length === 0 ? (this.#onlyFaults ? t("Every radius is ok.") : t("There is nothing to cut.")) : "";
     } catch {
-      // The text has changed meanwhile, and the next diagnostics bring the list; or the server is gone, which is said elsewhere.
+      // The text has changed in the meantime, and the next diagnostics bring the list; or the server is gone, which is said elsewhere.
       if (asked !== this.#asked || this.server.state.kind === "running") {
         return;
       }

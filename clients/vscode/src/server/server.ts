@@ -79,7 +79,7 @@ export class Server implements vscode.Disposable {
     return findServer(places, isProgram);
   }
 
-  /** Starts anew whatever was before; resolves when the server runs or has failed. */
+  /** Starts again whatever was before; resolves when the server runs or has failed. */
   async restart(): Promise<void> {
     this.#restarts.reset();
     await this.#launch();

@@ -102,7 +102,7 @@ async function killed(checks: Checks): Promise<void> {
       } finally {
         process.kill(server, "SIGCONT");
       }
-      await window.notification("the text has changed meanwhile, nothing was done").waitFor();
+      await window.notification("the text has changed in the meantime, nothing was done").waitFor();
       await host.page.keyboard.press("Control+s");
       await expectSoon("the text before", async () => (await readFile(join(host.folder, "plate.dxf"), "utf8")) === FILLET);
       await window.command("Notifications: Clear All Notifications");

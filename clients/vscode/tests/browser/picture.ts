@@ -88,7 +88,7 @@ export async function picture(checks: Checks): Promise<void> {
     });
     await checks.check("with errors in the drawing a program is refused with a sentence", async () => {
       await window.command("Wire EDM: Generate 3B Program…");
-      await window.notification("No program: 4 errors stand in the drawing").waitFor();
+      await window.notification("No program: the drawing has 4 errors").waitFor();
       await checks.shot("refused");
       await window.command("Notifications: Clear All Notifications");
     });
@@ -110,7 +110,7 @@ export async function picture(checks: Checks): Promise<void> {
       await window.path(target);
       await expectSoon("a program", async () => /^(B\d+B\d+B\d+G[XY](L|SR|NR)[1-4]\n){17}DD\n$/.test(await readFile(target, "utf8")), () => readFile(target, "utf8"));
       await window.tab("made.3b");
-      await window.notification("µm beside it; a controller that counts J drifts by").waitFor();
+      await window.notification("µm from the path; a controller that counts J drifts by").waitFor();
       await checks.shot("generated");
       // Notices come up at the bottom of the window, and go again.
       const player = await (await window.pictureOf("made.3b")).locator("#player").boundingBox();
@@ -173,7 +173,7 @@ export async function picture(checks: Checks): Promise<void> {
       await window.path(target);
       await expectSoon("whole µm from one point to the next", async () => /^G91\nG01 X-?\d+ Y-?\d+$/m.test(await readFile(target, "utf8")), () => readFile(target, "utf8"));
       await window.tab("made.iso");
-      await expectSoon("no word of J, which ISO has not", async () => (await window.notification("ISO: 17 blocks").innerText()).includes("µm beside it."), () => window.notification("ISO: 17 blocks").innerText());
+      await expectSoon("no word of J, which ISO has not", async () => (await window.notification("ISO: 17 blocks").innerText()).includes("µm from the path."), () => window.notification("ISO: 17 blocks").innerText());
       await checks.shot("generated-iso");
     });
     await checks.check("the picture is there again when the window is loaded again, and still follows the cursor", async () => {

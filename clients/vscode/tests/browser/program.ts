@@ -71,7 +71,7 @@ export async function program(checks: Checks): Promise<void> {
       await window.picture();
       await checks.shot("lenses");
     });
-    await checks.check("end points and radii stand behind the blocks, a block says what it does, and the contour is in the outline", async () => {
+    await checks.check("end points and radii stand after the blocks, a block says what it does, and the contour is in the outline", async () => {
       await window.openOurs("hole.3b");
       await host.page.locator(".view-lines", { hasText: "R 9.900, 360°" }).first().waitFor();
       await window.goToLine(2, 3);

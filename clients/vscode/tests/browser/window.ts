@@ -179,7 +179,7 @@ export class Window {
   async openContour(picture: Frame, handle: string): Promise<void> {
     const card = picture.locator("#card");
     const named = card.locator("h2, .link", { hasText: /^Contour \d/ }).first();
-    // Where the picture is laid out anew just then the click goes beside the contour: then it is clicked again.
+    // Where the picture is laid out again just then the click goes beside the contour: then it is clicked again.
     await expectSoon(`the card of contour ${handle}`, async () => {
       if (await card.isVisible()) {
         await card.locator(".close").click();

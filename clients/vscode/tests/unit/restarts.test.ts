@@ -11,7 +11,7 @@ test("pauses are those of every client", () => {
   }
 });
 
-test("a start that the user asks for begins anew", () => {
+test("a start that the user asks for begins again", () => {
   const restarts = new Restarts();
   assert.deepEqual([0, 1, 2, 3, 4, 5].map(() => restarts.afterLifeOf(0)).at(-1), null);
   restarts.reset();

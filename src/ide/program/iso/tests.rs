@@ -59,17 +59,17 @@ fn every_word_says_what_it_means() {
         "0.110 mm, as this program sets it",
     );
     check("|H1=110\nG01 X5", "value for the control's table");
-    check("G01 X1. |F3.2", "feed; its unit is a matter of the machine");
-    check("|T84", "a matter of the machine: a switch");
-    check("|G50", "a matter of the machine: ends the taper");
-    check("|M50", "a matter of the machine: cuts the wire off");
+    check("G01 X1. |F3.2", "feed; its unit depends on the machine");
+    check("|T84", "depends on the machine: a switch");
+    check("|G50", "depends on the machine: ends the taper");
+    check("|M50", "depends on the machine: cuts the wire off");
     check("|M02", "end of the program");
     check("|N10 G01 X1.", "block number");
     check("M98 |P5\nM02\nN5 M99", "begins at N5");
     check("G04 |P5", "how long the machine waits");
     check("|E0001", "a cutting condition");
-    check("|G999", "a matter of the machine: it is kept, not followed");
-    check("|#1=5", "a matter of the machine");
+    check("|G999", "depends on the machine: it is kept, not followed");
+    check("|#1=5", "depends on the machine");
     check("|%\n", "on tape");
     let document = Document::read(b"(only a comment)".to_vec());
     assert_eq!(document.meaning(0..16), None);
@@ -117,7 +117,7 @@ fn the_centre_of_an_arc_is_offered_from_its_end() {
         &any,
         &[(
             "I0. J5.",
-            "R 5.000, 90.0°, leaves the block before without a corner",
+            "R 5.000, 90.0°, leaves the block before it without a corner",
         )],
     );
     offers(
@@ -125,7 +125,7 @@ fn the_centre_of_an_arc_is_offered_from_its_end() {
         &any,
         &[(
             "I0. J-5.",
-            "180.0°, leaves the block before without a corner",
+            "180.0°, leaves the block before it without a corner",
         )],
     );
     offers(

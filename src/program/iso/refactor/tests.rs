@@ -170,7 +170,7 @@ fn centres_are_written_in_every_convention() {
     refuses(
         "centers.centerToStart",
         "G90\nG01 X5. Y0.\nG03 X5. Y0. I-5. J0.\nM02\n",
-        "would not tell",
+        "would no longer tell",
     );
 }
 

@@ -109,7 +109,7 @@ struct End {
 pub(crate) struct Way<'a> {
     pub(crate) reading: &'a Reading,
     pub(crate) lines: Vec<Line>,
-    /// Before each line, and behind the last.
+    /// Before each line, and after the last.
     before: Vec<Scan>,
     /// The end of the present cut before each line.
     ends: Vec<Option<End>>,

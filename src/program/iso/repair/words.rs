@@ -350,7 +350,7 @@ impl Words<'_> {
         }
     }
 
-    /// A word with a length, in place of the present one or behind the last one.
+    /// A word with a length, in place of the present one or after the last one.
     fn set(&mut self, letter: u8, length: i64) {
         let style = self.pool.styles[usize::from(self.before.inch)];
         if length.abs() > 10_000_000_000 {

@@ -138,7 +138,7 @@ impl Report<'_> {
         }
     }
 
-    /// The word that ends the program, where text stands behind it.
+    /// The word that ends the program, where text stands after it.
     pub(super) fn end_before(&self, behind: usize) -> String {
         let lines = (0..self.text.line_of(behind)).rev();
         let ends = |line: &usize| self.document.block(*line).stop == Some(Stop::End);
@@ -220,7 +220,7 @@ impl Report<'_> {
                 continue;
             }
             for line in placed.lines {
-                // Of a word that stands twice the last one counts, as in the evidence.
+                // Of a word that is repeated the last one counts, as in the evidence.
                 let mut lengths: [Option<Range<usize>>; 5] = Default::default();
                 words_at(self.text, line, |letter, number, word| {
                     let own = b"XYIJR".iter().position(|of| *of == letter);

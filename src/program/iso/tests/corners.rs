@@ -142,7 +142,7 @@ fn corner_words_between_arcs_keep_to_both_ways() {
 #[test]
 fn corner_words_that_find_no_corner_leave_the_cuts_as_they_are() {
     for (text, is_said) in [
-        // Tangent already, back on the same way, nothing behind, a stop, a rapid, no length.
+        // Tangent already, back on the same way, nothing after, a stop, a rapid, no length.
         ("G01 X10. Y0. ,R1.\nX20.\nM02\n", true),
         ("G01 X10. Y0. ,R1.\nG03 X20. Y10. R10.\nM02\n", true),
         ("G01 X10. Y0. ,R1.\nX0.\nM02\n", true),

@@ -1,10 +1,10 @@
-//! An edited text reads as the same text afresh, and a fault is found wherever the text is divided
+//! An edited text reads as the same text from scratch, and a fault is found wherever the text is divided
 //! into stretches.
 
 use super::*;
 use proptest::prelude::*;
 
-/// Checks that an edited document is the same as its text read afresh.
+/// Checks that an edited document is the same as its text read from scratch.
 fn assert_as_afresh(document: &Document, what: &str) -> Document {
     let fresh = Document::read(document.text().bytes().to_vec());
     assert_eq!(document.reading(), fresh.reading(), "{what}");

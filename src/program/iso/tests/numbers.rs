@@ -174,7 +174,7 @@ fn units_follow_from_the_numbers() {
     check("G20 G01 X1. Y.5", 25_400.0, 12_700.0);
     check("G20 G01 X10000", 25_400.0, 0.0);
     check("G91 G01 X10 Y10\nX5\nG90 X1", 1.0, 10.0);
-    // G92 before the first move sets the position, later it moves the zero, behind a stop it tells where the wire was
+    // G92 before the first move sets the position, later it moves the zero, after a stop it tells where the wire was
     // taken.
     check("G92 X100 Y50\nG91 G01 X10", 110.0, 50.0);
     check("G90 G01 X100\nG92 X0 Y0\nG01 X10", 110.0, 0.0);
@@ -367,7 +367,7 @@ fn every_number_that_stands_out_is_told_where_they_are_few() {
 
 #[test]
 fn a_number_that_the_control_passes_over_does_not_stand_for_one_with_other_decimals() {
-    // Of X that stands twice the last one counts; where the lines come to stand in one stretch, and where they do not.
+    // Of X that is repeated the last one counts; where the lines come to stand in one stretch, and where they do not.
     for between in [0, 5, 400] {
         let comments = "(plate)\n".repeat(between);
         let body = "G01 X1.5 Y2.5\nG01 X3.5 Y0.5\n".repeat(10);

@@ -51,7 +51,7 @@ fn what_can_be_repaired_is_repaired_and_the_finding_goes() {
     );
     check(
         "arc-off-radius",
-        "Put the sign",
+        "Correct the sign",
         &off("G03 X-6. Y3. I2. J-4."),
         &off("G03 X-6. Y3. I-2. J-4."),
     );
@@ -143,7 +143,7 @@ fn what_can_be_repaired_is_repaired_and_the_finding_goes() {
 
 #[test]
 fn no_line_is_offered_where_what_follows_would_be_cut_otherwise() {
-    // The line behind the stop is an arc because the one before it is.
+    // The line after the stop is an arc because the one before it is.
     let text = |next: &str| {
         format!(
             "G92 X0. Y0.\nG90\nG01 X5. Y0.\nX9. Y9.\nG03 X0. Y5. I-5. J0.\nM00\n{next}X-5. Y0. I0. J-5.\nG01 X0. Y5.\nM02\n"

@@ -1,4 +1,4 @@
-//! The contours of a program: its open cuts, each with what goes on behind its stops.
+//! The contours of a program: its open cuts, each with what goes on after its stops.
 
 use super::cuts::joined;
 use super::{At, Document, JoinedCut};
@@ -6,13 +6,13 @@ use crate::program::contours::{Contour, Followed, PartAt};
 use crate::program::path::{BehindStops, Ends, HasCuts, KnownTabs, Way, goes_on};
 use std::ops::Range;
 
-/// An open cut and the cuts behind its stops.
+/// An open cut and the cuts after its stops.
 struct OpenCuts<'a> {
     document: &'a Document,
     cuts: Vec<JoinedCut>,
     /// All up to each of them as one.
     wholes: Vec<JoinedCut>,
-    /// The starts of the cuts behind the first.
+    /// The starts of the cuts after the first.
     begins: Vec<PartAt>,
 }
 

@@ -8,7 +8,7 @@ use std::ops::Range;
 
 impl Document {
     /// The word that ends the program: the first of the controller's own, else the last that ends programs elsewhere,
-    /// else a pause with no block behind it.
+    /// else a pause with no block after it.
     pub(super) fn end_word(&self) -> Option<At> {
         let place = |stretch: usize, entry: Option<usize>| entry.map(|entry| At { stretch, entry });
         let mut stretches = self.stretches.iter().enumerate();
@@ -76,7 +76,7 @@ impl Document {
         Some(last)
     }
 
-    /// The blocks from a part on, up to the next word; `None` behind the end of the program.
+    /// The blocks from a part on, up to the next word; `None` after the end of the program.
     pub(super) fn cut_from(&self, start: PartAt) -> Option<JoinedCut> {
         let end = self.view.end;
         let mut cut: Option<JoinedCut> = None;
@@ -119,7 +119,7 @@ impl Document {
                 .any(|stretch| stretch.words > 0)
     }
 
-    /// Whether another word follows the one behind a part, with no block between: an open contour before them is meant
+    /// Whether another word follows the one after a part, with no block between: an open contour before them is meant
     /// to end there. The word that ends the program does not count: a tab may be left standing.
     pub(super) fn stops_again(&self, part: PartAt) -> bool {
         let (mut stretch, mut index) = self.part_behind(part);
@@ -138,7 +138,7 @@ impl Document {
         false
     }
 
-    /// The part behind another one.
+    /// The part after another one.
     pub(super) fn part_behind(&self, (stretch, part): PartAt) -> PartAt {
         if self
             .stretches
@@ -151,7 +151,7 @@ impl Document {
         }
     }
 
-    /// Where the next cut that is not a part of one stretch begins; `None` behind the last.
+    /// Where the next cut that is not a part of one stretch begins; `None` after the last.
     fn outer_start_behind(&self, cut: &JoinedCut) -> Option<PartAt> {
         let (stretch, part) = cut.parts[1];
         let parts = self.stretches.get(stretch)?.parts.len();
@@ -200,7 +200,7 @@ impl Document {
         [from.unwrap_or(behind), to]
     }
 
-    /// The contour that a part belongs to, or the way between two: its cut, and those before and behind at its tabs.
+    /// The contour that a part belongs to, or the way between two: its cut, and those before and after at its tabs.
     pub(super) fn cut_of_part(&self, part: PartAt) -> Option<JoinedCut> {
         let mut cut = self.own_cut_of_part(part)?;
         while self.is_tab(cut.parts[0]) {
@@ -225,7 +225,7 @@ impl Document {
         Some(cut)
     }
 
-    /// An open cut, and those before and behind its stops that are open too, as one: the fault may
+    /// An open cut, and those before and after its stops that are open too, as one: the fault may
     /// be in any of them. `None` where it is the only one.
     pub(super) fn with_open_beside(&self, cut: &JoinedCut) -> Option<JoinedCut> {
         let is_open = |cut: &JoinedCut| !self.closes(cut);
@@ -333,7 +333,7 @@ impl Document {
     }
 }
 
-/// A cut and the one behind its stop as one contour.
+/// A cut and the one after its stop as one contour.
 pub(super) fn joined(cut: JoinedCut, behind: &JoinedCut) -> JoinedCut {
     JoinedCut {
         parts: [cut.parts[0], behind.parts[1]],

@@ -85,7 +85,7 @@ impl Document {
         }))
     }
 
-    /// Where a block begins by the coordinates: those behind the block before, or those of the start, or where the
+    /// Where a block begins by the coordinates: those after the block before, or those of the start, or where the
     /// wire was taken.
     pub(super) fn stated_begin(&self, at: At) -> Option<StatedPoint> {
         if self.taken_before(at).is_some() {
@@ -95,7 +95,7 @@ impl Document {
         self.stated_before(at)
     }
 
-    /// The coordinates that stand behind the block before, or those of the start.
+    /// The coordinates that stand after the block before, or those of the start.
     pub(super) fn stated_before(&self, at: At) -> Option<StatedPoint> {
         self.before(at).find_map(|(_, entry)| match &entry.what {
             What::Block(block) => Some(block.stated_end()),
@@ -199,7 +199,7 @@ impl Document {
         vec![TextFix::text(FixKind::Close { length }, false, edit)]
     }
 
-    /// The number of a block behind another one, where the two before it are numbered.
+    /// The number of a block after another one, where the two before it are numbered.
     fn number_behind(&self, at: At) -> Option<u32> {
         let own = self.entry(at)?.number()?;
         let before = self

@@ -112,7 +112,7 @@ impl Document {
             }
             let is_fault = match (first_block, self.view.end) {
                 (Some(first), end) => first < at && end.is_none_or(|end| at < end),
-                // One sentence for a text that is no program at all.
+                // One sentence for a text that is not a program at all.
                 (None, _) => !has_fault && !is_said && self.view.end.is_none(),
             };
             if is_fault {

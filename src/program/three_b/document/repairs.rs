@@ -218,7 +218,7 @@ impl Document {
         }
     }
 
-    /// The motions of the cut before some blocks and of the one behind them.
+    /// The motions of the cut before some blocks and of the one after them.
     fn beside(&self, places: &[At]) -> Vec<Vec<Motion>> {
         let (Some(first), Some(last)) = (places.first(), places.last()) else {
             return Vec::new();
@@ -461,7 +461,7 @@ fn kind_of(old: &Block, new: &Block, slip: &Slip) -> FixKind {
     }
 }
 
-/// The motions of the blocks from behind the next word up to the one behind it; none where a block cannot be read.
+/// The motions of the blocks between the next word and the one after it; none where a block cannot be read.
 fn motions_of<'a>(mut entries: impl Iterator<Item = (At, &'a Entry)>) -> Vec<Motion> {
     let mut motions = Vec::new();
     let is_word = |entry: &Entry| matches!(entry.what, What::Word { .. });

@@ -202,7 +202,7 @@ impl Document {
         off
     }
 
-    /// Where the wire was taken by hand, behind a stop without a way: the first block there, and how far, µm.
+    /// Where the wire was taken by hand, after a stop without a way: the first block there, and how far, µm.
     pub(super) fn taken(&self, off: &[OffPosition]) -> Vec<(At, Vector)> {
         let behind_stops = off.iter().filter(|(_, at, _)| {
             let mut before = self.before(*at).map(|(_, entry)| &entry.what);
@@ -221,7 +221,7 @@ impl Document {
         taken.collect()
     }
 
-    /// Whether the coordinates behind the blocks from this one on, which are not where it leads to from the place
+    /// Whether the coordinates after the blocks from this one on, which are not where it leads to from the place
     /// before, come back to where it begins by them, and not to the place before: then the wire was taken there, and
     /// the block is right.
     fn returns_beside(&self, at: At) -> bool {

@@ -183,7 +183,7 @@ impl Document {
             .is_some_and(|part| part.has_blocks && part.word.is_some())
     }
 
-    /// True for the way back to the thread hole, behind a stop at the end of a closed contour.
+    /// True for the way back to the thread hole, after a stop at the end of a closed contour.
     fn leads_out(&self, cut: &JoinedCut) -> bool {
         let (stretch, part) = cut.parts[0];
         let before = part

@@ -45,7 +45,7 @@ impl Document {
         self.heading().map(|(at, _)| self.range_of(at))
     }
 
-    /// The end points behind blocks, each with the byte at which its block begins.
+    /// The end points after blocks, each with the byte at which its block begins.
     pub(in crate::program) fn stated_ends(&self) -> impl Iterator<Item = (usize, StatedPoint)> {
         let all = self.entries(0..self.stretches.len());
         all.filter_map(|(at, entry)| Some((self.range_of(at).start, entry.block()?.stated_end()?)))

@@ -27,7 +27,7 @@ pub(super) struct Chunk {
 }
 
 pub(super) struct Line {
-    /// Behind its last item.
+    /// After its last item.
     pub(crate) end: usize,
     pub(crate) is_sound: bool,
 }

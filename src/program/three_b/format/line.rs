@@ -12,9 +12,9 @@ use crate::settings::Layout;
 use std::borrow::Cow;
 use std::ops::Range;
 
-/// A line in its new form: text, and the bytes of the old line that stay behind it.
+/// A line in its new form: text, and the bytes of the old line that stay after it.
 pub(super) struct Formed {
-    /// The old line is replaced from here on: behind a byte order mark.
+    /// The old line is replaced from here on: after a byte order mark.
     pub(crate) from: usize,
     pub(crate) head: String,
     pub(crate) kept: Range<usize>,
@@ -140,7 +140,7 @@ impl Writer<'_> {
                 }
                 _ => head.push(b' '),
             }
-            // Behind coordinates a remark without its mark would belong to them.
+            // After coordinates a remark without its mark would belong to them.
             if memchr::memchr(b';', &head).is_some() && line.get(comment.start) != Some(&b';') {
                 head.extend_from_slice(b"; ");
             }
@@ -203,7 +203,7 @@ impl Writer<'_> {
         Some(())
     }
 
-    /// The coordinates as they stand behind a block that ends at `end`.
+    /// The coordinates as they stand after a block that ends at `end`.
     fn coordinates_behind<'l>(&self, line: &'l [u8], end: usize) -> &'l [u8] {
         let piece = self
             .pieces

@@ -18,7 +18,7 @@ pub(super) struct Walk {
     /// Blocks so far.
     ordinal: u64,
     stand: Stand,
-    /// The end word has come: nothing behind it is formatted.
+    /// The end word has come: nothing after it is formatted.
     is_over: bool,
 }
 
@@ -140,6 +140,6 @@ enum Trust {
     Known,
     /// The table may have been moved by hand while the wire was out: a stated point gives its place.
     UnlessStated,
-    /// Behind something damaged.
+    /// After something damaged.
     Lost,
 }

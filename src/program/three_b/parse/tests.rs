@@ -243,15 +243,15 @@ fn what_was_meant_is_read_and_the_fault_said() {
     );
     check(
         "B25B9900B0B9900GXL1",
-        "! 0..3 B25 stands where N25 was meant / N25 9900,0,9900 X L1",
+        "! 0..3 B25 is written where N25 was meant / N25 9900,0,9900 X L1",
     );
     check(
         "B 25 B 9900 B 0 B 39600 GY NR1",
-        "! 0..4 B25 stands where N25 was meant / N25 9900,0,39600 Y NR1",
+        "! 0..4 B25 is written where N25 was meant / N25 9900,0,39600 Y NR1",
     );
     check(
         "B9900BOB9900GXL1",
-        "! 6..7 the letter O stands where a zero was meant / 9900,0,9900 X L1",
+        "! 6..7 the letter O is written where a zero was meant / 9900,0,9900 X L1",
     );
 }
 

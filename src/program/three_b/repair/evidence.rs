@@ -151,7 +151,7 @@ impl Suspect<'_> {
         matches!(change, Change::Replace { index, .. } if self.is_end(*index))
     }
 
-    /// 1 where the motions are those of the pass before or behind.
+    /// 1 where the motions are those of the pass before or after.
     fn is_as_beside(&self, items: &[Item]) -> f64 {
         let motion = |item: &Item| item.block.map(|block| block.motion);
         let is_own = |other: &Vec<Motion>| {

@@ -34,7 +34,7 @@ pub(super) struct Reading {
     pub(crate) keys: usize,
 }
 
-/// The parts of one block in a text that holds nothing else but a number before it and a comment behind it.
+/// The parts of one block in a text that holds nothing else but a number before it and a comment after it.
 pub(in super::super) fn loose(text: &[u8]) -> Option<Loose> {
     let is_between = |byte: &u8| matches!(byte, b' ' | b'\t' | b'|');
     let skipped = |from: usize, skips: &dyn Fn(&u8) -> bool| {

@@ -101,7 +101,7 @@ pub(super) struct Path<'a> {
     pub(crate) is_jump: bool,
     /// It is not reported as open: it closes, if only together with others.
     pub(crate) is_closed: bool,
-    /// The motions of the cuts before and behind it: those of its other passes, perhaps.
+    /// The motions of the cuts before and after it: those of its other passes, perhaps.
     pub(crate) beside: Vec<Vec<Motion>>,
 }
 
@@ -159,7 +159,7 @@ impl Contour for Suspect<'_> {
         (LOOKED_THROUGH / self.items.len().max(1)).min(LOOKED_AT)
     }
 
-    /// The place behind the last block is one where a block may be lost.
+    /// The place after the last block is one where a block may be lost.
     fn order(&self) -> Vec<usize> {
         (0..=self.items.len()).collect()
     }

@@ -28,7 +28,7 @@ pub(in super::super) enum Slip {
     Exchanged,
     /// One digit of a number, or any other value of it.
     Number(Number, Digits),
-    /// Everything that leads to the coordinates behind the block.
+    /// Everything that leads to the coordinates after the block.
     Coordinates,
     /// An unreadable block; `keys` are inserted or removed.
     Unread {

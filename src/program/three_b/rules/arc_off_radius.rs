@@ -1,6 +1,6 @@
 //! `arc-off-radius` in 4B: R is not the distance of the arc's start from its centre, √(X² + Y²).
 //!
-//! One of the three numbers is wrong, so nothing is said of J and G of that block: they may be right.
+//! One of the three numbers is wrong, so nothing is reported about J and G of that block: they may be right.
 
 use super::{BlockRule, Observation, Outlook, Site, Spot, TextFix};
 use crate::finding::{Fault, FixKind, Rule};

@@ -1,4 +1,4 @@
-//! `position-mismatch`: the coordinates behind a block differ from its end, relative to those before.
+//! `position-mismatch`: the coordinates after a block differ from its end, relative to those before.
 //!
 //! Each end point is compared with the one before it and the block between them, so that one wrong block is one
 //! finding.
@@ -39,7 +39,7 @@ pub(in super::super) fn mismatch(
     (is_far(meant) && is_far(machine)).then_some(meant)
 }
 
-/// The end points that stand behind the blocks of a stretch.
+/// The end points that stand after the blocks of a stretch.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(in super::super) struct Positions {
     /// Pairs of end points in the stretch that were compared.
@@ -77,7 +77,7 @@ pub(in super::super) struct Mismatched<'a> {
     pub(crate) text: &'a [u8],
     pub(crate) block: Block,
     pub(crate) fields: Fields,
-    /// Bytes of the coordinates behind the block.
+    /// Bytes of the coordinates after the block.
     pub(crate) coordinates: Range<usize>,
     pub(crate) before: StatedPoint,
     pub(crate) stated: StatedPoint,
@@ -160,7 +160,7 @@ fn set_coordinates(site: &Mismatched<'_>) -> Option<(FixKind, Vec<TextEdit>)> {
     (!edit.is_empty()).then_some((FixKind::SetCoordinates { at }, edit))
 }
 
-/// The block that leads from the coordinates before to those behind: a line, or the same circle up to there.
+/// The block that leads from the coordinates before to those after: a line, or the same circle up to there.
 fn set_block(site: &Mismatched<'_>) -> Option<(Block, Vec<TextEdit>)> {
     let by = [0, 1].map(|axis| (site.stated.at[axis] - site.before.at[axis]) * 1000.0);
     let block = match meant(&site.block, Point::origin()) {

@@ -1,10 +1,10 @@
-//! `text-after-end`: text behind the word that ends the program. The controller never reaches it.
+//! `text-after-end`: text after the word that ends the program. The controller never reaches it.
 
 use super::TextFix;
 use crate::finding::FixKind;
 use crate::text::{SourceText, TextEdit};
 
-/// Removes all lines behind the one in which the program ends.
+/// Removes all lines after the one in which the program ends.
 pub(in super::super) fn fixes(text: &SourceText, end: usize) -> Vec<TextFix> {
     let kept = text.line_range(text.line_of(end)).end;
     let edit = TextEdit::new(kept..text.len(), "");

@@ -27,7 +27,7 @@ local function root_of(path)
 end
 
 local function start(options, root)
-    -- Neovim heeds the version of an edit but does not announce it: without this a fix would be made in a text that has changed meanwhile.
+    -- Neovim heeds the version of an edit but does not announce it: without this a fix would be made in a text that has changed in the meantime.
     local capabilities = vim.lsp.protocol.make_client_capabilities()
     capabilities.workspace.workspaceEdit.documentChanges = true
     return vim.lsp.start_client {

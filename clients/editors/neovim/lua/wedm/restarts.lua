@@ -4,7 +4,7 @@ local M = {}
 
 -- ms
 local pauses = { 0, 500, 1000, 2000, 4000 }
--- After a server that has lived this long, the count of ends in a row begins anew.
+-- After a server that has lived this long, the count of ends in a row begins again.
 local sound_life = 60000
 local loop = vim.uv or vim.loop
 
