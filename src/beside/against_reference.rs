@@ -331,7 +331,7 @@ impl<'a> Pairs<'a> {
             }
             let (segment, kind) = match source {
                 Some(segment) => (Some(segment), Kind::Block),
-                None if *off <= SLIP => (None, Kind::Lead),
+                None if *off <= SLIP || self.leads_astray(number, from) => (None, Kind::Lead),
                 // The hole is elsewhere, and so is how the wire comes from it.
                 None => {
                     (run, elsewhere) = (None, elsewhere + 1);
@@ -409,6 +409,19 @@ impl<'a> Pairs<'a> {
             Some((end - from - meant).norm())
         });
         ends.is_none_or(|away| (away - off).abs() <= ROUNDED)
+    }
+
+    /// Whether the next contour begins elsewhere than where it should, and not on its way either: no other hole does that.
+    fn leads_astray(&self, number: usize, from: Vector) -> bool {
+        let mut behind = self.pairs.iter().skip(number + 1);
+        let is_of_contour = |pair: &&Pair| self.reference.source_of(&pair.meant.motion).is_some();
+        let begins = behind.find(is_of_contour).and_then(|pair| {
+            let ([start, _], [meant, _]) = (pair.own.motion.ends()?, pair.meant.motion.ends()?);
+            Some((start - from, meant))
+        });
+        begins.is_some_and(|(start, meant)| {
+            (start - meant).norm() > SLIP && !self.reference.is_on_wall(start, ROUNDED)
+        })
     }
 
     fn ends_near(&self, number: usize, from: Vector, most: f64) -> bool {

@@ -89,7 +89,12 @@ fn summarise(arguments: &Arguments, target: Target, made: &Converted) {
     if target == Target::Drawing
         && (cuts.four_b.is_some() || cuts.cuts.iter().any(|cut| cut.side.is_some()))
     {
-        output::say(say!(the_correction_is_not_in_the_contours));
+        match cuts.placed_by {
+            Some(correction) => {
+                output::say(&say!(the_contours_are_placed_by_a_correction, correction));
+            }
+            None => output::say(say!(the_correction_is_not_in_the_contours)),
+        }
     }
     cuts.losses().iter().for_each(|loss| output::say(loss));
     if cuts.closure >= 0.005 {

@@ -80,7 +80,7 @@ pub(crate) fn convert(
     if program.mills() {
         return Err(Refusal::Sentence(say!(it_is_milled).into()));
     }
-    let cuts = convert::cuts(program);
+    let mut cuts = convert::cuts(program);
     if cuts.cuts.is_empty() {
         return Err(Refusal::Sentence(say!(it_cuts_nothing).into()));
     }
@@ -89,6 +89,7 @@ pub(crate) fn convert(
     }
     let format = match target {
         Target::Drawing => {
+            cuts.place_parts(document.settings().correction);
             let bytes = dxf::write(&cuts.drawing()).map_err(Refusal::Fault)?;
             return Ok(Converted {
                 bytes,

@@ -9,7 +9,7 @@ use super::path::{self, Follower, Kind, Step, tolerance};
 use super::three_b::StatedPoint;
 use crate::drawing::{Drawing, Entity, EntityId, Geometry, Unit, Vertex};
 use crate::finding::Side;
-use crate::geometry::{Arc, Point, Segment};
+use crate::geometry::{Arc, Point, Segment, left_normal};
 use crate::settings::Effective;
 use crate::toolpath::{PathSegment, Source, WirePath};
 use rustc_hash::FxHashMap;
@@ -43,6 +43,8 @@ pub struct CutPath {
     pub(crate) side: Option<Side>,
     /// The line in which that changes within the contour, from 0.
     pub(crate) switched: Option<usize>,
+    /// The side of travel on which the wire runs beside a contour of 4B, where an arc of it says that.
+    part_side: Option<Side>,
 }
 
 impl CutPath {
@@ -81,6 +83,8 @@ pub struct Cuts {
     pub(crate) stops: Vec<usize>,
     /// The largest distance of a contour's ends before they were joined, µm.
     pub(crate) closure: f64,
+    /// The correction by which contours of 4B have been placed beside the ends of their ways in, mm.
+    pub(crate) placed_by: Option<f64>,
 }
 
 /// The cuts of a program, in the order of the machine, one for each of its contours.
@@ -92,6 +96,10 @@ pub fn cuts(document: &Document) -> Cuts {
     let leans = !trace.upper.iter().all(Vec::is_empty) || trace.upper_unknown.is_some();
     let trace = trace.into_meant();
     let stated = stated_ends(document);
+    let part_arcs = match document {
+        Document::ThreeB(program) => program.part_arcs(),
+        Document::Iso(_) => FxHashMap::default(),
+    };
     let mut cuts = Cuts {
         leans,
         ..Cuts::default()
@@ -136,6 +144,13 @@ pub fn cuts(document: &Document) -> Cuts {
             if let Some(span) = spans.peek() {
                 let contour = span.contour_steps();
                 if contour.contains(&index) {
+                    if let Some(&is_concave) = part_arcs.get(&step.range.start)
+                        && let Some(arc) = ideal.as_arc()
+                    {
+                        let is_left = (arc.sweep > 0.0) == is_concave;
+                        let side = if is_left { Side::Left } else { Side::Right };
+                        open.part_side.get_or_insert(side);
+                    }
                     let is_first = open.segments.len() == open.lead_in;
                     if !is_first && step.side != open.side {
                         open.switched.get_or_insert(step.line);
@@ -245,6 +260,25 @@ impl Cuts {
             losses.push(say!(not_written_the_stop_before_a_tab, line + 1));
         }
         losses
+    }
+
+    /// Places each contour of a 4B program where the part has it: its way in ends beside it, on the wire's path, at the
+    /// correction, mm, which the program does not state.
+    pub(crate) fn place_parts(&mut self, correction: f64) {
+        if self.four_b.is_none() {
+            return;
+        }
+        for cut in &mut self.cuts {
+            let contour = cut.lead_in..cut.segments.len().saturating_sub(cut.lead_out);
+            let Some(segments) = cut.segments.get_mut(contour) else {
+                continue;
+            };
+            if let (true, Some(side), Some(first)) = (cut.closed, cut.part_side, segments.first()) {
+                let aside = left_normal(first.start_tangent()) * (side.sign() * correction * 1e3);
+                segments.iter_mut().for_each(|it| *it = it.moved(-aside));
+                self.placed_by = Some(correction);
+            }
+        }
     }
 
     /// Ends a cut: joins the ends of its contour, and those of its ways in and out, where they coincide.

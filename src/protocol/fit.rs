@@ -95,7 +95,7 @@ pub(crate) struct PairProgram {
     pub part: String,
     /// Correction of each pass, mm.
     pub corrections: Vec<f64>,
-    /// The clearance is larger than the correction: the wire runs on the other side of what is drawn.
+    /// The clearance is not smaller than the correction: the wire runs on what is drawn or on its other side.
     pub(crate) other_side: bool,
     #[serde(flatten)]
     pub program: Program,

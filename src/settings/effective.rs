@@ -79,6 +79,8 @@ pub struct Effective {
     /// An electrode cuts, not a wire: it enters from above without leads, and runs along the middle
     /// of open contours.
     pub mills: bool,
+    /// The wire comes to its path across the contour: it runs on the part's side of what is drawn, of a part that ends farther away.
+    pub comes_across: bool,
     /// Only this workpiece is cut.
     pub only: Option<u16>,
     pub order: Order,
@@ -220,6 +222,7 @@ impl Effective {
                 ..milling
             },
             mills: of_electrode.is_some(),
+            comes_across: false,
             only: None,
             order: program.order(),
             jumps: program.jumps(),
@@ -286,6 +289,11 @@ impl Effective {
         /// g in a mm³ of steel.
         const STEEL: f64 = 7.85e-3;
         Some(STEEL * area * self.job.thickness?)
+    }
+
+    /// True where what drops out of a contour of this role lies inside it.
+    pub(crate) fn has_waste_inside(&self, role: Role) -> bool {
+        (role == Role::Opening) != self.comes_across
     }
 
     /// True where a slug of this many mm² is too heavy to drop.

@@ -131,7 +131,8 @@ impl Effective {
     }
 
     /// The settings for one part of a pair, cut along the drawn contour. Where its correction falls to 0 or below, the
-    /// wire runs on the other side of the contour at that distance: the flag says so. `None` where the pair does not
+    /// wire runs on the other side of the contour at that distance: the flag says so, and the settings that it comes
+    /// across the contour, since what drops out lies where it did. `None` where the pair does not
     /// say, and where the passes would run on both sides.
     pub(crate) fn of_use(&self, of: Use) -> Option<(Effective, bool)> {
         let shift = self.shift_of(of)?;
@@ -151,6 +152,7 @@ impl Effective {
             correction,
             pass: self.pass,
             side: role,
+            comes_across: is_other,
             ..self.clone()
         };
         settings.passes.corrections = self

@@ -6,7 +6,7 @@ use super::job::Job;
 use super::leads::{Contours, HOLE_CLEAR, finding};
 use super::order::{self, name};
 use super::requested::{Requested, wanted};
-use crate::drawing::{Drawing, Outline, Role, winding};
+use crate::drawing::{Drawing, Outline, winding};
 use crate::finding::{Finding, Place, Rule, Severity};
 use crate::geometry::{Point, Vector};
 use crate::settings::{Compensation, Effective, Order};
@@ -75,7 +75,7 @@ impl Job<'_> {
             if let Some(at) = thread {
                 faults.extend(self.hole_fault(at, reach, &contours));
                 given.push((at, index));
-            } else if outline.role == Role::Opening
+            } else if self.has_waste_inside(index)
                 && let Some((_, depth)) = self.deepest(index, &contours, reach)
                 && depth < reach - self.units(1e-6)
             {

@@ -44,6 +44,16 @@ impl Landing {
         }
     }
 
+    /// The direction away from the part.
+    pub(super) fn room(&self) -> Vector {
+        self.room
+    }
+
+    /// True where a lead that ends in this direction comes from the part's side of the path.
+    pub(super) fn is_reached_from_the_part(&self, direction: Vector) -> bool {
+        direction.dot(&self.room) > 1e-9
+    }
+
     /// True where a straight lead would not be at right angles to the path.
     fn is_oblique_from(&self, thread: Point) -> bool {
         let oblique = turn(self.along, self.at - thread).abs() - FRAC_PI_2;

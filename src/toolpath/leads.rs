@@ -114,6 +114,8 @@ pub(super) struct Surroundings<'a> {
     pub(crate) kerfs: &'a Kerfs,
     /// The path keeps at least this from the walls, and so must the leads; drawing units.
     pub(crate) clearance: f64,
+    /// The lead comes across the contour, where it comes to the path and nowhere else.
+    pub(crate) comes_across: bool,
     pub(crate) unit_mm: f64,
     pub(crate) severity: Severity,
     pub(crate) lead: Lead,
@@ -187,7 +189,8 @@ impl Surroundings<'_> {
             let obstacle = pieces
                 .iter()
                 .find_map(|piece| self.obstacle(piece, landing.at))
-                .or(beside);
+                .or(beside)
+                .or_else(|| self.comes_through_the_part(&pieces, landing));
             match obstacle {
                 None => return Ok(way),
                 obstacle => last = obstacle,
@@ -198,7 +201,11 @@ impl Surroundings<'_> {
 
     /// What is in the way of a lead to `begin`.
     fn obstacle(&self, lead: &Segment, begin: Point) -> Option<Obstacle> {
-        if let Some(wall) = self.own.too_near(lead, self.clearance) {
+        let own = match self.comes_across {
+            true => self.crossed_elsewhere(lead, begin),
+            false => self.own.too_near(lead, self.clearance),
+        };
+        if let Some(wall) = own {
             return Some(Obstacle::Own(wall));
         }
         let is_other = |wall: usize| self.contours.outline_of(wall) != self.outline;
@@ -220,6 +227,25 @@ impl Surroundings<'_> {
         paths
             .find_near(lead, 2.0 * self.clearance, counts)
             .map(Obstacle::Kerf)
+    }
+
+    /// A wall of its own contour that a lead crosses, but those beside which it begins to cut.
+    fn crossed_elsewhere(&self, lead: &Segment, begin: Point) -> Option<usize> {
+        let rounding = ROUNDING / self.unit_mm;
+        let beside = self.clearance + 4.0 * rounding;
+        let is_elsewhere = |wall: usize| self.own.segment(wall).distance_to(begin) > beside;
+        self.own
+            .find_near(lead, rounding, |wall, _| is_elsewhere(wall))
+    }
+
+    /// The wall that a lead should come across, where it comes from the part.
+    fn comes_through_the_part(&self, pieces: &[Segment], landing: &Landing) -> Option<Obstacle> {
+        let comes_from_the_part = self.comes_across
+            && pieces
+                .last()
+                .is_some_and(|last| landing.is_reached_from_the_part(last.end_tangent()));
+        let (_, wall) = self.own.nearest_to(landing.at, self.clearance)?;
+        comes_from_the_part.then_some(Obstacle::Own(wall))
     }
 
     /// Where an obstacle stands in the drawing, and what a lead does there.
@@ -347,8 +373,12 @@ pub(super) fn thread_hole(
         }
     }
     let to_path = begin - entry.point;
-    let nearest = to_path.norm();
-    let Some(way) = to_path.try_normalize(0.0) else {
+    // What lies across the contour has no way to go but that.
+    let (nearest, way) = match surroundings.comes_across {
+        true => (0.0, Some(landing.room())),
+        false => (to_path.norm(), to_path.try_normalize(0.0)),
+    };
+    let Some(way) = way else {
         return Ok(begin);
     };
     // Halved down to the path; then what reaches beyond the path is halved.

@@ -15,7 +15,7 @@ use super::order::{directed, name};
 use super::path::{Refusal, Source, WirePath};
 use super::requested::Requested;
 use super::rotated::Rotated;
-use crate::drawing::{Contour, Role};
+use crate::drawing::Contour;
 use crate::finding::{Finding, Rule, Severity};
 use crate::geometry::{Point, Segment, Side};
 use crate::settings::Jumps;
@@ -56,7 +56,7 @@ pub(super) struct Pass {
 }
 
 impl Pass {
-    /// Where the wire comes to the path, on the `side` of the walls.
+    /// Where the wire comes to the path, from the `side` of the walls.
     pub(super) fn landing(&self, side: f64) -> Landing {
         let along = self.path.get(self.element).map(|element| {
             let geometry = element.geometry;
@@ -197,7 +197,7 @@ impl Job<'_> {
             && self.settings.stated_lead_in.is_none();
         let is_proposed = says_nothing
             && self.hole_reach().is_some()
-            && self.outlines[index].role == Role::Opening
+            && self.has_waste_inside(index)
             && self.outlines[index].contour.closed;
         let deepest = || Some(self.deepest(index, contours, f64::INFINITY)?.0);
         Requested {

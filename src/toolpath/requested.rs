@@ -104,7 +104,7 @@ fn means_entry(drawing: &Drawing, outline: &Outline, mark: &Mark, settings: &Eff
     }
     let is_inside = winding(drawing, &outline.contour, mark.at) != 0;
     mark.distance * settings.unit_of(drawing).mm <= settings.correction
-        || is_inside != (outline.role == Role::Opening)
+        || is_inside != settings.has_waste_inside(outline.role)
 }
 
 /// The mark of one outline: the nearest of several.

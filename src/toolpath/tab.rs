@@ -113,10 +113,15 @@ impl Job<'_> {
                 (Some(first), Some(last)) => (first.geometry.start(), last.geometry.end()),
                 _ => (thread, thread),
             };
-            // On which side of travel the wire runs, and how far from what is programmed.
-            let of_travel = if back { -unled.side } else { unled.side };
+            // From which side of travel the wire comes, and how far towards it from what is programmed it runs.
+            let across = self.across();
+            let of_travel = across * if back { -unled.side } else { unled.side };
             let wire = self.units(self.settings.each_correction()[number]);
-            let control = if round.correction > 0.0 { 0.0 } else { wire };
+            let control = if round.correction > 0.0 {
+                0.0
+            } else {
+                across * wire
+            };
             let surroundings = self.surroundings(&unled, contours, kerfs, form, wire);
             let entry = unled.entry.unwrap_or(Entry {
                 wall: 0,
@@ -279,11 +284,8 @@ impl Job<'_> {
             return Err(Refusal::Findings(vec![finding]));
         }
         let keeps_one = length_mm > 0.0
-            && match outline.role {
-                Role::Punch => true,
-                Role::Opening => settings.keeps_slug(area),
-                _ => false,
-            };
+            && matches!(outline.role, Role::Punch | Role::Opening)
+            && (!self.has_waste_inside(unled.outline) || settings.keeps_slug(area));
         let stands = unled.passes.iter().any(|pass| pass.path.is_empty());
         let Some(entry) = unled.entry.filter(|_| keeps_one && !stands) else {
             return Ok(None);

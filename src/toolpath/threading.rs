@@ -9,7 +9,6 @@ use super::offset::Wall;
 use super::path::{PathSegment, Refusal, Source, WirePath};
 use super::paths::{Pass, Unled};
 use super::requested::Requested;
-use crate::drawing::Role;
 use crate::finding::Finding;
 use crate::geometry::{Point, Segment};
 use crate::settings::{Compensation, Lead};
@@ -20,6 +19,19 @@ impl Job<'_> {
         match self.settings.compensation {
             Compensation::None => self.units(ROUNDING),
             _ => correction - self.units(ROUNDING),
+        }
+    }
+
+    /// True where what drops out lies inside the contour: a slug.
+    pub(super) fn has_waste_inside(&self, outline: usize) -> bool {
+        self.settings.has_waste_inside(self.outlines[outline].role)
+    }
+
+    /// -1 where leads come from the other side of the contour than the one on which the wire runs, else 1.
+    pub(super) fn across(&self) -> f64 {
+        match self.settings.comes_across {
+            true => -1.0,
+            false => 1.0,
         }
     }
 
@@ -48,6 +60,7 @@ impl Job<'_> {
             contours,
             kerfs,
             clearance: self.clearance(correction),
+            comes_across: self.settings.comes_across,
             unit_mm: self.unit_mm,
             severity: self.severity(),
             lead,
@@ -74,7 +87,7 @@ impl Job<'_> {
         let lead = self.lead(wanted);
         let surroundings =
             |correction: f64| self.surroundings(unled, contours, kerfs, lead, correction);
-        let is_opening = self.outlines[unled.outline].role == Role::Opening;
+        let is_opening = self.has_waste_inside(unled.outline);
         let says_nothing = wanted.entry.is_none()
             && wanted.beside.is_none()
             && self.settings.stated_lead_in.is_none();
@@ -108,7 +121,7 @@ impl Job<'_> {
                 wanted,
                 &threading,
                 entry,
-                &rough.landing(unled.side),
+                &rough.landing(unled.side * self.across()),
                 &unled.walls,
                 self.settings,
                 &surroundings(rough.correction),
@@ -119,7 +132,7 @@ impl Job<'_> {
         for pass in unled.passes.iter().skip(first) {
             if pass.begin != thread && !pass.path.is_empty() {
                 let surroundings = surroundings(pass.correction);
-                let landing = pass.landing(unled.side);
+                let landing = pass.landing(unled.side * self.across());
                 surroundings.hold(thread, &landing, entry, &unled.walls, pass.correction)?;
             }
         }

@@ -91,7 +91,7 @@ pub fn work(
     let slug = |path: &WirePath| {
         let outline = &outlines[path.outline];
         let area = outline.twice_area.abs() / 2.0 * unit_mm.powi(2);
-        (outline.role == Role::Opening && outline.contour.closed)
+        (settings.has_waste_inside(outline.role) && outline.contour.closed)
             .then(|| settings.mass_of(area))?
             .map(|mass| Slug {
                 outline: path.outline,

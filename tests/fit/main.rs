@@ -1,5 +1,6 @@
 //! Punch and plate: their corrections, whether they fit, the rule, its fix, and the programs of both.
 
+mod across;
 mod corners;
 mod drawn;
 mod fixes;

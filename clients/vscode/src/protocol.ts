@@ -1153,7 +1153,7 @@ export interface PairProgram {
    */
   corrections: number[];
   /**
-   * The clearance is larger than the correction: the wire runs on the other side of what is drawn.
+   * The clearance is not smaller than the correction: the wire runs on what is drawn or on its other side.
    */
   otherSide: boolean;
   program: string;

@@ -23,7 +23,7 @@ declare! {
     everywhere_more_is_left(more) => "; everywhere {more:.1} µm more is left than there should be";
     the_program_is_there_already => "it already exists, expected a folder without it, or --overwrite";
     the_program_of_a_part_is_written(written, target, part, corrections, blocks, length) => "{written} {target}: {part}, correction {corrections} mm, {blocks}, {length}";
-    the_wire_runs_on_the_other_side(part) => "      {part}: the clearance is larger than the correction, so the wire runs on the other side of what is drawn";
+    the_wire_runs_on_the_other_side(part) => "      {part}: the clearance is not smaller than the correction, so the wire runs on what is drawn or on its other side";
     drawn_without_the_path(note, reason) => "{note} drawn without the path of the wire: {reason}";
     a_program_is_drawn_as_svg(path, word) => "{path}: a program is drawn as .svg, .png or .pdf; as a drawing: wedm convert {word} -o OUT.dxf";
     a_picture_that_is_not_written(ending) => ".{ending} is not written, expected .svg, .png, .pdf or .dxf";
@@ -72,6 +72,7 @@ declare! {
     cut_number(order) => ", cut number {order}";
     start_mark_at(x, y) => ", start mark at {x:.3}, {y:.3}";
     nothing_says_what_the_program_becomes => "nothing says what to convert to, expected -o OUT or --format";
+    the_contours_are_placed_by_a_correction(correction) => "the contours are those of the part, at a correction of {correction:.4} mm beside the wire's path: the program does not state it, --correction does";
     the_correction_is_not_in_the_contours => "the contours are those of the part: the correction is not in them";
     the_machine_misses_the_begin_of_a_contour_by_up_to_um(closure) => "the machine misses the start of a contour by up to {closure:.2} µm; its ends are joined there";
     left_out_since_they_lead_nowhere(lines, more) => "left out, since they lead nowhere: lines {lines}{more}";

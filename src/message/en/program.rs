@@ -128,6 +128,7 @@ declare! {
     a_comment_stands_behind_a_block_that_becomes_several(line) => "line {line}: a comment follows a block that becomes several";
     the_comment_is_in_another_code_page(line) => "line {line}: the comment is in another code page";
     split_blocks_over(largest_number) => "Split blocks over {largest_number} µm";
+    the_way_in_of_4b_ends_beside_the_contour => "the way in ends on the wire's path, beside the contour by a correction that the program does not state: only a block that begins in the same direction as the first one of the contour can begin it";
     a_4b_block_cannot_be_calculated_anew(line) => "line {line}: a 4B block cannot be recalculated";
     a_3b_program_cannot_leave_the_correction_to_the_controller => "a 3B program cannot leave the correction to the controller: set compensation to path, or to none where the contour is the wire's path";
     no_blocks_within_tolerance_lead_from_to(from, to) => "no blocks within tolerance lead from {from} to {to}";

@@ -23,7 +23,7 @@ translate! {
     everywhere_more_is_left(more) => "；各处都比应有的间隙多 {more:.1} µm";
     the_program_is_there_already => "文件已存在，应换没有它的文件夹，或加 --overwrite";
     the_program_of_a_part_is_written(written, target, part, corrections, blocks, length) => "{written} {target}：{part}，补偿量 {corrections} mm，{blocks}，{length}";
-    the_wire_runs_on_the_other_side(part) => "      {part}：间隙大于补偿量，电极丝走在图线的另一侧";
+    the_wire_runs_on_the_other_side(part) => "      {part}：间隙不小于补偿量，电极丝走在图线上或图线的另一侧";
     drawn_without_the_path(note, reason) => "{note}只画轮廓，没有切割路线：{reason}";
     a_program_is_drawn_as_svg(path, word) => "{path}：程序画成 .svg、.png 或 .pdf；要画成图形：wedm convert {word} -o OUT.dxf";
     a_picture_that_is_not_written(ending) => "不能写出 .{ending}，应为 .svg、.png、.pdf 或 .dxf";
@@ -72,6 +72,7 @@ translate! {
     cut_number(order) => "，第 {order} 个切割";
     start_mark_at(x, y) => "，起点标记位于 {x:.3}, {y:.3}";
     nothing_says_what_the_program_becomes => "没有说明程序要转成什么，请给 -o OUT 或 --format";
+    the_contours_are_placed_by_a_correction(correction) => "轮廓是工件轮廓，按补偿量 {correction:.4} mm 置于电极丝轨迹旁：程序中没有该值，可用 --correction 给出";
     the_correction_is_not_in_the_contours => "轮廓是工件轮廓：不含补偿量";
     the_machine_misses_the_begin_of_a_contour_by_up_to_um(closure) => "机床回到轮廓起点最大差 {closure:.2} µm；首尾已并为一点";
     left_out_since_they_lead_nowhere(lines, more) => "没有去向、已略去的行：{lines}{more}";

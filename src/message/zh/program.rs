@@ -128,6 +128,7 @@ translate! {
     a_comment_stands_behind_a_block_that_becomes_several(line) => "第 {line} 行：程序段要分成几段，而其后有注释";
     the_comment_is_in_another_code_page(line) => "第 {line} 行：注释用的是另一种编码";
     split_blocks_over(largest_number) => "拆分超过 {largest_number} µm 的程序段";
+    the_way_in_of_4b_ends_beside_the_contour => "引入段终止在电极丝轨迹上，与轮廓相距程序中没有给出的补偿量：只有起始方向与轮廓第一段相同的程序段才能作为起点";
     a_4b_block_cannot_be_calculated_anew(line) => "第 {line} 行：4B 程序段不能重新计算";
     a_3b_program_cannot_leave_the_correction_to_the_controller => "3B 程序不能由控制器补偿：请把 compensation 设为 path；轮廓就是丝的路线时设为 none";
     no_blocks_within_tolerance_lead_from_to(from, to) => "从 {from} 到 {to} 没有符合公差的程序段";

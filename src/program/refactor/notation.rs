@@ -51,6 +51,11 @@ pub(in crate::program) trait Notation: Sized {
     /// An error where words of the program would become wrong by such a change.
     fn refuse(sheet: &Sheet<'_, Self>, change: Change) -> Result<(), String>;
 
+    /// An error where a way in that ends before one row cannot be told for another one.
+    fn refuse_begin(_content: &Content<Self>, _from: usize, _to: usize) -> Result<(), String> {
+        Ok(())
+    }
+
     /// The move of one row, replacing that of `place`.
     fn kept(at: At<'_, Self>, place: usize) -> Self::New;
     /// The move of a row in the other direction.

@@ -54,6 +54,7 @@ fn begun_here<N: Notation>(sheet: &Sheet<'_, N>) -> Edits {
         }
         (0, 0) => return Err(say!(what_comes_before_and_behind_leads_to_the_present_start).into()),
         (1, 0 | 1) => {
+            N::refuse_begin(content, own.start, first)?;
             let hole = rows[all.start].from;
             rewrite.stretch = None;
             let mut lead = |row: usize, ends: [Node; 2], far: Node| {

@@ -9,6 +9,7 @@ use crate::geometry::{Point, Vector};
 use crate::program::path::{Kind, Step, Trace, Writing};
 use crate::program::steps::{self, Program, Sum};
 use crate::text::SourceText;
+use rustc_hash::FxHashMap;
 use std::ops::Range;
 
 impl Document {
@@ -28,6 +29,15 @@ impl Document {
         let mut all = self.entries(0..self.stretches.len());
         let (at, entry) = all.find(|(_, entry)| is_of_part(entry))?;
         Some(self.stretches.place(at.stretch).lines.start + entry.line as usize)
+    }
+
+    /// The arcs of the part in 4B, by the byte at which their blocks begin: true where the wire runs inside of the arc.
+    pub(in crate::program) fn part_arcs(&self) -> FxHashMap<usize, bool> {
+        let all = self.entries(0..self.stretches.len());
+        let of_part = all.filter_map(|(at, entry)| Some((at, entry.block()?.part()?)));
+        of_part
+            .map(|(at, part)| (self.range_of(at).start, part.concave))
+            .collect()
     }
 
     /// The heading with the start, before the first block, and the start in mm.

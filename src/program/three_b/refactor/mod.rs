@@ -16,7 +16,7 @@ use super::block::{Motion, PartArc, Quadrant};
 use super::decode::decode;
 use super::encode::{ASIDE_TOLERANCE, Encoded, encode, point_of, runs_along, snap};
 use crate::finding::Finding;
-use crate::geometry::{Arc, Segment};
+use crate::geometry::{Arc, Segment, turn};
 use crate::program::encode::aside;
 use crate::program::grid::Node;
 use crate::program::numbering::numbered;
@@ -41,6 +41,9 @@ pub(in crate::program) struct New {
     /// It runs exactly along its piece, to which it was not fitted: a block that was moved, mirrored, turned round.
     pub(crate) exact: bool,
 }
+
+/// Two contours' directions are the same within this, rad: a correction of 0.5 mm differs by 0.5 µm.
+const ALONG: f64 = 1e-3;
 
 /// How far an exact block may lie from its piece, µm: rounding.
 const EXACT: f64 = 1e-3;
@@ -77,6 +80,17 @@ impl Notation for ThreeB {
         match change {
             Change::Scale => refuse_four_b(sheet.content()?),
             Change::Reverse | Change::StartHere(_) => Ok(()),
+        }
+    }
+
+    /// The way in to a contour of 4B ends on the wire's path, beside the contour by a correction that the program does not state.
+    fn refuse_begin(content: &Content<ThreeB>, from: usize, to: usize) -> Result<(), String> {
+        let is_of_part = content.rows.iter().any(|row| row.own.part.is_some());
+        let along = |row: usize| content.rows.get(row).map(|row| row.piece.start_tangent());
+        let turn = along(from).zip(along(to)).map(|(from, to)| turn(from, to));
+        match turn.is_some_and(|turn| turn.abs() <= ALONG) {
+            false if is_of_part => Err(say!(the_way_in_of_4b_ends_beside_the_contour).into()),
+            _ => Ok(()),
         }
     }
 

@@ -1,0 +1,128 @@
+//! Parts whose wire runs on the other side of what is drawn: it comes from what drops out, across the contour, and nowhere into the part.
+
+use super::{circle, corner, drawing, notch, polyline, settings, snapshot};
+use wedm::drawing::{Drawing, Vertex};
+use wedm::geometry::{Point, Segment};
+use wedm::job::{self, Wanted};
+use wedm::program::Format;
+
+/// The places of the wire along an absolute ISO program, close to each other.
+fn places(text: &str) -> Vec<Point> {
+    let mut places: Vec<Point> = Vec::new();
+    for line in text.lines() {
+        let number = |letter: char| {
+            let word = line.split(' ').find(|word| word.starts_with(letter))?;
+            word[1..].parse::<f64>().ok()
+        };
+        let (Some(x), Some(y)) = (number('X'), number('Y')) else {
+            continue;
+        };
+        let to = Point::new(x, y);
+        let Some(&from) = places.last() else {
+            places.push(to);
+            continue;
+        };
+        let way = match (number('I'), number('J')) {
+            (Some(i), Some(j)) => {
+                let center = Point::new(from.x + i, from.y + j);
+                let is_left = line.contains("G03");
+                Segment::Arc(wedm::geometry::Arc::about(center, from, to, is_left))
+            }
+            _ => Segment::line(from, to),
+        };
+        let steps = (way.length() / 0.1).ceil().max(1.0) as usize;
+        places.extend((1..=steps).map(|step| way.point_at(step as f64 / steps as f64)));
+    }
+    places
+}
+
+/// How far a point lies outside of a polygon, below 0 inside.
+fn outside(polygon: &[Point], at: Point) -> f64 {
+    let (mut away, mut is_inside) = (f64::INFINITY, false);
+    for index in 0..polygon.len() {
+        let (from, to) = (polygon[index], polygon[(index + 1) % polygon.len()]);
+        let along = to - from;
+        let share = ((at - from).dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
+        away = away.min((at - (from + along * share)).norm());
+        let crosses = (from.y > at.y) != (to.y > at.y);
+        if crosses && at.x < from.x + (at.y - from.y) / (to.y - from.y) * (to.x - from.x) {
+            is_inside = !is_inside;
+        }
+    }
+    if is_inside { -away } else { away }
+}
+
+/// The contour of a drawing with one outline.
+fn outline(drawing: &Drawing, settings: &wedm::settings::Effective) -> Vec<Point> {
+    let snapshot = snapshot(drawing, settings);
+    let segments = snapshot.outlines[0].contour.segments(drawing);
+    let points = segments.flat_map(|segment| {
+        let steps = match segment.geometry {
+            Segment::Line(_) => 1,
+            Segment::Arc(_) => 200,
+        };
+        (0..steps).map(move |step| {
+            segment
+                .geometry
+                .point_at(f64::from(step) / f64::from(steps))
+        })
+    });
+    points.collect()
+}
+
+#[test]
+fn the_wire_comes_from_what_drops_out() {
+    let square: Vec<Vertex> = [(0.0, 0.0), (20.0, 0.0), (20.0, 12.0), (0.0, 12.0)]
+        .map(|(x, y)| Vertex::new(x, y, 0.0))
+        .into();
+    let of = |vertices: Vec<Vertex>| drawing(vec![polyline("0", "2A", vertices)]);
+    let drawings = [
+        circle(6.0),
+        of(square),
+        of(corner(70.0, 1.0)),
+        of(notch(60.0, 1.0)),
+    ];
+    for (shape, drawing) in drawings.iter().enumerate() {
+        for drawn_as in ["punch", "plate"] {
+            for clearance in [0.1, 0.15, 0.3] {
+                for keys in [
+                    "",
+                    "start-hole = 1.0",
+                    "lead = \"perpendicular\"",
+                    "lead = \"arc\"",
+                    "lead-in = 0.4",
+                    "tab = 2.0",
+                ] {
+                    if !keys.is_empty() && clearance != 0.15 {
+                        continue;
+                    }
+                    let label = format!("{shape} {drawn_as} {clearance} {keys}");
+                    let own = settings(&format!(
+                        "wire-diameter = 0.18\ngap = 0.01\n[pair]\ndrawn-as = \"{drawn_as}\"\nclearance = {clearance:?}\n[program]\n{keys}\n"
+                    ));
+                    let wanted = Wanted {
+                        format: Format::Iso,
+                        handles: None,
+                        layers: None,
+                        force: true,
+                    };
+                    let made = job::pair(&snapshot(drawing, &own), &[], &wanted, &());
+                    let made =
+                        made.unwrap_or_else(|refusal| panic!("{label}: {}", refusal.sentence(1.0)));
+                    let polygon = outline(drawing, &own);
+                    let others: Vec<_> = made.iter().filter(|part| part.is_other_side).collect();
+                    assert_eq!(others.len(), 1, "{label}");
+                    let sign = if drawn_as == "punch" { 1.0 } else { -1.0 };
+                    let into_part = |at: &Point| sign * outside(&polygon, *at);
+                    let places = places(&others[0].made.program.text);
+                    let deepest = places.iter().map(into_part).fold(f64::MIN, f64::max);
+                    let correction = others[0].corrections[0];
+                    assert!((correction - (clearance - 0.1)).abs() < 1e-9, "{label}");
+                    assert!((deepest - correction).abs() < 2e-3, "{label}: {deepest}");
+                    let threaded = into_part(&places[0]);
+                    assert!(threaded < -0.2, "{label}: {threaded}");
+                }
+            }
+        }
+    }
+}
