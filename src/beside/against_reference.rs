@@ -413,8 +413,13 @@ impl<'a> Pairs<'a> {
 
     /// Whether the next contour begins elsewhere than where it should, and not on its way either: no other hole does that.
     fn leads_astray(&self, number: usize, from: Vector) -> bool {
-        let mut behind = self.pairs.iter().skip(number + 1);
         let is_of_contour = |pair: &&Pair| self.reference.source_of(&pair.meant.motion).is_some();
+        // A program that says no place lies where its contours lie.
+        let mut all = self.pairs.iter().enumerate();
+        if !all.any(|(at, pair)| is_of_contour(&pair) && self.is_placed(at, from)) {
+            return false;
+        }
+        let mut behind = self.pairs.iter().skip(number + 1);
         let begins = behind.find(is_of_contour).and_then(|pair| {
             let ([start, _], [meant, _]) = (pair.own.motion.ends()?, pair.meant.motion.ends()?);
             Some((start - from, meant))

@@ -108,3 +108,66 @@ for entity in document.modelspace():
         String::from_utf8_lossy(&output.stderr)
     );
 }
+
+/// Contours of a 4B program that are entered from different sides lie as far from each other as they are drawn.
+#[test]
+fn contours_of_four_b_lie_where_the_part_has_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let rectangle = |handle: &str, [left, low, right, high]: [f64; 4]| {
+        let vertices = [
+            (left + 2.0, low, 0.0),
+            (right - 2.0, low, 0.41421356237),
+            (right, low + 2.0, 0.0),
+            (right, high - 2.0, 0.41421356237),
+            (right - 2.0, high, 0.0),
+            (left + 2.0, high, 0.41421356237),
+            (left, high - 2.0, 0.0),
+            (left, low + 2.0, 0.41421356237),
+        ];
+        let vertices = vertices.map(|(x, y, bulge)| format!("10\n{x}\n20\n{y}\n42\n{bulge}\n"));
+        format!(
+            "0\nLWPOLYLINE\n5\n{handle}\n8\n0\n90\n8\n70\n1\n{}",
+            vertices.concat()
+        )
+    };
+    let drawn = [[0.0, 0.0, 20.0, 10.0], [40.0, 0.0, 50.0, 20.0]];
+    let text = format!(
+        "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n{}{}0\nENDSEC\n0\nEOF\n",
+        rectangle("2A", drawn[0]),
+        rectangle("2B", drawn[1])
+    );
+    std::fs::write(folder.path().join("two.dxf"), text).unwrap();
+    for (side, correction) in [("opening", "0.1"), ("punch", "0.155")] {
+        for arguments in [
+            format!(
+                "generate two.dxf --side {side} --correction {correction} --format 4b -o {side}.4b"
+            ),
+            format!("convert {side}.4b --correction {correction} -o {side}.dxf"),
+        ] {
+            let (code, _, errors) = wedm(folder.path(), &arguments);
+            assert_eq!(code, 0, "{arguments}: {errors}");
+        }
+        let back =
+            dxf::Document::read(std::fs::read(folder.path().join(format!("{side}.dxf"))).unwrap());
+        let contours = back
+            .drawing()
+            .entities()
+            .filter_map(|(_, entity)| match entity.geometry {
+                Geometry::Polyline { .. } => Some(entity.geometry.segments().collect::<Vec<_>>()),
+                _ => None,
+            });
+        let middles: Vec<Point> = contours
+            .map(|segments| {
+                let starts = segments.iter().map(|segment| segment.start());
+                let low = starts.clone().reduce(|one, other| one.inf(&other)).unwrap();
+                let high = starts.reduce(|one, other| one.sup(&other)).unwrap();
+                low + (high - low) * 0.5
+            })
+            .collect();
+        let apart = middles[1] - middles[0];
+        assert!(
+            (apart.x - 35.0).abs() < 2e-3 && (apart.y - 5.0).abs() < 2e-3,
+            "{side}: {apart}"
+        );
+    }
+}

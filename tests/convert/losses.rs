@@ -81,7 +81,11 @@ fn the_correction_is_never_lost_without_a_word() {
     let said = "line 5: the program is not followed as a whole";
     assert!(code == 1 && errors.contains(said), "{errors}");
     for (from, to, said) in [
-        ("part.4b", "dxf", "the correction is not in them"),
+        (
+            "part.4b",
+            "dxf",
+            "at a correction of 0.1000 mm beside the wire's path",
+        ),
         ("late.iso", "dxf", "the correction is not in them"),
         ("own.iso", "iso --profile generic", "H1 = 0.155 mm"),
     ] {

@@ -89,6 +89,22 @@ fn a_contour_begins_where_the_cursor_is() {
         "the block leads to the contour",
     );
     refused("startHere", "; x|\nB5B0B5GXL1\n", "no block is selected");
+    // The wire stands beside the contour of a 4B program, by a correction in the direction in which it begins there.
+    let four_b = |first: &str, last: &str| {
+        format!(
+            "B0B2900B2900GYL4\nB7250B0B7250GXL1\nB0B500B500B500GYDDNR4\nB0B4500B4500GYL2\n{first}B5000B0B5000B5000GXDDNR1\nB10000B0B10000GXL3\n{last}B0B5000B10000B5000GXDDNR2\nB7250B0B7250GXL1\nB0B2900B2900GYL2\nDD\n"
+        )
+    };
+    refused(
+        "startHere",
+        &four_b("|", ""),
+        "a correction that the program does not state",
+    );
+    refused(
+        "startHere",
+        &four_b("", "|"),
+        "a correction that the program does not state",
+    );
 }
 
 #[test]
