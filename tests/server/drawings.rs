@@ -279,10 +279,10 @@ fn opening_what_is_open_replaces_it_and_says_so() {
         1
     );
     assert_eq!(client.open_drawing(URI, json!([])).len(), 0);
-    client.logged("was open already");
+    client.logged("was already open");
     // A text and a drawing with one name are one document.
     client.open_text(URI, "dxf", "0\nEOF\n");
-    client.logged("was open already");
+    client.logged("was already open");
     client.notify("wedm/didCloseDrawing", json!({ "drawing": { "uri": URI } }));
     client.logged("was closed without being open");
     client.shut_down();

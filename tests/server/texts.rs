@@ -161,7 +161,7 @@ fn opening_a_text_twice_replaces_it_and_says_so() {
         1
     );
     assert_eq!(small(&client.open_text(URI, "dxf", "0\nEOF\n")), 0);
-    client.logged("was open already");
+    client.logged("was already open");
     client.shut_down();
 }
 

@@ -279,13 +279,13 @@ fn a_block_that_grows_behind_what_refers_to_it_is_drawn_whole() {
     };
     let document = Document::read(text("0 CIRCLE 8 0 10 1 20 0 40 1").into_bytes());
     assert_eq!(entities(&document).len(), 4, "{:?}", entities(&document));
-    // It came to hold itself after its size had been found.
+    // It came to contain itself after its size had been found.
     let document = Document::read(text("0 INSERT 8 0 2 B 10 0 20 0").into_bytes());
     assert!(entities(&document).is_empty());
     assert_eq!(
         findings(&document)
             .iter()
-            .filter(|finding| finding.contains("holds itself"))
+            .filter(|finding| finding.contains("contains itself"))
             .count(),
         2
     );

@@ -192,7 +192,7 @@ declare! {
     expected_a_length_in_mm_above_0 => "expected a length in mm above 0";
     expected_two_numbers_with_a_comma_between => "expected two numbers with a comma between, such as -115,-10";
     could_not_be_written(target, error) => "{target} could not be written: {error}";
-    had_hard_links(heading, path, others) => "{heading} {path} also had {others} (hard links): the old content stays there";
+    had_hard_links(heading, path, others) => "{heading} {path} had {others} besides this one (hard links): the old content stays there";
     file_could_not_be_written(path, reason) => "{path} could not be written: {reason}";
     it_is_no_regular_file_expected_one_to_be_changed_in_its_place(path) => "{path}: it is not a regular file, expected one that can be changed in place";
     is_the_input_expected_another_file(target) => "{target} is the input, expected another file";
