@@ -12,6 +12,10 @@ use crate::settings::Lead;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 use std::f64::consts::TAU;
 
+/// The deepest point of an opening is found to less than this, mm: walls that differ by no more in their distance from it are as near as
+/// each other.
+const DEEPEST: f64 = 2e-3;
+
 /// Pieces of a path that one core looks at at a time.
 const AT_A_TIME: usize = 4096;
 
@@ -23,8 +27,8 @@ pub(super) struct Entry {
     pub(crate) point: Point,
 }
 
-/// The place on the walls nearest to `point`, and its distance. Among equally near ones the one with the largest x, so
-/// that a thread hole in the centre of a circle leads to its +X-most point.
+/// The place on the walls nearest to `point`, and its distance. Among equally near ones, within `tie`, one that is no end of a wall,
+/// then the one with the largest x, so that a thread hole in the centre of a circle leads to its +X-most point.
 pub(super) fn nearest(walls: &[Wall], point: Point, tie: f64) -> Option<(Entry, f64)> {
     let mut best: Option<(Entry, f64)> = None;
     for (wall, segment) in walls.iter().map(|wall| &wall.geometry).enumerate() {
@@ -34,8 +38,14 @@ pub(super) fn nearest(walls: &[Wall], point: Point, tie: f64) -> Option<(Entry, 
         };
         let at = segment.point_at(share);
         let distance = (at - point).norm();
+        let is_within = |share: f64| share > 0.0 && share < 1.0;
         let better = best.is_none_or(|(entry, least)| {
-            distance < least - tie || (distance <= least + tie && at.x > entry.point.x + tie)
+            let is_as_near = distance <= least + tie;
+            match (is_within(share), is_within(entry.share)) {
+                (true, false) => is_as_near,
+                (false, true) => distance < least - tie,
+                _ => distance < least - tie || is_as_near && at.x > entry.point.x + tie,
+            }
         });
         if better {
             best = Some((
@@ -181,11 +191,11 @@ impl Job<'_> {
                 }
             };
         }
-        let near = |point: Option<Point>| {
-            point
-                .and_then(|point| nearest(walls, point, tie))
-                .map(|(entry, _)| entry)
+        let near_within = |point: Option<Point>, tie: f64| {
+            let (entry, _) = nearest(walls, point?, tie)?;
+            Some(entry)
         };
+        let near = |point: Option<Point>| near_within(point, tie);
         let picked = || {
             let first = self.picks.get(&index)?.first;
             let is_of = |wall: &Wall| matches!(wall.source, Source::Segment { entity, .. } if entity == first);
@@ -204,7 +214,8 @@ impl Job<'_> {
             .filter(|_| self.settings.lead != Lead::Straight);
         Ok(near(wanted.beside)
             .or_else(picked)
-            .or_else(|| near(wanted.thread.or(proposed))))
+            .or_else(|| near(wanted.thread))
+            .or_else(|| near_within(proposed, self.units(DEEPEST))))
     }
 }
 
