@@ -119,6 +119,8 @@ pub(super) struct Surroundings<'a> {
     pub(crate) unit_mm: f64,
     pub(crate) severity: Severity,
     pub(crate) lead: Lead,
+    /// It is no lead but the way back from the far end of an open contour.
+    pub(crate) goes_back: bool,
     /// How far beside the path a corner of a lead lies at most, drawing units.
     pub(crate) length: f64,
 }
@@ -133,7 +135,16 @@ pub(super) enum Obstacle {
     Kerf(usize),
 }
 
-impl Surroundings<'_> {
+impl<'a> Surroundings<'a> {
+    /// The same for the straight way back from the far end of an open contour.
+    pub(super) fn straight_back(&self) -> Surroundings<'a> {
+        Surroundings {
+            lead: Lead::Straight,
+            goes_back: true,
+            ..*self
+        }
+    }
+
     /// The form in which a lead comes to a landing without cutting anything; `correction` is that of the pass, drawing units.
     pub(super) fn hold(
         &self,
@@ -162,6 +173,16 @@ impl Surroundings<'_> {
                 begin.y,
                 because(does)
             ),
+            _ if self.goes_back => {
+                say!(
+                    the_way_back_does,
+                    begin.x,
+                    begin.y,
+                    thread.x,
+                    thread.y,
+                    does
+                )
+            }
             _ => say!(the_lead_in_does, thread.x, thread.y, begin.x, begin.y, does),
         };
         Err(fault(self.severity, source, sentence, place))

@@ -166,9 +166,14 @@ impl Job<'_> {
                     let landing =
                         Landing::of_end(last, along.unwrap_or_default(), of_travel, control);
                     if last == thread {
+                    } else if !closed && to_tab {
+                        let back = surroundings.straight_back();
+                        let way = back.hold(thread, &landing, &entry, &unled.walls, wire);
+                        let way = way.map_err(|finding| Refusal::Findings(vec![finding]))?;
+                        segments.extend(lead_out(way.pieces(thread, &landing, true)));
                     } else if is_straight {
                         // The control moves the way out as it moves the contour.
-                        let is_held = control == 0.0 || !closed;
+                        let is_held = control == 0.0;
                         if (overlaps || to_tab) && is_held && unled.entry.is_some() {
                             hold(&landing)?;
                         }

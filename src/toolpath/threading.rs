@@ -64,6 +64,7 @@ impl Job<'_> {
             unit_mm: self.unit_mm,
             severity: self.severity(),
             lead,
+            goes_back: false,
             length: self.units(self.settings.lead_in),
         }
     }

@@ -250,13 +250,16 @@ fn passes_go_to_and_fro_along_an_open_contour() {
     };
     let once = ["G41 D1", "G40", "G42 D2", "G40", "G41 D3", "G40"];
     assert_eq!(words("alternate"), [once, once].concat());
-    // From the end of the first one the straight way back would cut the part.
-    let one_way = settings(&format!("{three}sequence = \"one-way\"\n"));
-    let refused = paths(&drawing, &one_way).expect_err("a lead");
-    assert!(
-        matches!(&refused, Refusal::Findings(found) if found[0].rule == Rule::LeadIn),
-        "{refused:?}"
-    );
+    // From the end of the first one the straight way back would cut the part, and no arc goes round it through the stock.
+    for lead in ["straight", "perpendicular", "arc"] {
+        let text = format!("{three}sequence = \"one-way\"\n[program]\nlead = \"{lead}\"\n");
+        let refused = paths(&drawing, &settings(&text)).expect_err("a lead");
+        assert!(
+            matches!(&refused, Refusal::Findings(found) if found[0].rule == Rule::LeadIn)
+                && refused.sentence(1.0).contains("straight way back"),
+            "{lead}: {refused:?}"
+        );
+    }
 }
 
 #[test]

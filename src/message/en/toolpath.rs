@@ -28,6 +28,7 @@ declare! {
     no_arc_fits_at(length, least, x, y, why) => "no lead from {length:.3} mm down with an arc of R {least:.3} mm or more fits at ({x:.3}, {y:.3}){why}: give a thread hole or another entry";
     no_arc_leads_from_to(least, x, y, x1, y1, why) => "no arc of R {least:.3} mm or more leads from the thread hole ({x:.3}, {y:.3}) to the path at ({x1:.3}, {y1:.3}){why}";
     the_lead_in_does(x, y, x1, y1, does) => "the lead-in from the thread hole ({x:.3}, {y:.3}) to ({x1:.3}, {y1:.3}) {does}";
+    the_way_back_does(x, y, x1, y1, does) => "the straight way back from the end of the contour at ({x:.3}, {y:.3}) to the thread hole ({x1:.3}, {y1:.3}) {does}";
     no_lead_in_fits_at(length, correction, x, y, why) => "no lead-in from {length:.3} mm down to the correction {correction:.3} mm fits at ({x:.3}, {y:.3}){why}: give a thread hole or another entry";
     the_lead_is_shortened(handle, wanted, length) => "the lead of contour {handle} is {length:.3} mm long: there is no room for the {wanted:.3} mm of lead-in";
     because_it(does) => " (it {does})";

@@ -28,6 +28,7 @@ translate! {
     no_arc_fits_at(length, least, x, y, why) => "({x:.3}, {y:.3}) 处放不下从 {length:.3} mm 起、圆弧不小于 R {least:.3} mm 的引线{why}：请给出穿丝孔，或换一个切入点";
     no_arc_leads_from_to(least, x, y, x1, y1, why) => "从穿丝孔 ({x:.3}, {y:.3}) 到切割路线 ({x1:.3}, {y1:.3}) 放不下不小于 R {least:.3} mm 的圆弧引线{why}";
     the_lead_in_does(x, y, x1, y1, does) => "从穿丝孔 ({x:.3}, {y:.3}) 到 ({x1:.3}, {y1:.3}) 的引入线{does}";
+    the_way_back_does(x, y, x1, y1, does) => "从轮廓终点 ({x:.3}, {y:.3}) 到穿丝孔 ({x1:.3}, {y1:.3}) 的直线返回段{does}";
     no_lead_in_fits_at(length, correction, x, y, why) => "({x:.3}, {y:.3}) 处放不下长 {length:.3} mm 直至等于补偿量 {correction:.3} mm 的引入线{why}：请给出穿丝孔，或换一个切入点";
     the_lead_is_shortened(handle, wanted, length) => "轮廓 {handle} 的引入线长 {length:.3} mm：放不下 lead-in 所定的 {wanted:.3} mm";
     because_it(does) => "（它{does}）";
