@@ -111,7 +111,8 @@ impl Document {
         match local.counts {
             Counts::Always | Counts::MildIfClosed => true,
             Counts::IfAlone => self.is_local_told(stretch, local),
-            Counts::IfOpen => cut().is_some_and(|cut| !self.closes(&cut)),
+            // What is no cut, a way between contours, closes nothing.
+            Counts::IfOpen => cut().is_none_or(|cut| cut.is_jump || !self.closes(&cut)),
             Counts::IfInside { turns_left } => cut().is_some_and(|cut| {
                 let runs_left = cut.sum.twice_area > 0.0;
                 let wire_is_inside = self.limits.side == SideSetting::Opening;

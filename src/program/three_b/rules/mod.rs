@@ -104,7 +104,7 @@ impl Spot {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Counts {
     Always,
-    /// Only where the contour does not close: else the block is meant as it is.
+    /// Only where the contour does not close, and between contours: else the block is meant as it is.
     IfOpen,
     /// Where the contour closes, the block is meant in an unusual way, and the finding says so.
     MildIfClosed,
