@@ -313,7 +313,7 @@ mod unix {
             &desk,
             "fix tight.dxf --in-place",
             0,
-            &["!note: tight.dxf had 1 name besides (hard links)"],
+            &["!note: tight.dxf also had 1 name (hard links)"],
         );
         assert_ne!(desk.read("tight.dxf"), before);
         assert_eq!(desk.read("second.dxf"), before);

@@ -285,7 +285,7 @@ fn a_block_that_grows_behind_what_refers_to_it_is_drawn_whole() {
     assert_eq!(
         findings(&document)
             .iter()
-            .filter(|finding| finding.contains("holds itself"))
+            .filter(|finding| finding.contains("contains itself"))
             .count(),
         2
     );
