@@ -69,6 +69,8 @@ pub const CONTRADICTIONS: &[Contradiction] = &[
     row(OPEN, "side = \"left\"\nprogram.tab = 3\n", "lead-in", "contour A0 is open"),
     row(ONE, "side = \"punch\"\nprogram.tab.ZZ = 3\n", "settings", "the handle ZZ"),
     row(NESTED, "side = \"auto\"\nprogram.tab = 1\njob.slug-limit = 1\n", "settings", "expected job.thickness"),
+    row(ONE, "side = \"opening\"\njob.thickness = 40\njob.slug-limit = 100\n", "settings", "no effect without program.tab"),
+    row(ONE, "side = \"opening\"\njob.thickness = 40\njob.slug-limit = 100\nprogram.tab = 0\n", "settings", "no effect without program.tab"),
     row(ONE, "side = \"punch\"\nprogram.tab-stop = \"\"\nprogram.tab = 3\n", "settings", "program.tab-stop"),
     row(ONE, "side = \"punch\"\nprogram.end = \"D\"\n", "settings", "so is program.pause"),
     // Where the wire is threaded and comes to its contour.
