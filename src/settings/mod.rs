@@ -144,9 +144,14 @@ impl Settings {
             return Vec::new();
         };
         let passes = self.passes.clone().unwrap_or_default();
+        let milling = self.milling.clone().unwrap_or_default();
         let faults = match (&passes.corrections, self.correction) {
             (Some(list), _) => pass_faults(list, &passes, self.wire_diameter),
             (None, Some(single)) => pass_faults(&[single], &passes, self.wire_diameter),
+            // Half the wire and its gap, or the default.
+            (None, None) if milling.correction().is_none() => {
+                pass_faults(&[f64::INFINITY], &passes, self.wire_diameter)
+            }
             (None, None) => return Vec::new(),
         };
         let error = |fault: PassFault| SettingsError {

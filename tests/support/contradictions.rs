@@ -54,10 +54,12 @@ macro_rules! electrode {
 #[rustfmt::skip]
 pub const CONTRADICTIONS: &[Contradiction] = &[
     // Passes.
-    row(ONE, "side = \"punch\"\npasses.corrections = [0.1, 0.2]\n", "pass-order", "corrections fall"),
+    row(ONE, "side = \"punch\"\npasses.corrections = [0.1, 0.2]\n", "pass-order", "corrections decrease"),
     row(ONE, "side = \"punch\"\ncorrection = 0.05\nwire-diameter = 0.18\n", "pass-order", "the wire's radius 0.09"),
     row(ONE, "side = \"punch\"\npasses.corrections = [0.2, 0.1]\npasses.registers = [\"D1\"]\n", "pass-order", "one for each of the 2 passes"),
     row(ONE, "side = \"punch\"\npasses.corrections = [0.2, 0.1]\npasses.gaps = [0.01]\n", "pass-order", "one for each of the 2 passes"),
+    row(ONE, "side = \"punch\"\npasses.rates = [1, 2]\n", "pass-order", "one for each of the 1 passes"),
+    row(ONE, "side = \"punch\"\nwire-diameter = 0.18\npasses.registers = [\"D1\", \"D2\"]\n", "pass-order", "one for each of the 1 passes"),
     // Values that cannot be.
     row(ONE, "side = \"punch\"\ncorrection = -0.1\n", "settings", "expected a number above 0"),
     row(ONE, "side = \"punch\"\nprogram.tab = -1\n", "settings", "expected a number of 0 or above"),
