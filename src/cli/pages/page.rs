@@ -167,6 +167,7 @@ impl Page {
     fn contour_table(&self) -> String {
         let heads = [
             say!(column_number),
+            say!(column_contour),
             say!(column_kind),
             say!(column_role),
             say!(column_length),
@@ -186,6 +187,7 @@ impl Page {
             let order = contour.order.map(|order| (order + 1).to_string());
             vec![
                 number(index),
+                cell(contour.segments.first().map_or("", |first| &first.handle)),
                 cell(kind),
                 cell(role),
                 number(format!("{:.3}", contour.length * self.unit_mm)),
