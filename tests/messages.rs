@@ -21,12 +21,13 @@ const NOT_FOR_PEOPLE: [&str; 13] = [
 
 /// What looks like a sentence and is a word of a format: what serde and diff say, classes of SVG, shapes of JSON, descriptions in the
 /// schema, what the standard library puts after a reason. The examples under the help of the command line stand with its options.
-const WORDS_OF_FORMATS: [&str; 12] = [
+const WORDS_OF_FORMATS: [&str; 13] = [
     "one of ",
     "\\\\ No newline at end of file\\n",
     "wire fault",
     "wire other",
     "wire tab",
+    "lead back",
     "{ uri, version, changes }",
     "{ uri, factor }",
     " (os error",

@@ -188,6 +188,12 @@ fn an_arc_that_narrows_needs_its_correction_and_the_height() {
         told[0].2,
         "arc R 1.500 mm is below 1.517 mm: under a taper of 2.000° it narrows by 1.397 mm up to the other plane, and the wire needs its correction in addition"
     );
+    // An arc that widens needs room only for the wire itself.
+    let told = said(&with_corner(0.12, "G41 D1\nG52 A15."), &settings);
+    assert_eq!(
+        told[0].2,
+        "arc R 0.1200 mm is below 0.1242 mm: under a taper of 15.000° it widens up to the other plane, but in its own plane the leaning wire's axis keeps the correction divided by the cosine of that angle"
+    );
     // The program's own table says the correction.
     let own = with_corner(1.55, "H1=0.2\nG41 H1\nG51 A2.");
     assert_eq!(said(&own, &settings).len(), 1);

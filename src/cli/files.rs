@@ -84,6 +84,9 @@ fn kind_and_settings(
     common: &Common,
     last: &Settings,
 ) -> Result<(FileKind, Arc<Effective>, Vec<Row>), Failure> {
+    if path.is_dir() {
+        return Err(Failure::of(path, say!(a_folder_is_no_file)));
+    }
     let kind = match kind_of(path, common) {
         Ok(kind) => kind,
         Err(failure) => head(path)

@@ -69,6 +69,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let said: Vec<Finding> = made.warnings.iter().filter(of_program).cloned().collect();
     report::say(path, document, &said);
     summarise(arguments, &made.program, made.contours);
+    if let Some(line) = output::offsets(&made.program) {
+        output::say(&line);
+    }
     output::say_thread_hole(&made.holes, document.unit_mm());
     if let Some(milled) = &made.program.milled {
         for line in Milling::new(&snapshot, milled).told(CUTS) {

@@ -130,7 +130,12 @@ impl<const GROUP: usize> Args for Keys<GROUP> {
                 "word" => "WORD",
                 _ => "NAME",
             };
-            arg.value_name(value)
+            let arg = arg.value_name(value);
+            // Each says the correction of every pass.
+            match name {
+                "correction" => arg.conflicts_with("passes"),
+                _ => arg,
+            }
         }))
     }
 

@@ -3,6 +3,7 @@
 use super::Failure;
 use crate::disk;
 use crate::message::{columns, is_hidden, readable};
+use crate::program::ProvedProgram;
 use crate::toolpath::StartHole;
 use anstyle::{AnsiColor, Style};
 use serde::Serialize;
@@ -90,6 +91,23 @@ pub(crate) fn is_for_people() -> bool {
 /// A line to stderr. A failure cannot be reported anywhere.
 pub(crate) fn say(text: &str) {
     let _ = writeln!(anstream::stderr().lock(), "{}", shown(text, true));
+}
+
+/// The corrections that have to be entered at the control, where it offsets the contour.
+pub(crate) fn offsets(program: &ProvedProgram) -> Option<String> {
+    let offsets = &program.offsets;
+    let of_all: Vec<String> = offsets.iter().map(|(_, mm)| format!("{mm:.4}")).collect();
+    let is_named = offsets.iter().any(|(register, _)| !register.is_empty());
+    let one = |(register, mm): &(String, f64)| say!(offset_of_a_register, readable(register), mm);
+    let told = match is_named {
+        true => offsets
+            .iter()
+            .map(one)
+            .collect::<Vec<_>>()
+            .join(say!(comma)),
+        false => say!(offset_of_all, of_all.join(" / ")),
+    };
+    (!offsets.is_empty()).then(|| say!(the_control_offsets, told))
 }
 
 /// The first thread hole, to stderr; `unit_mm` is the unit of the holes.

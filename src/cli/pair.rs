@@ -90,6 +90,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
             say!(blocks, program.blocks),
             lengths(program.length, program.jumps, say!(comma))
         ));
+        if let Some(line) = output::offsets(program) {
+            output::say(&line);
+        }
         output::say_thread_hole(&part.made.holes, document.unit_mm());
         if part.is_other_side {
             output::say(&say!(the_wire_runs_on_the_other_side, part.part));

@@ -237,12 +237,14 @@ fn jump(sheet: &mut Sheet, frame: &Frame, subject: &Subject, from: Point, to: Po
 fn wire(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
     let is_lead = |source: &Source| matches!(source, Source::LeadIn | Source::LeadOut);
     let mut before = None;
-    for path in subject.paths {
+    let mut drawn: FxHashSet<String> = FxHashSet::default();
+    for (path, correction) in subject.paths.iter().zip(&subject.corrections) {
         if let Some(end) = before.replace(path.end()) {
             jump(sheet, frame, subject, end, path.begin());
         }
-        let distance = subject.mm(path.correction);
+        let distance = subject.mm(*correction);
         let mut label = match subject.mills {
+            false if path.side.is_some() => say!(contour_that_the_control_offsets, distance),
             false => say!(path_of_the_wire_centre, distance),
             true => say!(path_of_the_electrode_axis, distance),
         };
@@ -254,12 +256,22 @@ fn wire(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
             .segments
             .chunk_by(|a, b| is_lead(&a.source) == is_lead(&b.source))
         {
+            let data = path_data(frame, run.iter().map(|segment| segment.geometry), false);
+            let back = || run.iter().rev().map(|segment| segment.geometry.reversed());
             let (class, label) = match run.first() {
-                Some(first) if is_lead(&first.source) => ("lead", say!(lead_in_and_lead_out)),
+                // Dashes upon dashes of the other way would look solid.
+                Some(first) if is_lead(&first.source) => {
+                    match drawn.contains(&path_data(frame, back(), false)) {
+                        true => ("lead back", say!(lead_in_and_lead_out)),
+                        false => {
+                            drawn.insert(data.clone());
+                            ("lead", say!(lead_in_and_lead_out))
+                        }
+                    }
+                }
                 _ if path.cut_off => ("wire tab", say!(the_tab)),
                 _ => ("wire", label.as_str()),
             };
-            let data = path_data(frame, run.iter().map(|segment| segment.geometry), false);
             let pass = path.pass;
             sheet.path(
                 &format!(r#"class="{class}" data-pass="{pass}""#),

@@ -147,7 +147,7 @@ fn alert(view: &View, faults: &[subject::Fault]) -> (Severity, String) {
 
 /// Correction, contours, extents and lengths, as far as they are known.
 fn facts(subject: &Subject) -> String {
-    let of_path = || subject.paths.first().map(|path| path.correction);
+    let of_path = || subject.corrections.first().copied();
     let first = subject.faults.first();
     let correction = first.map(|fault| fault.detail.required).or_else(of_path);
     let mut facts = Vec::new();

@@ -14,8 +14,9 @@ pub(super) const MARGIN: f64 = 40.0;
 const FIGURE_WIDTH: f64 = SHEET_WIDTH - 5.5 * MARGIN;
 const FIGURE_HEIGHT: f64 = 560.0;
 pub(super) const FIGURE_TOP: f64 = 112.0;
-/// Columns of text in the width of the sheet.
+/// Columns of text in the width of the sheet, and of its title, which is larger.
 const COLUMNS: usize = 132;
+const COLUMNS_OF_TITLE: usize = 86;
 
 /// The SVG written so far.
 #[derive(Default)]
@@ -65,14 +66,11 @@ impl Sheet {
     pub(crate) fn heading(&mut self, title: &str, facts: &str, alert: Option<(&str, &str)>) {
         self.line(format_args!(
             r#"<g class="chrome"><text class="heading" x="{MARGIN}" y="34">{}</text>"#,
-            escaped(title)
+            with_whole(title, COLUMNS_OF_TITLE)
         ));
         self.line(format_args!(
             r#"<text class="note" x="{MARGIN}" y="54">{}</text>"#,
-            match shortened(facts, COLUMNS) {
-                short if short == facts => escaped(facts),
-                short => format!("<title>{}</title>{}", escaped(facts), escaped(&short)),
-            }
+            with_whole(facts, COLUMNS)
         ));
         if let Some((class, alert)) = alert {
             self.line(format_args!(
@@ -216,6 +214,14 @@ fn push_place(data: &mut String, before: char, [x, y]: [i64; 2]) {
     push_thousandths(data, x);
     data.push(' ');
     push_thousandths(data, y);
+}
+
+/// As much of a text as fits in this many columns, with the whole of it as a tooltip where that is not all.
+fn with_whole(text: &str, most: usize) -> String {
+    match shortened(text, most) {
+        short if short == text => escaped(text),
+        short => format!("<title>{}</title>{}", escaped(text), escaped(&short)),
+    }
 }
 
 /// As much of a text as fits in this many columns.

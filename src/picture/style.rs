@@ -29,6 +29,7 @@ text{font-family:system-ui,'Segoe UI',Helvetica,Arial,'DejaVu Sans',sans-serif;f
 .kerf{fill:none;stroke:#cfe4fb;stroke-linecap:round;stroke-linejoin:round}
 .lost{fill:#f2a33a}
 .lead{stroke:#0969da;stroke-width:1.2;stroke-dasharray:5 4}
+.lead.back{stroke:none}
 .jump{stroke:#57606a;stroke-width:1;stroke-dasharray:1 4}
 .fault{stroke-width:3.4}
 .other{stroke-width:3}

@@ -18,6 +18,8 @@ pub(super) struct Subject<'a> {
     pub(crate) findings: &'a [Finding],
     pub(crate) faults: Vec<Fault<'a>>,
     pub(crate) paths: &'a [WirePath],
+    /// For each path the distance of the wire's centre from the contour, drawing units.
+    pub(crate) corrections: Vec<f64>,
     /// For each path the half width of its kerf, drawing units; `None` where the control offsets it.
     pub(crate) half_kerfs: Vec<Option<f64>>,
     /// Radius of the start holes, drawing units, where one is set.
@@ -53,6 +55,7 @@ impl<'a> Subject<'a> {
             let half = known.map_or(last, |half| half / unit_mm);
             (path.side.is_none() && half.is_finite() && half > 0.0).then_some(half)
         };
+        let correction = |path: &WirePath| path.offset(settings, unit_mm) / unit_mm;
         let pieces = outlines.iter().flat_map(|outline| &outline.contour.pieces);
         Some(Subject {
             drawing,
@@ -63,6 +66,7 @@ impl<'a> Subject<'a> {
             findings,
             faults: tight_arcs(drawing, findings),
             paths,
+            corrections: paths.iter().map(correction).collect(),
             half_kerfs: paths.iter().map(half_kerf).collect(),
             hole: settings.start_hole.map(|diameter| diameter / 2.0 / unit_mm),
             unit_mm,

@@ -24,6 +24,9 @@ pub struct ProvedProgram {
     pub(crate) closure: [f64; 2],
     /// Largest distance in µm of the decoded blocks from the path, over their whole length.
     pub(crate) deviation: f64,
+    /// What the control has to offset by, mm, where it does: the correction of each pass, with the word that says where
+    /// the control finds it, which is empty where there is one for all.
+    pub(crate) offsets: Vec<(String, f64)>,
     /// The totals of milling, for an electrode.
     pub milled: Option<Milled>,
 }

@@ -1,6 +1,6 @@
 //! Contradictory or ineffective settings of a program and its workpiece.
 
-use super::{PassFault, Settings};
+use super::{LengthSetting, PassFault, Settings};
 
 pub(super) fn faults(settings: &Settings) -> Vec<PassFault> {
     let program = settings.program();
@@ -17,10 +17,13 @@ pub(super) fn faults(settings: &Settings) -> Vec<PassFault> {
     }
     if let Some(job) = &settings.job
         && job.slug_limit.is_some()
-        && job.thickness.is_none()
     {
         let key = "job.slug-limit";
-        complain(key, say!(a_mass_needs_a_height, key));
+        if job.thickness.is_none() {
+            complain(key, say!(a_mass_needs_a_height, key));
+        } else if matches!(program.tab, None | Some(LengthSetting::One(0.0))) {
+            complain(key, say!(a_limit_needs_a_tab, key));
+        }
     }
     faults
 }

@@ -39,11 +39,12 @@ const ORDERS: Range = Range::of(1.0, 1e6);
 tables! {
     /// One level of settings: built-in, `initializationOptions`, `workspace/configuration`, `wedm.toml`, a request's `options`, the command line.
     Settings() {
-        /// Wire radius + spark gap, mm. It says how far the wire's centre runs from the contour.
+        /// Wire radius + spark gap, mm. It says how far the wire's centre runs from the contour. A later level that sets it and no
+        /// `passes.corrections` cuts in one pass.
         correction: f64 = 0.10 => number in Range::ABOVE_ZERO;
         /// Diameter of the wire, mm. With `gap` it gives the correction where no `correction` is set: half the diameter + gap; when one of the
         /// two is set the other has its default there. Together with `correction` or `passes.corrections` it says how thick the wire is, see
-        /// [`pass-order`](rules/pass-order.md). A later level that sets one of the two and no `correction` sets the correction again.
+        /// [`pass-order`](rules/pass-order.md). A later level that sets one of the two and no `correction` sets the correction again, and one pass.
         #[serde(alias = "wire-diameter")]
         wire_diameter: f64 = 0.18 => number in Range::ABOVE_ZERO;
         /// Spark gap, mm. See `wire-diameter`.
@@ -148,8 +149,9 @@ tables! {
     ProgramSettings() {
         /// Form of the blocks. Programs that are formatted keep their own where none is set.
         layout: Layout = Layout::Compact => name;
-        /// Whether 3B and 4B programs begin with `; Start Point = x , y`, the comment that says where the wire is threaded, mm. Not set: in
-        /// every layout but `compact`.
+        /// Whether 3B and 4B programs begin with `; Start Point = x , y`, the comment that says where the wire is threaded, mm; and ISO
+        /// programs that the control offsets with comments such as `(D1 = 0.2000)`, the correction of each register, mm. Not set: in every
+        /// layout but `compact`.
         header: bool => truth;
         /// Direction in which closed contours are cut.
         direction: Direction = Direction::Ccw => name;

@@ -88,12 +88,20 @@ impl Settings {
 
     /// Lays `later` over `self`: `later` wins; tables are merged key by key.
     ///
-    /// A later level with a wire diameter or a gap but no correction resets the correction. One thread hole or one
-    /// entry likewise resets those of single contours.
+    /// A later level with a correction, or with a wire diameter or a gap, resets the earlier levels' other ways to say
+    /// it. One thread hole or one entry likewise resets those of single contours.
     pub(crate) fn overlaid(&self, later: &Settings) -> Settings {
         let mut laid = Overlay::overlaid(self, later);
-        if later.wire_diameter.is_some() || later.gap.is_some() {
+        let says_a_wire = later.wire_diameter.is_some() || later.gap.is_some();
+        if says_a_wire {
             laid.correction = later.correction;
+        }
+        if let (Some(laid), Some(earlier)) = (&mut laid.passes, &self.passes) {
+            let own = later.passes.clone().unwrap_or_default();
+            laid.reset(earlier, &own, says_a_wire || later.correction.is_some());
+            if later.gap.is_some() {
+                laid.gaps = own.gaps;
+            }
         }
         if let Some(program) = &later.program {
             let is_one = |point: &Option<PointSetting>| matches!(point, Some(PointSetting::One(_)));
@@ -136,9 +144,14 @@ impl Settings {
             return Vec::new();
         };
         let passes = self.passes.clone().unwrap_or_default();
+        let milling = self.milling.clone().unwrap_or_default();
         let faults = match (&passes.corrections, self.correction) {
             (Some(list), _) => pass_faults(list, &passes, self.wire_diameter),
             (None, Some(single)) => pass_faults(&[single], &passes, self.wire_diameter),
+            // Half the wire and its gap, or the default.
+            (None, None) if milling.correction().is_none() => {
+                pass_faults(&[f64::INFINITY], &passes, self.wire_diameter)
+            }
             (None, None) => return Vec::new(),
         };
         let error = |fault: PassFault| SettingsError {

@@ -2,6 +2,29 @@
 
 use super::Passes;
 
+impl Passes {
+    /// Where a later level says one correction for all, the corrections of an earlier one no longer apply, nor what
+    /// that said of each of its passes.
+    pub(super) fn reset(&mut self, earlier: &Passes, later: &Passes, is_one: bool) {
+        let count = earlier.corrections.as_ref().map(Vec::len);
+        if !is_one || later.corrections.is_some() || count.is_none() {
+            return;
+        }
+        let of_one = |count: usize| count == 1;
+        self.corrections = None;
+        self.gaps = later
+            .gaps
+            .clone()
+            .or(self.gaps.take().filter(|gaps| of_one(gaps.len())));
+        self.rates = later
+            .rates
+            .clone()
+            .or(self.rates.take().filter(|rates| of_one(rates.len())));
+        let registers = self.registers.take().filter(|words| of_one(words.len()));
+        self.registers = later.registers.clone().or(registers);
+    }
+}
+
 /// Two lengths in mm that differ by less are equal: halving a diameter may round.
 const ROUNDING: f64 = 1e-9;
 
@@ -95,6 +118,7 @@ pub(crate) fn passes_table(wire: f64, gaps: [f64; 2], stock: f64, skims: usize) 
 
 #[cfg(test)]
 mod tests {
+    use super::super::{Effective, from_toml};
     use super::*;
 
     fn listed() -> Passes {
@@ -145,6 +169,88 @@ mod tests {
                 "passes.registers is a list of 1, expected one for each of the 3 passes",
             ],
         );
+    }
+
+    /// The file, what lies over it, and the corrections, gaps and registers that apply then.
+    #[test]
+    fn what_a_later_level_says_of_the_correction_applies() {
+        const FILE: &str = "correction = 0.11\n[passes]\ncorrections = [0.2, 0.15]\ngaps = [0.02, 0.01]\nregisters = [\"D3\", \"D4\"]\nsequence = \"one-way\"\n";
+        for (file, later, corrections, gap, registers) in [
+            (FILE, "", &[0.2, 0.15][..], Some(0.02), Some("D3")),
+            (FILE, "correction = 0.3\n", &[0.3], None, None),
+            (
+                FILE,
+                "wire-diameter = 0.3\ngap = 0.02\n",
+                &[0.17],
+                Some(0.02),
+                None,
+            ),
+            (FILE, "wire-diameter = 0.3\n", &[0.16], None, None),
+            (
+                FILE,
+                "correction = 0.3\n[passes]\nregisters = [\"D7\"]\n",
+                &[0.3],
+                None,
+                Some("D7"),
+            ),
+            (
+                FILE,
+                "passes.corrections = [0.3, 0.25]\n",
+                &[0.3, 0.25],
+                Some(0.02),
+                Some("D3"),
+            ),
+            (
+                FILE,
+                "correction = 0.3\npasses.corrections = [0.21, 0.2]\n",
+                &[0.21, 0.2],
+                Some(0.02),
+                Some("D3"),
+            ),
+            (
+                "passes.gaps = [0.02]\n",
+                "gap = 0.03\ncorrection = 0.3\n",
+                &[0.3],
+                Some(0.03),
+                None,
+            ),
+            (
+                "correction = 0.3\n",
+                "passes.corrections = [0.2]\n",
+                &[0.2],
+                None,
+                None,
+            ),
+            (
+                "[passes]\ncorrections = [0.2]\nregisters = [\"D3\"]\n",
+                "correction = 0.3\n",
+                &[0.3],
+                None,
+                Some("D3"),
+            ),
+        ] {
+            let [file, later] = [file, later].map(|text| from_toml(text).0);
+            let laid = Effective::of(&file.overlaid(&later));
+            let near = |(a, b): (&f64, &f64)| (a - b).abs() < 1e-9;
+            let are_same = laid.corrections.len() == corrections.len();
+            assert!(
+                are_same && laid.corrections.iter().zip(corrections).all(near),
+                "{later:?} {:?}",
+                laid.corrections
+            );
+            let first = laid
+                .passes
+                .gaps
+                .as_ref()
+                .map_or(laid.gap, |gaps| gaps.first().copied());
+            assert_eq!(first, gap, "{later:?}");
+            let stated = laid
+                .passes
+                .registers
+                .as_ref()
+                .and_then(|words| words.first());
+            assert_eq!(stated.map(String::as_str), registers, "{later:?}");
+        }
     }
 
     #[test]

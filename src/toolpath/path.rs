@@ -3,6 +3,7 @@
 use crate::drawing::EntityId;
 use crate::finding::{Finding, Place};
 use crate::geometry::{Point, Segment, Side};
+use crate::settings::Effective;
 
 /// The source of a piece of the path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -75,6 +76,16 @@ pub struct WirePath {
 }
 
 impl WirePath {
+    /// The distance of the wire's centre from the contour, mm: where the control offsets, by how much it has to.
+    pub(crate) fn offset(&self, settings: &Effective, unit_mm: f64) -> f64 {
+        let of_passes = settings.each_correction();
+        let of_pass = of_passes.get(self.pass.saturating_sub(1)).copied();
+        match self.side {
+            Some(_) => of_pass.unwrap_or(settings.correction),
+            None => self.correction * unit_mm,
+        }
+    }
+
     /// The first path of its contour.
     pub(crate) fn is_first(&self) -> bool {
         self.pass == 1 && !self.cut_off

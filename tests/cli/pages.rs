@@ -131,3 +131,53 @@ fn a_page_tells_times_holes_and_whether_the_parts_fit() {
         assert!(pair.contains(part), "{part} in {pair}");
     }
 }
+
+/// A page says one correction and one length, wherever the control offsets.
+#[test]
+fn a_page_tells_what_the_control_offsets_by() {
+    let desk = Desk::new();
+    for (options, shown) in [
+        (
+            "--format iso --compensation controller --correction 0.09",
+            &["0.0900", "correction 0.090 mm", "D1 = 0.0900 mm"][..],
+        ),
+        (
+            "--format iso --compensation controller --passes 0.09,0.05",
+            &["0.0900", "0.0500", "D2 = 0.0500 mm"],
+        ),
+        (
+            "--format 4b --correction 0.09",
+            &["0.0900", "correction = 0.0900 mm"],
+        ),
+    ] {
+        let ended = desk.run(&format!(
+            "report clean.dxf --side opening -o pages {options}"
+        ));
+        assert_eq!(ended.code, Some(0), "{ended:?}");
+        let page = String::from_utf8(desk.read("pages/clean.html")).unwrap();
+        for part in shown {
+            assert!(page.contains(part), "{part} in {page}");
+        }
+        assert!(
+            !page.contains(">0.0000<") && !page.contains("correction 0.000"),
+            "{page}"
+        );
+        // In the head of the picture, beside the times and in the proof of the program.
+        let cut = page.split("cut ").skip(1);
+        let cut = cut.filter_map(|rest| Some(rest.split_once(" mm")?.0));
+        let lengths: std::collections::BTreeSet<&str> =
+            cut.filter(|figure| figure.parse::<f64>().is_ok()).collect();
+        assert_eq!(lengths.len(), 1, "{lengths:?} {options}");
+    }
+}
+
+#[test]
+fn a_contour_on_a_page_has_its_handle() {
+    let desk = Desk::new();
+    desk.run("report clean.dxf --side opening -o pages");
+    let page = String::from_utf8(desk.read("pages/clean.html")).unwrap();
+    assert!(
+        page.contains("<td class=\"number\">0</td><td class=\"\">2A</td>"),
+        "{page}"
+    );
+}

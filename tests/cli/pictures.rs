@@ -221,3 +221,27 @@ fn pictures_of_milling_speak_of_the_electrode() {
         }
     }
 }
+
+/// A long name ends in an ellipsis and is whole in the tooltip; a way out along the way in is no line of its own.
+#[test]
+fn a_heading_fits_and_leads_stay_dashed() {
+    let desk = Desk::new();
+    let name = "n".repeat(120) + ".dxf";
+    desk.write(&name, desk.read("clean.dxf"));
+    let drawn = desk.run(&format!("draw {name} --side opening -o long.svg"));
+    assert_eq!(drawn.code, Some(0), "{drawn:?}");
+    let svg = String::from_utf8(desk.read("long.svg")).unwrap();
+    let heading = svg.split_once(r#"<text class="heading""#).unwrap().1;
+    let heading = heading.split_once("</text>").unwrap().0;
+    let (whole, shown) = heading.split_once("</title>").unwrap();
+    assert!(whole.contains(&name), "{heading}");
+    assert!(
+        shown.ends_with('…') && shown.chars().count() <= 86,
+        "{shown}"
+    );
+    let count = |class: &str| {
+        svg.matches(&format!(r#"<path class="{class}" data-pass"#))
+            .count()
+    };
+    assert_eq!((count("lead"), count("lead back")), (1, 1));
+}

@@ -111,3 +111,30 @@ fn a_fault_in_the_settings_is_a_finding_in_them() {
         );
     }
 }
+
+#[test]
+fn a_correction_on_the_command_line_comes_before_the_passes_of_the_file() {
+    let desk = Desk::new();
+    desk.write("wedm.toml", "passes.corrections = [0.09, 0.05]\n");
+    let generate = "generate clean.dxf --side opening --format iso --compensation controller";
+    for (options, told) in [
+        (
+            "",
+            "to be entered at the control: D1 = 0.0900 mm, D2 = 0.0500 mm",
+        ),
+        (
+            "--correction 0.08",
+            "to be entered at the control: D1 = 0.0800 mm\n",
+        ),
+        ("--passes 0.08,0.06", "D1 = 0.0800 mm, D2 = 0.0600 mm"),
+    ] {
+        check(
+            &desk,
+            &format!("{generate} {options}"),
+            0,
+            &[&format!("!{told}")],
+        );
+    }
+    let both = format!("{generate} --correction 0.08 --passes 0.08,0.06");
+    check(&desk, &both, 2, &["!--correction", "!cannot be used with"]);
+}

@@ -58,6 +58,8 @@ pub const CONTRADICTIONS: &[Contradiction] = &[
     row(ONE, "side = \"punch\"\ncorrection = 0.05\nwire-diameter = 0.18\n", "pass-order", "the wire's radius 0.09"),
     row(ONE, "side = \"punch\"\npasses.corrections = [0.2, 0.1]\npasses.registers = [\"D1\"]\n", "pass-order", "one for each of the 2 passes"),
     row(ONE, "side = \"punch\"\npasses.corrections = [0.2, 0.1]\npasses.gaps = [0.01]\n", "pass-order", "one for each of the 2 passes"),
+    row(ONE, "side = \"punch\"\npasses.rates = [1, 2]\n", "pass-order", "one for each of the 1 passes"),
+    row(ONE, "side = \"punch\"\nwire-diameter = 0.18\npasses.registers = [\"D1\", \"D2\"]\n", "pass-order", "one for each of the 1 passes"),
     // Values that cannot be.
     row(ONE, "side = \"punch\"\ncorrection = -0.1\n", "settings", "expected a number above 0"),
     row(ONE, "side = \"punch\"\nprogram.tab = -1\n", "settings", "expected a number of 0 or above"),
@@ -69,6 +71,8 @@ pub const CONTRADICTIONS: &[Contradiction] = &[
     row(OPEN, "side = \"left\"\nprogram.tab = 3\n", "lead-in", "contour A0 is open"),
     row(ONE, "side = \"punch\"\nprogram.tab.ZZ = 3\n", "settings", "the handle ZZ"),
     row(NESTED, "side = \"auto\"\nprogram.tab = 1\njob.slug-limit = 1\n", "settings", "expected job.thickness"),
+    row(ONE, "side = \"opening\"\njob.thickness = 40\njob.slug-limit = 100\n", "settings", "no effect without program.tab"),
+    row(ONE, "side = \"opening\"\njob.thickness = 40\njob.slug-limit = 100\nprogram.tab = 0\n", "settings", "no effect without program.tab"),
     row(ONE, "side = \"punch\"\nprogram.tab-stop = \"\"\nprogram.tab = 3\n", "settings", "program.tab-stop"),
     row(ONE, "side = \"punch\"\nprogram.end = \"D\"\n", "settings", "so is program.pause"),
     // Where the wire is threaded and comes to its contour.

@@ -381,11 +381,11 @@ export interface OptionsOf {
  */
 export interface Settings {
   /**
-   * Wire radius + spark gap, mm. It says how far the wire's centre runs from the contour.
+   * Wire radius + spark gap, mm. It says how far the wire's centre runs from the contour. A later level that sets it and no `passes.corrections` cuts in one pass.
    */
   correction?: number;
   /**
-   * Diameter of the wire, mm. With `gap` it gives the correction where no `correction` is set: half the diameter + gap; when one of the two is set the other has its default there. Together with `correction` or `passes.corrections` it says how thick the wire is, see `pass-order`. A later level that sets one of the two and no `correction` sets the correction again.
+   * Diameter of the wire, mm. With `gap` it gives the correction where no `correction` is set: half the diameter + gap; when one of the two is set the other has its default there. Together with `correction` or `passes.corrections` it says how thick the wire is, see `pass-order`. A later level that sets one of the two and no `correction` sets the correction again, and one pass.
    */
   wireDiameter?: number;
   /**
@@ -569,7 +569,7 @@ export interface ProgramSettings {
    */
   layout?: Layout;
   /**
-   * Whether 3B and 4B programs begin with `; Start Point = x , y`, the comment that says where the wire is threaded, mm. Not set: in every layout but `compact`.
+   * Whether 3B and 4B programs begin with `; Start Point = x , y`, the comment that says where the wire is threaded, mm; and ISO programs that the control offsets with comments such as `(D1 = 0.2000)`, the correction of each register, mm. Not set: in every layout but `compact`.
    */
   header?: boolean;
   /**

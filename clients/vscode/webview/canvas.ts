@@ -108,7 +108,7 @@ export class Canvas {
       const [from, to] = [at(left, low), at(left + width, low + height)];
       const box = { x: Math.min(from.x, to.x), y: Math.min(from.y, to.y), width: Math.abs(from.x - to.x), height: Math.abs(from.y - to.y) };
       this.#items.push({ element, path, box, kind, width: 0 });
-    } else if (element.tagName === "path" && kind !== undefined) {
+    } else if (element.tagName === "path" && kind !== undefined && !element.classList.contains("back")) {
       const data = element.getAttribute("d") ?? "";
       const path = new Path2D();
       path.addPath(new Path2D(data), this.#matrix);

@@ -12,7 +12,7 @@ const STYLE: &str = "\
 body{margin:0 auto;max-width:64rem;padding:1.5rem;background:var(--ground);color:var(--ink);font:14px/1.45 system-ui,'Segoe UI',Helvetica,Arial,'Noto Sans CJK SC','Microsoft YaHei',sans-serif}
 h1{font-size:1.5rem;margin:0 0 .2rem}h2{font-size:1.1rem;margin:1.6rem 0 .4rem}h3{font-size:1rem;margin:1rem 0 .2rem}
 p.under{margin:0 0 1rem;color:var(--faint)}p.fact{margin:.1rem 0}
-svg{max-width:100%;height:auto;border:1px solid var(--line)}
+svg{box-sizing:border-box;max-width:100%;height:auto;border:1px solid var(--line)}
 table{border-collapse:collapse;width:100%;font-variant-numeric:tabular-nums}
 th,td{text-align:left;padding:.2rem .6rem .2rem 0;border-bottom:1px solid var(--line);vertical-align:top}
 th{color:var(--faint);font-weight:600}td.number,th.number{text-align:right;white-space:nowrap}span{white-space:nowrap}

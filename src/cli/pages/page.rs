@@ -31,6 +31,8 @@ pub(super) struct Page {
     arcs: Vec<Arc>,
     rows: Vec<Row>,
     paths: Vec<WirePath>,
+    /// For each path the distance of the wire's centre from the contour, mm.
+    corrections: Vec<f64>,
     holes: Vec<StartHole>,
     /// The totals of the paths, if there are any.
     work: Option<Work>,
@@ -95,6 +97,7 @@ impl Page {
             Work::new(drawing, outlines, &work)
         });
         let hole = |hole| StartHole::new(drawing, outlines, settings, hole);
+        let correction = |path: &WirePath| path.offset(settings, unit_mm);
         let milled = program
             .as_ref()
             .ok()
@@ -116,6 +119,7 @@ impl Page {
             contours: Contours::new(drawing, outlines, settings),
             arcs,
             rows,
+            corrections: paths.iter().map(correction).collect(),
             paths,
             holes: planned.holes.iter().map(hole).collect(),
             work,
@@ -163,6 +167,7 @@ impl Page {
     fn contour_table(&self) -> String {
         let heads = [
             say!(column_number),
+            say!(column_contour),
             say!(column_kind),
             say!(column_role),
             say!(column_length),
@@ -182,6 +187,7 @@ impl Page {
             let order = contour.order.map(|order| (order + 1).to_string());
             vec![
                 number(index),
+                cell(contour.segments.first().map_or("", |first| &first.handle)),
                 cell(kind),
                 cell(role),
                 number(format!("{:.3}", contour.length * self.unit_mm)),
@@ -244,14 +250,14 @@ impl Page {
     /// The path of the wire, pass by pass.
     fn passes(&self) -> String {
         let mut passes: BTreeMap<(bool, usize), (f64, f64, usize)> = BTreeMap::new();
-        for path in &self.paths {
+        for (path, correction) in self.paths.iter().zip(&self.corrections) {
             let length: f64 = path
                 .segments
                 .iter()
                 .map(|segment| segment.geometry.length())
                 .sum();
             let pass = passes.entry((path.cut_off, path.pass)).or_default();
-            *pass = (path.correction, pass.1 + length, pass.2 + 1);
+            *pass = (*correction, pass.1 + length, pass.2 + 1);
         }
         let mut minutes: BTreeMap<(bool, usize), f64> = BTreeMap::new();
         for cut in self.work.iter().flat_map(|work| &work.cuts) {
@@ -275,7 +281,7 @@ impl Page {
             let minutes = minutes.get(&(cut_off, pass));
             let mut cells = vec![
                 cell(name),
-                number(format!("{:.4}", correction * self.unit_mm)),
+                number(format!("{correction:.4}")),
                 number(count),
                 number(format!("{:.3}", length * self.unit_mm)),
                 number(
@@ -295,12 +301,20 @@ impl Page {
             Err(reason) => format!("<p class=\"error\">{}</p>\n", text(reason)),
             Ok(made) => {
                 let program = &made.program;
+                // 4B holds the part's contour, whose length is another one than the wire's way.
+                let [length, jumps] = match self.format {
+                    Format::FourB => {
+                        let (cut, jumps) = toolpath::lengths(&self.paths);
+                        [cut, jumps].map(|length| length * self.unit_mm)
+                    }
+                    _ => [program.length, program.jumps],
+                };
                 let facts = say!(
                     a_program_and_its_proof,
                     self.format.name(),
                     say!(blocks, program.blocks),
                     say!(contours, made.contours),
-                    lengths(program.length, program.jumps, say!(comma)),
+                    lengths(length, jumps, say!(comma)),
                     program.deviation
                 );
                 let finished = made.finished.as_ref().map(|finished| {
@@ -312,10 +326,13 @@ impl Page {
                         finished.overcut
                     )
                 });
+                let offsets = output::offsets(program);
+                let offsets = offsets.map(|line| format!("<p>{}</p>\n", text(line)));
                 let lines: Vec<String> = program.text.lines().map(text).collect();
                 format!(
-                    "<p>{}</p>\n<p class=\"faint\">{}</p>\n<details><summary>{}</summary>\n<pre>{}</pre>\n</details>\n",
+                    "<p>{}</p>\n{}<p class=\"faint\">{}</p>\n<details><summary>{}</summary>\n<pre>{}</pre>\n</details>\n",
                     text(facts),
+                    offsets.unwrap_or_default(),
                     text(finished.unwrap_or_default()),
                     text(say!(its_text)),
                     lines.join("\n")

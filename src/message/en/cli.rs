@@ -181,6 +181,9 @@ declare! {
     keys_are_missing(keys) => "not known, since not set: {keys}";
     the_program_is_written(heading, target, program, contours, length) => "{heading} {target}: {program}, {contours}, {length}";
     a_controller_that_counts_j_drifts(x, y) => "; a controller that counts J drifts by {x:.2}, {y:.2} µm";
+    the_control_offsets(offsets) => "to be entered at the control: {offsets}";
+    offset_of_a_register(register, mm) => "{register} = {mm:.4} mm";
+    offset_of_all(mm) => "correction = {mm} mm";
     decoded_again(deviation, drift) => "decoded again: at most {deviation:.2} µm from the path{drift}";
     the_wire_is_threaded_at(x, y) => "the wire is threaded at {x:.3}, {y:.3} mm";
     default_is(value) => "default: {value}";

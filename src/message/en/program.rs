@@ -35,6 +35,7 @@ declare! {
     words_lie_on_each_other => "words overlap";
     the_second_contour_behind_the_colon_would_not_be_kept => "the second contour after the colon would not be kept";
     an_arc_has_no_room_for_the_taper(radius, least, angle, narrows) => "arc R {radius:.3} mm is below {least:.3} mm: under a taper of {angle:.3}° it narrows by {narrows:.3} mm up to the other plane, and the wire needs its correction in addition";
+    an_arc_has_no_room_for_the_leaning_wire(radius, least, angle) => "arc R {radius:.4} mm is below {least:.4} mm: under a taper of {angle:.3}° it widens up to the other plane, but in its own plane the leaning wire's axis keeps the correction divided by the cosine of that angle";
     an_arc_narrows_to_nothing(radius, narrows, angle) => "arc R {radius:.3} mm narrows by {narrows:.3} mm under a taper of {angle:.3}°: nothing is left of it in the other plane";
     how_far_the_wire_leans_needs_the_height => "how far the wire leans is not known: expected job.thickness to be set, or TP and TN in the program";
     how_far_the_wire_leans_needs_the_angle(line) => "how far the wire leans is not known: line {line} says no angle (A or T)";

@@ -72,6 +72,7 @@ declare! {
     a_segment_tighter_than_the_correction(handle, segment, radius, required) => "{handle} · segment {segment} · R {radius:.3} mm, the correction is {required:.3} mm";
     on_layer_not_cut(kind, handle, layer) => "{kind} {handle} on layer {layer}, not cut";
     path_of_the_electrode_axis(distance) => "path of the electrode's axis, {distance:.3} mm from the contour";
+    contour_that_the_control_offsets(distance) => "contour, which the control offsets by {distance:.3} mm";
     path_of_the_wire_centre(distance) => "path of the wire's centre, {distance:.3} mm from the contour";
     segment_overcut(handle, segment, overcut) => "{handle} segment {segment}, overcut {overcut:.3}";
     the_drawing_has_no_lines => "the drawing has no lines, arcs or circles";

@@ -50,6 +50,7 @@ declare! {
     milling_needs(missing) => "milling needs an electrode and its layers: expected {missing} to be set";
     one_word_for_pause_and_end(key, word, other) => "{key} is {word}, and so is {other}: a program cannot pause with the word that ends it";
     a_mass_needs_a_height(key) => "{key} is the mass of a slug: expected job.thickness as well";
+    a_limit_needs_a_tab(key) => "{key} has no effect without program.tab: expected the length, mm, that an opening with a heavier slug leaves standing";
     a_punch_within_a_punch(inner, outer, others) => "contour {inner} is a punch within the punch {outer}{others}: the wire would cut into that part; make it an opening, or draw it in a workpiece of its own";
     and_more_punches(more) => ", and so are {more} more";
     a_layer_above_the_depth(key, layer, depth) => "{key} is {layer}, expected at most milling.depth {depth}";

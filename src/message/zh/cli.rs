@@ -181,6 +181,9 @@ translate! {
     keys_are_missing(keys) => "未设而无法得知：{keys}";
     the_program_is_written(heading, target, program, contours, length) => "{heading} {target}：{program}，{contours}，{length}";
     a_controller_that_counts_j_drifts(x, y) => "；按 J 计数的控制器累计偏差 {x:.2}, {y:.2} µm";
+    the_control_offsets(offsets) => "须在控制系统中输入：{offsets}";
+    offset_of_a_register(register, mm) => "{register} = {mm:.4} mm";
+    offset_of_all(mm) => "补偿量 = {mm} mm";
     decoded_again(deviation, drift) => "重新解码：偏离切割路线最多 {deviation:.2} µm{drift}";
     the_wire_is_threaded_at(x, y) => "穿丝孔位于 {x:.3}, {y:.3} mm";
     default_is(value) => "默认：{value}";

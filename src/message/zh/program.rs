@@ -35,6 +35,7 @@ translate! {
     words_lie_on_each_other => "代码相互重叠";
     the_second_contour_behind_the_colon_would_not_be_kept => "冒号后的第二个轮廓无法保留";
     an_arc_has_no_room_for_the_taper(radius, least, angle, narrows) => "圆弧 R {radius:.3} mm 小于 {least:.3} mm：锥度 {angle:.3}° 使它到另一平面缩小 {narrows:.3} mm，此外还要留出补偿量";
+    an_arc_has_no_room_for_the_leaning_wire(radius, least, angle) => "圆弧 R {radius:.4} mm 小于 {least:.4} mm：锥度 {angle:.3}° 使它到另一平面变大，但在本平面内，倾斜的丝的轴线离轮廓为补偿量除以该角的余弦";
     an_arc_narrows_to_nothing(radius, narrows, angle) => "圆弧 R {radius:.3} mm 在锥度 {angle:.3}° 下缩小 {narrows:.3} mm：到另一平面已不存在";
     how_far_the_wire_leans_needs_the_height => "不知道丝倾斜多少：请设 job.thickness，或在程序中写 TP 和 TN";
     how_far_the_wire_leans_needs_the_angle(line) => "不知道丝倾斜多少：第 {line} 行没有角度（A 或 T）";

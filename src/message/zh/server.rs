@@ -72,6 +72,7 @@ translate! {
     a_segment_tighter_than_the_correction(handle, segment, radius, required) => "{handle} · 段 {segment} · R {radius:.3} mm，补偿量为 {required:.3} mm";
     on_layer_not_cut(kind, handle, layer) => "图层 {layer} 上的 {kind} {handle}，不切割";
     path_of_the_electrode_axis(distance) => "电极轴线轨迹，离轮廓 {distance:.3} mm";
+    contour_that_the_control_offsets(distance) => "轮廓，由控制系统补偿 {distance:.3} mm";
     path_of_the_wire_centre(distance) => "丝中心轨迹，离轮廓 {distance:.3} mm";
     segment_overcut(handle, segment, overcut) => "{handle} 段 {segment}，过切 {overcut:.3}";
     the_drawing_has_no_lines => "图形中没有直线、圆弧或圆";

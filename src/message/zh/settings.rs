@@ -50,6 +50,7 @@ translate! {
     milling_needs(missing) => "铣削需要电极和分层的数据：应设置 {missing}";
     one_word_for_pause_and_end(key, word, other) => "{key} 是 {word}，{other} 也是：程序不能用结束码来暂停";
     a_mass_needs_a_height(key) => "{key} 是废料的质量：应同时设置 job.thickness";
+    a_limit_needs_a_tab(key) => "没有 program.tab，{key} 不起作用：应设废料更重的型孔暂留段的长度，mm";
     a_punch_within_a_punch(inner, outer, others) => "轮廓 {inner} 是凸模，却在凸模 {outer} 之内{others}：丝会切入那个工件；应作为型孔，或画在另一个工件中";
     and_more_punches(more) => "，这样的还有 {more} 个";
     a_layer_above_the_depth(key, layer, depth) => "{key} 是 {layer}，最多应为 milling.depth {depth}";

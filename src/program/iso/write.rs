@@ -1,5 +1,6 @@
 //! Writes paths as one ISO program, by a profile; each line is read back at once.
 
+mod offsets;
 mod proof;
 
 use super::block::{Block, Motion, Note, Stop, read_line};
@@ -95,6 +96,9 @@ impl Writer for Lines<'_> {
                 }
                 if self.machine.at != self.place(first) {
                     return Err(self.refused(say!(its_begin_does_not_say_where_the_wire_stands)));
+                }
+                if path.side.is_some() {
+                    self.say_offsets(first)?;
                 }
             }
             Some(from) => self.go_over(from, first, path, self.settings)?,
@@ -253,20 +257,6 @@ impl<'a> Lines<'a> {
         self.fixed(&self.profile.contour_end, at)
     }
 
-    fn names_registers(&self) -> bool {
-        let mut lines = self.profile.contour_begin.iter();
-        lines.any(|line| line.contains("{register}"))
-    }
-
-    /// The word that says where the control finds the correction of the pass.
-    fn register(&self) -> String {
-        let stated = self.settings.passes.registers.as_ref();
-        let stated = stated.and_then(|words| words.get(self.pass - 1));
-        stated
-            .cloned()
-            .unwrap_or_else(|| counted_on(&self.profile.register, self.pass - 1))
-    }
-
     /// Lines of the profile; none of them may move the wire.
     fn fixed(&mut self, lines: &[String], at: Node) -> Proved {
         for line in lines {
@@ -282,7 +272,7 @@ impl<'a> Lines<'a> {
                 self.push_length(&mut y, at.y - self.zero.y);
                 let (x, y) = (String::from_utf8_lossy(&x), String::from_utf8_lossy(&y));
                 line.replace("{side}", word)
-                    .replace("{register}", &self.register())
+                    .replace("{register}", &self.register(self.pass))
                     .replace("{x}", &x)
                     .replace("{y}", &y)
             } else {
@@ -464,15 +454,5 @@ impl Separator {
         }
         self.first = false;
         out.extend_from_slice(word);
-    }
-}
-
-/// A word with the number at its end increased.
-fn counted_on(word: &str, by: usize) -> String {
-    let name = word.trim_end_matches(|letter: char| letter.is_ascii_digit());
-    let digits = &word[name.len()..];
-    match digits.parse::<usize>() {
-        Ok(number) if by > 0 => format!("{name}{:0width$}", number + by, width = digits.len()),
-        _ => word.to_owned(),
     }
 }

@@ -89,6 +89,8 @@ pub(crate) fn write_four_b(
         &paths,
     );
     walk(&paths, 1.0, 1.0, go_on, &mut blocks)?;
+    let corrections = settings.each_correction().into_iter();
+    blocks.made.offsets = corrections.map(|mm| (String::new(), mm)).collect();
     blocks.finish(cuts(&paths))
 }
 

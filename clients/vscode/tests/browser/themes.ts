@@ -19,7 +19,7 @@ const TEXTS = [
   "#title, #note, #alert, #place, #scale-text, .chip, .chip span, .rule, #where, #motion, #block",
   "#card h2, #card p, #card .name, #card .link, #trouble, #speed",
 ].join(", ");
-const LINES = "svg .contour, svg .wire, svg .fault, svg .lead";
+const LINES = "svg .contour, svg .wire, svg .fault, svg .lead:not(.back)";
 
 type Colour = [red: number, green: number, blue: number, opacity: number];
 

@@ -108,6 +108,14 @@ impl Report<'_> {
                 [radius, least, narrows.max(0.0)].map(|um| um / UM_IN_MM);
             let angle = arc.angle.to_degrees();
             let sentence = match is_inside {
+                true if narrows <= 0.0 => {
+                    say!(
+                        an_arc_has_no_room_for_the_leaning_wire,
+                        radius,
+                        least,
+                        angle
+                    )
+                }
                 true => say!(
                     an_arc_has_no_room_for_the_taper,
                     radius,
