@@ -117,6 +117,8 @@ declare! {
     apply_the_correction_inside(correction) => "Apply the correction of {correction:.3} mm inside (opening)";
     apply_the_correction_outside(correction) => "Apply the correction of {correction:.3} mm outside (punch)";
     the_contour_is_open_and_the_side_of_the_wire_unknown(ordinal) => "contour {ordinal} is open: the side of the wire is not known";
+    end_points_are_left_as_they_are(rule, line) => "end points and block numbers are left as they are until {rule} in line {line} is repaired, see wedm check";
+    end_points_cannot_be_trusted(rule, line) => "end points cannot be worked out until {rule} in line {line} is repaired";
     convert_to_the_compact_layout => "Convert to the compact layout";
     convert_to_the_aligned_layout => "Convert to the aligned layout";
     convert_to_the_checking_layout => "Convert to the checking layout, with numbers and end points";

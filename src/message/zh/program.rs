@@ -117,6 +117,8 @@ translate! {
     apply_the_correction_inside(correction) => "向内补偿 {correction:.3} mm（型孔）";
     apply_the_correction_outside(correction) => "向外补偿 {correction:.3} mm（凸模）";
     the_contour_is_open_and_the_side_of_the_wire_unknown(ordinal) => "轮廓 {ordinal} 不封闭：不知道电极丝在哪一侧";
+    end_points_are_left_as_they_are(rule, line) => "第 {line} 行的 {rule} 修复之前，终点坐标和段号保持原样，见 wedm check";
+    end_points_cannot_be_trusted(rule, line) => "第 {line} 行的 {rule} 修复之前，无法算出终点坐标";
     convert_to_the_compact_layout => "转换为紧凑格式";
     convert_to_the_aligned_layout => "转换为对齐格式";
     convert_to_the_checking_layout => "转换为校对格式，带段号和终点";
