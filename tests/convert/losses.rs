@@ -228,7 +228,11 @@ fn the_command_converts_and_refuses() {
         1,
         "4B holds the part's contour",
     );
-    check("convert hole.3b --format 4b", 1, "say opening or punch");
+    check(
+        "convert hole.3b --format 4b",
+        1,
+        "say opening or punch",
+    );
     check("convert off.iso -o off.dxf", 1, "the program has 1 error");
     check(
         "convert off.iso -o off.dxf --force",
@@ -250,4 +254,61 @@ fn the_command_converts_and_refuses() {
         "G92 X0 Y0\nG91\nG01 X9900 Y0\nG03 X-19800 Y0 I-9900 J0\nG03 X19800 Y0 I9900 J0\nG01 X-9900 Y0\nM02\n"
     );
     check("check hole.iso again.3b", 0, "2 files checked");
+}
+
+/// What plans a path has nothing to plan where a program holds its own.
+#[test]
+fn options_that_a_conversion_does_not_follow_are_not_offered() {
+    let folder = tempfile::tempdir().unwrap();
+    let hole = "B9900B0B9900GXL1\nB9900B0B39600GYNR1\nB9900B0B9900GXL3\nDD\n";
+    std::fs::write(folder.path().join("hole.3b"), hole).unwrap();
+    for option in [
+        "direction cw",
+        "entry 1,1",
+        "thread 1,1",
+        "lead arc",
+        "lead-in 2",
+        "tab 3",
+        "passes 0.15,0.12",
+        "compensation controller",
+        "corner arc",
+        "order short",
+        "start-hole 1",
+        "side opening",
+    ] {
+        for to in ["iso", "3b", "4b", "dxf"] {
+            let arguments = format!("convert hole.3b --format {to} -o out.{to} --{option}");
+            let (code, _, told) = wedm(folder.path(), &arguments);
+            assert!(
+                code == 2 && told.contains("unexpected argument"),
+                "{arguments}: {told}"
+            );
+        }
+    }
+    for (option, to, code, said) in [
+        ("correction 0.2", "iso", 2, "--correction is for 4B alone"),
+        ("correction 0.2", "dxf", 2, "--correction is for 4B alone"),
+        ("layout checking", "iso", 0, "--layout does nothing here"),
+        ("layout checking", "3b", 0, ""),
+        ("digits 4", "dxf", 0, "--digits does nothing here"),
+        ("digits 4", "3b", 0, ""),
+        ("profile robofil", "3b", 0, "--profile does nothing here"),
+        ("profile robofil", "iso", 0, ""),
+        ("end E", "3b", 0, ""),
+    ] {
+        let arguments = format!("convert hole.3b --format {to} -o out.{to} --{option}");
+        let (ended, _, told) = wedm(folder.path(), &arguments);
+        assert_eq!(ended, code, "{arguments}: {told}");
+        assert_eq!(
+            told.contains("does nothing"),
+            said.contains("does nothing"),
+            "{told}"
+        );
+        assert!(told.contains(said), "{arguments}: {told}");
+    }
+    // The keys of a file are for all commands.
+    let keys = "correction = 0.2\nside = \"opening\"\n[program]\ndirection = \"cw\"\ntab = 3\n";
+    std::fs::write(folder.path().join("wedm.toml"), keys).unwrap();
+    let (code, _, told) = wedm(folder.path(), "convert hole.3b -o hole.iso");
+    assert!(code == 0 && !told.contains("does nothing"), "{told}");
 }
