@@ -208,6 +208,10 @@ impl Cuts {
         if format == Format::ThreeB && self.cuts.iter().any(|cut| cut.side.is_some()) {
             return Some(say!(the_control_adds_the_correction_of_the_program).into());
         }
+        let is_of_wire = |cut: &CutPath| cut.side.is_none() && !cut.contour().is_empty();
+        if format == Format::FourB && self.cuts.iter().any(is_of_wire) {
+            return Some(say!(the_program_holds_the_path_of_the_wire).into());
+        }
         let differs = |correction: &f64| (correction.abs() - settings.correction).abs() > 5e-4;
         let own = self
             .corrections

@@ -231,7 +231,7 @@ fn the_command_converts_and_refuses() {
     check(
         "convert hole.3b --format 4b",
         1,
-        "say opening or punch",
+        "wedm generate DRAWING --format 4b",
     );
     check("convert off.iso -o off.dxf", 1, "the program has 1 error");
     check(

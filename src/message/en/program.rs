@@ -5,6 +5,7 @@ declare! {
     the_correction_is_switched_within_the_contour(line) => "line {line}: the correction is switched within the contour, expected one side all the way round";
     the_control_adds_the_correction_of_the_program => "the control adds the correction of this program (G41, G42), which no 3B controller does: convert it to .dxf, and generate the 3B program of that drawing";
     the_correction_of_the_program_is_not_that_of_the_settings(name, correction, of_settings) => "the program's own correction {name} is {correction:.3} mm, that of the settings {of_settings:.3} mm: the transition arcs of 4B depend on it, set correction to the one that the machine has";
+    the_program_holds_the_path_of_the_wire => "4B holds the part's contour, and this program holds the wire's path (it has no G41 or G42): the one does not become the other; write the 4B program from the drawing: wedm generate DRAWING --format 4b";
     not_written_the_corrections_of_the_program(corrections) => "not written: the program's own corrections, {corrections}; set them at the machine";
     no_conversion_of_a_taper(taper) => "{taper}; a conversion has only the lower contour: with --force that is written";
     not_written_the_taper(taper) => "not written: the taper; {taper}";

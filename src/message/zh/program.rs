@@ -5,6 +5,7 @@ translate! {
     the_correction_is_switched_within_the_contour(line) => "第 {line} 行：在轮廓中途建立或取消补偿，整圈应在同一侧";
     the_control_adds_the_correction_of_the_program => "此程序的补偿由控制器加（G41、G42），3B 控制器没有此功能：请先转换为 .dxf，再由该图形生成 3B 程序";
     the_correction_of_the_program_is_not_that_of_the_settings(name, correction, of_settings) => "程序自带的补偿量 {name} 是 {correction:.3} mm，设置中是 {of_settings:.3} mm：4B 的过渡圆弧由它决定，请把 correction 设为机床上的值";
+    the_program_holds_the_path_of_the_wire => "4B 写工件轮廓，而这个程序写的是丝的轨迹（没有 G41 或 G42）：两者不能互相变换；请由图形写出 4B 程序：wedm generate 图形 --format 4b";
     not_written_the_corrections_of_the_program(corrections) => "未写出：程序自带的补偿量 {corrections}；请在机床上设定";
     no_conversion_of_a_taper(taper) => "{taper}；转换只保留下轮廓：用 --force 则写出下轮廓";
     not_written_the_taper(taper) => "未写出：锥度；{taper}";
