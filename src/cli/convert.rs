@@ -142,6 +142,13 @@ fn summarise(arguments: &Arguments, target: Target, made: &Converted) {
         output::say(say!(the_correction_is_not_in_the_contours));
     }
     cuts.losses().iter().for_each(|loss| output::say(loss));
+    // A drawing has none of it.
+    if target != Target::Drawing {
+        made.dropped
+            .sentences()
+            .iter()
+            .for_each(|loss| output::say(loss));
+    }
     if cuts.closure >= 0.005 {
         output::say(&say!(
             the_machine_misses_the_begin_of_a_contour_by_up_to_um,

@@ -5,7 +5,7 @@ use crate::document::Document;
 use crate::dxf;
 use crate::finding::Severity;
 use crate::program::Format;
-use crate::program::convert::{self, Cuts};
+use crate::program::convert::{self, Cuts, Dropped};
 use crate::rule::Rule;
 
 /// The target of a conversion.
@@ -46,6 +46,8 @@ pub(crate) struct Converted {
     /// Blocks of the new program.
     pub(crate) blocks: Option<usize>,
     pub(crate) cuts: Cuts,
+    /// What stands beside the moves, of which a program that is written anew has nothing.
+    pub(crate) dropped: Dropped,
 }
 
 /// Turns a program into a drawing, or into a program of another language, which is proved.
@@ -87,6 +89,10 @@ pub(crate) fn convert(
     if let Some(taper) = cuts.taper.as_ref().filter(|_| cuts.leans && !force) {
         return Err(Refusal::Sentence(say!(no_conversion_of_a_taper, taper)));
     }
+    let dropped = Dropped::of(program);
+    if let Some(reason) = dropped.refusal().filter(|_| !force) {
+        return Err(Refusal::Sentence(say!(no_conversion_of_such_a_way, reason)));
+    }
     let format = match target {
         Target::Drawing => {
             let bytes = dxf::write(&cuts.drawing()).map_err(Refusal::Fault)?;
@@ -94,6 +100,7 @@ pub(crate) fn convert(
                 bytes,
                 blocks: None,
                 cuts,
+                dropped,
             });
         }
         Target::Program(format) => format,
@@ -112,5 +119,6 @@ pub(crate) fn convert(
         bytes: written.text.into_bytes(),
         blocks: Some(written.blocks),
         cuts,
+        dropped,
     })
 }

@@ -1,6 +1,9 @@
 //! A program as its cuts, each from one stop or rapid to the next: joined, to be drawn or written in another language.
 
+mod dropped;
 mod rings;
+
+pub(crate) use dropped::Dropped;
 
 use super::document::Document;
 use super::format::Format;

@@ -256,6 +256,61 @@ fn the_command_converts_and_refuses() {
     check("check hole.iso again.3b", 0, "2 files checked");
 }
 
+/// What stands beside the moves is told of where it is left out; what moves the wire elsewhere is refused.
+#[test]
+fn words_beside_the_moves_are_not_lost_without_a_word() {
+    let folder = tempfile::tempdir().unwrap();
+    let square =
+        |words: &str| format!("G92 X0 Y0\nG90\nG01 X5. Y0.{words}X-5.\nY-5.\nX5.\nY0.\nX0.\nM02\n");
+    let words = "words of the machine: ";
+    for (beside, said) in [
+        ("\nY5.\n", ""),
+        (
+            "\nM50\nY5.\nM80\n",
+            &*format!("{words}M50 (line 4), M80 (line 6)"),
+        ),
+        (" F3.\nY5. F2.\n", &format!("{words}F3. (line 3)\n")),
+        (
+            "\nG04 X2.\nT84\nY5.\n",
+            &format!("{words}G04 (line 4), T84 (line 5)"),
+        ),
+        ("\n/Y5.\n", "lines 4: the new program always cuts them"),
+        ("\nY5. (the corner)\n", "not written: the comments"),
+        ("\nG28\nY5.\n", "line 4: G28 moves the wire"),
+        ("\nY5.\nG53 X0 Y0\n", "line 5: G53 moves the wire"),
+    ] {
+        std::fs::write(folder.path().join("in.iso"), square(beside)).unwrap();
+        let is_refused = said.contains("moves the wire");
+        for to in ["iso", "3b", "dxf"] {
+            let arguments = format!("convert in.iso --format {to} -o out.{to}");
+            let (code, _, told) = wedm(folder.path(), &arguments);
+            assert_eq!(code, i32::from(is_refused), "{beside:?} as {to}: {told}");
+            let is_told = !said.is_empty() && (is_refused || to != "dxf");
+            assert_eq!(
+                told.contains("not written") || is_refused,
+                is_told,
+                "{told}"
+            );
+            assert!(
+                !is_told || told.contains(said),
+                "{beside:?} as {to}: {told}"
+            );
+            if is_refused {
+                let (code, _, told) = wedm(folder.path(), &format!("{arguments} --force"));
+                let is_told = told.contains("not written: words of the machine: G");
+                assert!(code == 0 && (is_told || to == "dxf"), "{told}");
+            }
+        }
+    }
+    let remark = "B9900B0B9900GXL1 ; in\nB9900B0B39600GYNR1\nB9900B0B9900GXL3\nDD\n";
+    std::fs::write(folder.path().join("hole.3b"), remark).unwrap();
+    let (code, _, told) = wedm(folder.path(), "convert hole.3b -o hole.iso");
+    assert!(
+        code == 0 && told.contains("not written: the comments"),
+        "{told}"
+    );
+}
+
 /// What plans a path has nothing to plan where a program holds its own.
 #[test]
 fn options_that_a_conversion_does_not_follow_are_not_offered() {

@@ -8,6 +8,12 @@ declare! {
     the_program_holds_the_path_of_the_wire => "4B holds the part's contour, and this program holds the wire's path (it has no G41 or G42): the one does not become the other; write the 4B program from the drawing: wedm generate DRAWING --format 4b";
     not_written_the_corrections_of_the_program(corrections) => "not written: the program's own corrections, {corrections}; set them at the machine";
     no_conversion_of_a_taper(taper) => "{taper}; a conversion has only the lower contour: with --force that is written";
+    not_written_words_of_the_machine(words, more) => "not written: words of the machine: {words}{more}";
+    a_word_in_its_line(word, line) => "{word} (line {line})";
+    not_written_that_a_block_may_be_skipped(lines, more) => "not written: the / that lets the operator skip a block, in lines {lines}{more}: the new program always cuts them";
+    not_written_the_comments => "not written: the comments";
+    a_word_moves_the_wire_unfollowed(word) => "{word} moves the wire, and where to is not known";
+    no_conversion_of_such_a_way(reason) => "{reason}; a conversion leaves that way out: with --force it is written without it";
     not_written_the_taper(taper) => "not written: the taper; {taper}";
     not_written_the_stop_before_a_tab(line) => "not written: the stop in line {line}, which holds the part while its tab is cut";
     the_format_is_not_known(name, formats) => "format is \"{name}\", expected {formats}";

@@ -8,6 +8,12 @@ translate! {
     the_program_holds_the_path_of_the_wire => "4B 写工件轮廓，而这个程序写的是丝的轨迹（没有 G41 或 G42）：两者不能互相变换；请由图形写出 4B 程序：wedm generate 图形 --format 4b";
     not_written_the_corrections_of_the_program(corrections) => "未写出：程序自带的补偿量 {corrections}；请在机床上设定";
     no_conversion_of_a_taper(taper) => "{taper}；转换只保留下轮廓：用 --force 则写出下轮廓";
+    not_written_words_of_the_machine(words, more) => "未写入：机床自己的字：{words}{more}";
+    a_word_in_its_line(word, line) => "{word}（第 {line} 行）";
+    not_written_that_a_block_may_be_skipped(lines, more) => "未写入：让操作者可以跳过程序段的 /，第 {lines}{more} 行：新程序总是切这些段";
+    not_written_the_comments => "未写入：注释";
+    a_word_moves_the_wire_unfollowed(word) => "{word} 移动电极丝，去向不明";
+    no_conversion_of_such_a_way(reason) => "{reason}；变换会略去这段路：加 --force 就不带它写出";
     not_written_the_taper(taper) => "未写出：锥度；{taper}";
     not_written_the_stop_before_a_tab(line) => "未写出：第 {line} 行的暂停，切暂留段时用它固定工件";
     the_format_is_not_known(name, formats) => "format 是“{name}”，应为 {formats}";
