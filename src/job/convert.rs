@@ -3,10 +3,11 @@
 use super::Refusal;
 use crate::document::Document;
 use crate::dxf;
-use crate::finding::Severity;
+use crate::finding::{Detail, Fault, Finding, Severity};
 use crate::program::Format;
 use crate::program::convert::{self, Cuts, Dropped};
 use crate::rule::Rule;
+use crate::settings::Effective;
 
 /// The target of a conversion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,6 +51,18 @@ pub(crate) struct Converted {
     pub(crate) dropped: Dropped,
 }
 
+/// True of a block whose numbers are too long for the digits that are set, and not for those of most controllers: it is
+/// sound, and is split when it is written.
+fn is_split(finding: &Finding) -> bool {
+    let usual = 10_i64.pow(u32::from(Effective::default().digits));
+    match &finding.detail {
+        Detail::Program(fault) => {
+            matches!(**fault, Fault::TooManyDigits { value, .. } if value < usual)
+        }
+        _ => false,
+    }
+}
+
 /// Turns a program into a drawing, or into a program of another language, which is proved.
 pub(crate) fn convert(
     document: &Document,
@@ -65,8 +78,10 @@ pub(crate) fn convert(
         .iter()
         .any(|finding| finding.rule != Rule::NotTheDrawing);
     // Neither a radius that the wire cannot follow nor a difference from the drawing changes where
-    // the wire goes.
-    errors.retain(|finding| !matches!(finding.rule, Rule::SmallRadius | Rule::NotTheDrawing));
+    // the wire goes, nor do numbers that are long for another controller alone.
+    errors.retain(|finding| {
+        !matches!(finding.rule, Rule::SmallRadius | Rule::NotTheDrawing) && !is_split(finding)
+    });
     if !force && !errors.is_empty() {
         return Err(Refusal::Errors(errors));
     }

@@ -367,3 +367,25 @@ fn options_that_a_conversion_does_not_follow_are_not_offered() {
     let (code, _, told) = wedm(folder.path(), "convert hole.3b -o hole.iso");
     assert!(code == 0 && !told.contains("does nothing"), "{told}");
 }
+
+/// Numbers that are long for the controller that is written for are no fault of the source.
+#[test]
+fn blocks_that_are_long_for_other_digits_are_split() {
+    let folder = tempfile::tempdir().unwrap();
+    let long = "B25000B0B25000GXL1\nB0B12000B12000GYL2\nB25000B12000B25000GXL3\nDD\n";
+    std::fs::write(folder.path().join("long.3b"), long).unwrap();
+    for (to, blocks) in [("3b", 8), ("iso", 3)] {
+        let arguments = format!("convert long.3b --format {to} -o new.{to} --digits 4");
+        let (code, _, told) = wedm(folder.path(), &arguments);
+        let said = format!("written new.{to}: {blocks} blocks");
+        assert!(code == 0 && told.contains(&said), "{arguments}: {told}");
+    }
+    std::fs::write(folder.path().join("wedm.toml"), "[program]\ndigits = 4\n").unwrap();
+    let (code, _, told) = wedm(folder.path(), "check new.3b");
+    assert!(code == 0 && told.contains("nothing found"), "{told}");
+    // A number that no usual controller takes is more likely wrong than long.
+    let odd = "B2500000B0B2500000GXL1\nB2500000B0B2500000GXL3\nDD\n";
+    std::fs::write(folder.path().join("odd.3b"), odd).unwrap();
+    let (code, _, told) = wedm(folder.path(), "convert odd.3b -o odd.iso");
+    assert!(code == 1 && told.contains("too-many-digits"), "{told}");
+}
