@@ -4,8 +4,8 @@ use super::Refusal;
 use crate::document::Document;
 use crate::dxf;
 use crate::finding::{Detail, Fault, Finding, Severity};
-use crate::program::Format;
 use crate::program::convert::{self, Cuts, Dropped};
+use crate::program::{Format, ProofError};
 use crate::rule::Rule;
 use crate::settings::Effective;
 
@@ -127,6 +127,10 @@ pub(crate) fn convert(
     // µm are the unit of the cuts.
     let written = format.write(&cuts.paths(), 1e-3, settings, &mut |_, _| true);
     let written = written.map_err(|error| {
+        let reason = cuts.reason_of_mismatch();
+        if let (ProofError::Mismatch(_), Some(reason)) = (&error, reason) {
+            return Refusal::Sentence(reason);
+        }
         let errors = (force || any_errors).then_some(errors);
         Refusal::of_proof(error, errors, |reason| say!(no_other_program, reason))
     })?;

@@ -389,3 +389,30 @@ fn blocks_that_are_long_for_other_digits_are_split() {
     let (code, _, told) = wedm(folder.path(), "convert odd.3b -o odd.iso");
     assert!(code == 1 && told.contains("too-many-digits"), "{told}");
 }
+
+/// Arcs of a post with two decimals: their ends lie on two circles about their centres, up to as far apart as the rules let pass.
+#[test]
+fn arcs_with_rounded_centres_are_fitted() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, arcs) in [
+        ("a", "G01 X5.00 Y0.\nG03 X3.54 Y3.54 I-5.00 J0.\n"),
+        ("spiral", "G01 X5. Y0.\nG03 X0. Y5.02 I-5. J0.\n"),
+        ("half", "G01 X5. Y0.\nG03 X-5.02 Y0. I-5. J0.\n"),
+        ("long", "G01 X5. Y0.\nG03 X4.85 Y-1.25 I-5. J0.\n"),
+        (
+            "real",
+            "G01 X7.31 Y0.\nG03 X5.29 Y5.05 I-7.31 J0.00\nG03 X0.34 Y7.30 I-5.29 J-5.05\nG03 X-4.79 Y5.52 I-0.34 J-7.30\n",
+        ),
+    ] {
+        let text = format!("G90 G21\nG92 X0. Y0.\n{arcs}G01 X0. Y0.\nM02\n");
+        std::fs::write(folder.path().join("in.iso"), text).unwrap();
+        for to in ["iso", "3b", "dxf"] {
+            // A drawing of the same name would be compared with the programs.
+            let arguments = format!("convert in.iso -o {name}-{to}.{to}");
+            let (code, _, told) = wedm(folder.path(), &arguments);
+            assert_eq!(code, 0, "{arguments}: {told}");
+        }
+        let (code, _, told) = wedm(folder.path(), &format!("check {name}-iso.iso {name}-3b.3b"));
+        assert_eq!(code, 0, "{name}: {told}");
+    }
+}

@@ -14,6 +14,7 @@ declare! {
     not_written_the_comments => "not written: the comments";
     a_word_moves_the_wire_unfollowed(word) => "{word} moves the wire, and where to is not known";
     no_conversion_of_such_a_way(reason) => "{reason}; a conversion leaves that way out: with --force it is written without it";
+    the_ends_of_its_arc_lie_on_two_circles(uneven) => "one end of its arc is {uneven:.3} µm farther from the centre than the other, and no arc through both can be written";
     not_written_the_taper(taper) => "not written: the taper; {taper}";
     not_written_the_stop_before_a_tab(line) => "not written: the stop in line {line}, which holds the part while its tab is cut";
     the_format_is_not_known(name, formats) => "format is \"{name}\", expected {formats}";

@@ -14,6 +14,7 @@ translate! {
     not_written_the_comments => "未写入：注释";
     a_word_moves_the_wire_unfollowed(word) => "{word} 移动电极丝，去向不明";
     no_conversion_of_such_a_way(reason) => "{reason}；变换会略去这段路：加 --force 就不带它写出";
+    the_ends_of_its_arc_lie_on_two_circles(uneven) => "圆弧一端到圆心的距离比另一端大 {uneven:.3} µm，写不出通过两端的圆弧";
     not_written_the_taper(taper) => "未写出：锥度；{taper}";
     not_written_the_stop_before_a_tab(line) => "未写出：第 {line} 行的暂停，切暂留段时用它固定工件";
     the_format_is_not_known(name, formats) => "format 是“{name}”，应为 {formats}";
