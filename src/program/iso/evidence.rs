@@ -36,6 +36,8 @@ pub(crate) struct Evidence {
     pub(crate) long: u32,
     /// How many numbers with a point have each number of decimals.
     pub(crate) places: [u32; 8],
+    /// Numbers of two decimals or more that end in a 0: who writes them does not leave zeros out.
+    pub(crate) ending_in_zero: u32,
     /// Numbers that have four decimals or more.
     pub(crate) fine: u32,
     /// How many lines state inches, and how many inches or mm.
@@ -140,6 +142,7 @@ impl Evidence {
             (&mut self.bare, other.bare),
             (&mut self.long, other.long),
             (&mut self.fine, other.fine),
+            (&mut self.ending_in_zero, other.ending_in_zero),
             (&mut self.inches, other.inches),
             (&mut self.units, other.units),
         ] {
@@ -169,6 +172,7 @@ impl Evidence {
             self.numbers += 1;
             self.with_point += u32::from(number.point);
             self.fine += u32::from(number.decimals >= 4);
+            self.ending_in_zero += u32::from(number.decimals >= 2 && number.mantissa % 10 == 0);
             if number.point {
                 self.places[usize::from(number.decimals).min(7)] += 1;
             }
