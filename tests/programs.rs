@@ -10,7 +10,7 @@ use std::sync::Arc;
 use wedm::document::{Document, Source};
 use wedm::finding::{Edit, Place, Severity};
 use wedm::program::{self, Language};
-use wedm::settings::Effective;
+use wedm::settings::{Effective, Layout};
 
 fn folder(name: &str) -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -168,6 +168,55 @@ fn every_fix_that_is_offered_repairs_and_makes_nothing_worse() {
                         path.display(),
                         fix.kind
                     ));
+                }
+            }
+        }
+    }
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+const LAYOUTS: [Layout; 3] = [Layout::Compact, Layout::Aligned, Layout::Checking];
+
+/// As often as each rule is found, with its severity.
+fn found(document: &mut Document) -> Vec<(&'static str, Severity)> {
+    let (findings, _) = document.findings(usize::MAX);
+    let mut found: Vec<_> = findings
+        .iter()
+        .map(|finding| (finding.rule.name(), finding.severity))
+        .collect();
+    found.sort();
+    found
+}
+
+/// End points in the text are evidence: one that a layout adds must not hide a fault, nor one that it leaves out.
+#[test]
+fn a_layout_changes_nothing_of_what_is_found() {
+    let mut failures: Vec<String> = Vec::new();
+    for path in folder("wrong").into_iter().chain(folder("right")) {
+        let language = language_of(&path).unwrap();
+        let (first, bytes) = (found(&mut open(&path)), std::fs::read(&path).unwrap());
+        for one in LAYOUTS {
+            // What a layout has left or added is there for the next.
+            for two in LAYOUTS {
+                let mut now = bytes.clone();
+                for layout in [one, two] {
+                    let settings = Effective {
+                        stated_layout: Some(layout),
+                        ..Effective::default()
+                    };
+                    let document = program::Document::read(language, now.clone(), &settings);
+                    let lines = 0..document.text().line_count();
+                    let edits = program::format(&document, &settings, lines);
+                    for edit in edits.iter().rev() {
+                        now.splice(edit.range.clone(), edit.text.bytes());
+                    }
+                    let then = found(&mut read(language, now.clone()));
+                    if then != first {
+                        failures.push(format!(
+                            "{} as {one:?}, {two:?}: {first:?} became {then:?}",
+                            path.display()
+                        ));
+                    }
                 }
             }
         }

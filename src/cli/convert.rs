@@ -1,9 +1,11 @@
 //! `wedm convert`: a program as a drawing, or in another language.
 
-use super::options::{Common, Program};
+use super::options::{Common, Corrected, FileLanguage, Written};
 use super::output::{self, styled};
 use super::{Failure, Verdict, files, report};
 use crate::job::{self, Converted, Target};
+use crate::program::Format;
+use crate::settings::Settings;
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -23,18 +25,31 @@ pub(crate) struct Arguments {
     #[arg(long)]
     force: bool,
     #[command(flatten)]
-    program: Program,
+    written: Written,
     #[command(flatten)]
-    common: Common,
+    corrected: Corrected,
+    #[arg(long, value_name = "FILE", help_heading = "Settings")]
+    config: Option<PathBuf>,
+    #[arg(long, value_enum, value_name = "LANGUAGE")]
+    language: Option<FileLanguage>,
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let path = &arguments.path;
     let target = target(arguments)?;
-    let last = arguments.common.settings_with(&arguments.program);
+    let last = arguments.corrected.0.overlaid(&arguments.written.0);
+    let idle = idle(&last, target);
+    if idle.contains(&CORRECTION) {
+        return Err(Failure(say!(the_option_is_for_4b_alone, CORRECTION)));
+    }
+    let common = Common {
+        config: arguments.config.clone(),
+        language: arguments.language,
+        ..Common::default()
+    };
     let files::Opened {
         document, writing, ..
-    } = files::open_to_use(path, arguments.output.as_deref(), &arguments.common, &last)?;
+    } = files::open_to_use(path, arguments.output.as_deref(), &common, &last)?;
     if document.program().is_none() {
         return Err(Failure::of(
             path,
@@ -54,7 +69,45 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     };
     output::write(arguments.output.as_deref(), &bytes)?;
     summarise(arguments, target, &made);
+    let places_nothing = target == Target::Drawing && made.cuts.placed_by.is_none();
+    let unplaced = (places_nothing && last.correction.is_some()).then_some(CORRECTION);
+    for option in idle.into_iter().chain(unplaced) {
+        output::say(&say!(the_option_does_nothing_there, option));
+    }
     Ok(Verdict::Clean)
+}
+
+const CORRECTION: &str = "--correction";
+
+/// The options that are given and mean nothing for a target.
+fn idle(given: &Settings, target: Target) -> Vec<&'static str> {
+    let program = given.program.as_ref();
+    let is_3b = matches!(target, Target::Program(Format::ThreeB | Format::FourB));
+    let is_iso = target == Target::Program(Format::Iso);
+    // A drawing of a 4B program has its contours beside the wire's path.
+    let takes_correction = matches!(target, Target::Program(Format::FourB) | Target::Drawing);
+    let all = [
+        (
+            "--layout",
+            is_3b,
+            program.is_some_and(|own| own.layout.is_some()),
+        ),
+        (
+            "--digits",
+            is_3b,
+            program.is_some_and(|own| own.digits.is_some()),
+        ),
+        (
+            "--profile",
+            is_iso,
+            program.is_some_and(|own| own.profile.is_some()),
+        ),
+        (CORRECTION, takes_correction, given.correction.is_some()),
+    ];
+    let idle = all
+        .into_iter()
+        .filter(|(_, has_use, is_given)| *is_given && !has_use);
+    idle.map(|(name, ..)| name).collect()
 }
 
 fn target(arguments: &Arguments) -> Result<Target, Failure> {
@@ -97,6 +150,13 @@ fn summarise(arguments: &Arguments, target: Target, made: &Converted) {
         }
     }
     cuts.losses().iter().for_each(|loss| output::say(loss));
+    // A drawing has none of it.
+    if target != Target::Drawing {
+        made.dropped
+            .sentences()
+            .iter()
+            .for_each(|loss| output::say(loss));
+    }
     if cuts.closure >= 0.005 {
         output::say(&say!(
             the_machine_misses_the_begin_of_a_contour_by_up_to_um,

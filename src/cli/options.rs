@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use std::sync::LazyLock;
 
 /// Groups of options: their heading, the table whose keys they set, and their names.
-const GROUPS: [(&str, &str, &[&str]); 5] = [
+const GROUPS: [(&str, &str, &[&str]); 7] = [
     ("Settings", "", &["correction", "passes", "side"]),
     (
         "Program",
@@ -38,6 +38,13 @@ const GROUPS: [(&str, &str, &[&str]); 5] = [
         &["drawn-as", "clearance", "stripper", "holder"],
     ),
     ("Pair", "", &["wire-diameter", "gap"]),
+    // A conversion takes the path as it is: nothing that plans one.
+    (
+        "Program",
+        "program.",
+        &["layout", "digits", "profile", "end", "pause"],
+    ),
+    ("Settings", "", &["correction"]),
 ];
 
 /// `--passes` is the list of their corrections.
@@ -72,6 +79,12 @@ pub(crate) enum FileLanguage {
 
 /// How a program is written.
 pub(crate) type Program = Keys<1>;
+
+/// How a program that holds its path already is written.
+pub(crate) type Written = Keys<5>;
+
+/// The correction that 4B needs.
+pub(crate) type Corrected = Keys<6>;
 
 /// Words of a program.
 pub(crate) type Words = Keys<2>;
@@ -252,7 +265,7 @@ mod tests {
     #[test]
     fn every_option_is_a_key_of_the_settings() {
         let all = (0..GROUPS.len()).flat_map(options);
-        assert_eq!(all.filter(|(_, row)| row.words.is_empty()).count(), 18);
+        assert_eq!(all.filter(|(_, row)| row.words.is_empty()).count(), 23);
         assert_eq!(row("program.corner").words, ["arc", "intersection"]);
     }
 }

@@ -3,10 +3,11 @@
 use super::Refusal;
 use crate::document::Document;
 use crate::dxf;
-use crate::finding::Severity;
-use crate::program::Format;
-use crate::program::convert::{self, Cuts};
+use crate::finding::{Detail, Fault, Finding, Severity};
+use crate::program::convert::{self, Cuts, Dropped};
+use crate::program::{Format, ProofError};
 use crate::rule::Rule;
+use crate::settings::Effective;
 
 /// The target of a conversion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,6 +47,20 @@ pub(crate) struct Converted {
     /// Blocks of the new program.
     pub(crate) blocks: Option<usize>,
     pub(crate) cuts: Cuts,
+    /// What stands beside the moves, of which a program that is written anew has nothing.
+    pub(crate) dropped: Dropped,
+}
+
+/// True of a block whose numbers are too long for the digits that are set, and not for those of most controllers: it is
+/// sound, and is split when it is written.
+fn is_split(finding: &Finding) -> bool {
+    let usual = 10_i64.pow(u32::from(Effective::default().digits));
+    match &finding.detail {
+        Detail::Program(fault) => {
+            matches!(**fault, Fault::TooManyDigits { value, .. } if value < usual)
+        }
+        _ => false,
+    }
 }
 
 /// Turns a program into a drawing, or into a program of another language, which is proved.
@@ -63,8 +78,10 @@ pub(crate) fn convert(
         .iter()
         .any(|finding| finding.rule != Rule::NotTheDrawing);
     // Neither a radius that the wire cannot follow nor a difference from the drawing changes where
-    // the wire goes.
-    errors.retain(|finding| !matches!(finding.rule, Rule::SmallRadius | Rule::NotTheDrawing));
+    // the wire goes, nor do numbers that are long for another controller alone.
+    errors.retain(|finding| {
+        !matches!(finding.rule, Rule::SmallRadius | Rule::NotTheDrawing) && !is_split(finding)
+    });
     if !force && !errors.is_empty() {
         return Err(Refusal::Errors(errors));
     }
@@ -87,6 +104,10 @@ pub(crate) fn convert(
     if let Some(taper) = cuts.taper.as_ref().filter(|_| cuts.leans && !force) {
         return Err(Refusal::Sentence(say!(no_conversion_of_a_taper, taper)));
     }
+    let dropped = Dropped::of(program);
+    if let Some(reason) = dropped.refusal().filter(|_| !force) {
+        return Err(Refusal::Sentence(say!(no_conversion_of_such_a_way, reason)));
+    }
     let format = match target {
         Target::Drawing => {
             cuts.place_parts(document.settings().correction);
@@ -95,6 +116,7 @@ pub(crate) fn convert(
                 bytes,
                 blocks: None,
                 cuts,
+                dropped,
             });
         }
         Target::Program(format) => format,
@@ -106,6 +128,10 @@ pub(crate) fn convert(
     // µm are the unit of the cuts.
     let written = format.write(&cuts.paths(), 1e-3, settings, &mut |_, _| true);
     let written = written.map_err(|error| {
+        let reason = cuts.reason_of_mismatch();
+        if let (ProofError::Mismatch(_), Some(reason)) = (&error, reason) {
+            return Refusal::Sentence(reason);
+        }
         let errors = (force || any_errors).then_some(errors);
         Refusal::of_proof(error, errors, |reason| say!(no_other_program, reason))
     })?;
@@ -113,5 +139,6 @@ pub(crate) fn convert(
         bytes: written.text.into_bytes(),
         blocks: Some(written.blocks),
         cuts,
+        dropped,
     })
 }

@@ -1,11 +1,17 @@
 //! A program as its cuts, each from one stop or rapid to the next: joined, to be drawn or written in another language.
 
+mod dropped;
+mod fitted;
 mod rings;
+
+pub(crate) use dropped::Dropped;
+
+use self::fitted::{ROUND, between, unevenness};
 
 use super::document::Document;
 use super::format::Format;
 use super::iso;
-use super::path::{self, Follower, Kind, Step, tolerance};
+use super::path::{self, Follower, Kind, tolerance};
 use super::three_b::StatedPoint;
 use crate::drawing::{Drawing, Entity, EntityId, Geometry, Unit, Vertex};
 use crate::finding::Side;
@@ -81,6 +87,8 @@ pub struct Cuts {
     pub(crate) leans: bool,
     /// Lines of the stops within contours, before their tabs, from 0: no cut holds them.
     pub(crate) stops: Vec<usize>,
+    /// The arc whose ends differ most in their distance from its centre: its line, from 0, and that difference, µm.
+    uneven: Option<(usize, f64)>,
     /// The largest distance of a contour's ends before they were joined, µm.
     pub(crate) closure: f64,
     /// The correction by which contours of 4B have been placed beside the ends of their ways in, mm.
@@ -141,6 +149,11 @@ pub fn cuts(document: &Document) -> Cuts {
         if step.kind == Kind::Rapid {
             cuts.ways.push([node, end]);
         } else if end != node || is_full(&ideal) {
+            let pieces = between(&ideal, step, node, end);
+            let uneven = unevenness(&ideal, step, node, end);
+            if cuts.uneven.is_none_or(|(_, most)| uneven > most) {
+                cuts.uneven = Some((step.line, uneven));
+            }
             if let Some(span) = spans.peek() {
                 let contour = span.contour_steps();
                 if contour.contains(&index) {
@@ -162,10 +175,14 @@ pub fn cuts(document: &Document) -> Cuts {
                     };
                 }
                 open.closed = span.closed;
-                open.lead_in += usize::from(index < span.contour_steps().start);
-                open.lead_out += usize::from(index >= span.contour_steps().end);
+                if index < contour.start {
+                    open.lead_in += pieces.len();
+                }
+                if index >= contour.end {
+                    open.lead_out += pieces.len();
+                }
             }
-            open.segments.push(between(&ideal, step, node, end));
+            open.segments.extend(pieces);
         }
         follower.at = end;
     }
@@ -175,36 +192,6 @@ pub fn cuts(document: &Document) -> Cuts {
 
 fn is_full(segment: &Segment) -> bool {
     segment.as_arc().is_some_and(Arc::is_full_turn)
-}
-
-/// The segment of a step moved to the nodes that it runs between.
-fn between(ideal: &Segment, step: &Step, from: Point, to: Point) -> Segment {
-    match ideal {
-        Segment::Line(_) => Segment::line(from, to),
-        Segment::Arc(arc) => {
-            let center = arc.center + (from - step.start);
-            if arc.is_full_turn() {
-                return Segment::Arc(Arc {
-                    center,
-                    start: from,
-                    end: from,
-                    ..*arc
-                });
-            }
-            let made = Arc::about(center, from, to, arc.sweep > 0.0);
-            // Where both ends nearly coincide, rounding must neither make a full turn of nothing nor the reverse.
-            if (made.sweep - arc.sweep).abs() > PI {
-                Segment::Arc(Arc {
-                    center,
-                    start: from,
-                    end: to,
-                    ..*arc
-                })
-            } else {
-                Segment::Arc(made)
-            }
-        }
-    }
 }
 
 impl Cuts {
@@ -223,6 +210,10 @@ impl Cuts {
         if format == Format::ThreeB && self.cuts.iter().any(|cut| cut.side.is_some()) {
             return Some(say!(the_control_adds_the_correction_of_the_program).into());
         }
+        let is_of_wire = |cut: &CutPath| cut.side.is_none() && !cut.contour().is_empty();
+        if format == Format::FourB && self.cuts.iter().any(is_of_wire) {
+            return Some(say!(the_program_holds_the_path_of_the_wire).into());
+        }
         let differs = |correction: &f64| (correction.abs() - settings.correction).abs() > 5e-4;
         let own = self
             .corrections
@@ -236,6 +227,13 @@ impl Cuts {
             correction,
             settings.correction
         ))
+    }
+
+    /// Why a program that does not hold its proof cannot be written, where an arc of the source was fitted.
+    pub(crate) fn reason_of_mismatch(&self) -> Option<String> {
+        let (line, uneven) = self.uneven.filter(|(_, uneven)| *uneven > ROUND)?;
+        let reason = say!(the_ends_of_its_arc_lie_on_two_circles, uneven);
+        Some(say!(line_by_number, line + 1, reason))
     }
 
     /// What the new program loses, in sentences.

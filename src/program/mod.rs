@@ -33,6 +33,7 @@ pub(crate) mod write;
 pub use document::{Document, Language};
 pub use format::Format;
 pub use layout::format;
+pub(crate) use layout::format_saying;
 pub use refactor::Proposal;
 pub use refactorings::{refactorings, scaled};
 pub(crate) use whereabouts::{Stand, Whereabouts};

@@ -1,6 +1,6 @@
 //! Rewrite an ISO program by a profile.
 
-use super::convert::cuts;
+use super::convert::{Dropped, cuts};
 use super::document::Document;
 use super::format::Format;
 use super::iso;
@@ -68,6 +68,9 @@ fn paths(
     }
     if let Document::Iso(program) = document {
         refuse_anywhere(program, Words::All)?;
+    }
+    if let Some(reason) = Dropped::of(document).refusal() {
+        return Err(reason);
     }
     if let Some(reason) = cuts.refusal(Format::Iso, settings) {
         return Err(reason);

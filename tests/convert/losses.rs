@@ -232,7 +232,11 @@ fn the_command_converts_and_refuses() {
         1,
         "4B holds the part's contour",
     );
-    check("convert hole.3b --format 4b", 1, "say opening or punch");
+    check(
+        "convert hole.3b --format 4b",
+        1,
+        "wedm generate DRAWING --format 4b",
+    );
     check("convert off.iso -o off.dxf", 1, "the program has 1 error");
     check(
         "convert off.iso -o off.dxf --force",
@@ -254,4 +258,165 @@ fn the_command_converts_and_refuses() {
         "G92 X0 Y0\nG91\nG01 X9900 Y0\nG03 X-19800 Y0 I-9900 J0\nG03 X19800 Y0 I9900 J0\nG01 X-9900 Y0\nM02\n"
     );
     check("check hole.iso again.3b", 0, "2 files checked");
+}
+
+/// What stands beside the moves is told of where it is left out; what moves the wire elsewhere is refused.
+#[test]
+fn words_beside_the_moves_are_not_lost_without_a_word() {
+    let folder = tempfile::tempdir().unwrap();
+    let square =
+        |words: &str| format!("G92 X0 Y0\nG90\nG01 X5. Y0.{words}X-5.\nY-5.\nX5.\nY0.\nX0.\nM02\n");
+    let words = "words of the machine: ";
+    for (beside, said) in [
+        ("\nY5.\n", ""),
+        (
+            "\nM50\nY5.\nM80\n",
+            &*format!("{words}M50 (line 4), M80 (line 6)"),
+        ),
+        (" F3.\nY5. F2.\n", &format!("{words}F3. (line 3)\n")),
+        (
+            "\nG04 X2.\nT84\nY5.\n",
+            &format!("{words}G04 (line 4), T84 (line 5)"),
+        ),
+        ("\n/Y5.\n", "lines 4: the new program always cuts them"),
+        ("\nY5. (the corner)\n", "not written: the comments"),
+        ("\nG28\nY5.\n", "line 4: G28 moves the wire"),
+        ("\nY5.\nG53 X0 Y0\n", "line 5: G53 moves the wire"),
+    ] {
+        std::fs::write(folder.path().join("in.iso"), square(beside)).unwrap();
+        let is_refused = said.contains("moves the wire");
+        for to in ["iso", "3b", "dxf"] {
+            let arguments = format!("convert in.iso --format {to} -o out.{to}");
+            let (code, _, told) = wedm(folder.path(), &arguments);
+            assert_eq!(code, i32::from(is_refused), "{beside:?} as {to}: {told}");
+            let is_told = !said.is_empty() && (is_refused || to != "dxf");
+            assert_eq!(
+                told.contains("not written") || is_refused,
+                is_told,
+                "{told}"
+            );
+            assert!(
+                !is_told || told.contains(said),
+                "{beside:?} as {to}: {told}"
+            );
+            if is_refused {
+                let (code, _, told) = wedm(folder.path(), &format!("{arguments} --force"));
+                let is_told = told.contains("not written: words of the machine: G");
+                assert!(code == 0 && (is_told || to == "dxf"), "{told}");
+            }
+        }
+    }
+    let remark = "B9900B0B9900GXL1 ; in\nB9900B0B39600GYNR1\nB9900B0B9900GXL3\nDD\n";
+    std::fs::write(folder.path().join("hole.3b"), remark).unwrap();
+    let (code, _, told) = wedm(folder.path(), "convert hole.3b -o hole.iso");
+    assert!(
+        code == 0 && told.contains("not written: the comments"),
+        "{told}"
+    );
+}
+
+/// What plans a path has nothing to plan where a program holds its own.
+#[test]
+fn options_that_a_conversion_does_not_follow_are_not_offered() {
+    let folder = tempfile::tempdir().unwrap();
+    let hole = "B9900B0B9900GXL1\nB9900B0B39600GYNR1\nB9900B0B9900GXL3\nDD\n";
+    std::fs::write(folder.path().join("hole.3b"), hole).unwrap();
+    for option in [
+        "direction cw",
+        "entry 1,1",
+        "thread 1,1",
+        "lead arc",
+        "lead-in 2",
+        "tab 3",
+        "passes 0.15,0.12",
+        "compensation controller",
+        "corner arc",
+        "order short",
+        "start-hole 1",
+        "side opening",
+    ] {
+        for to in ["iso", "3b", "4b", "dxf"] {
+            let arguments = format!("convert hole.3b --format {to} -o out.{to} --{option}");
+            let (code, _, told) = wedm(folder.path(), &arguments);
+            assert!(
+                code == 2 && told.contains("unexpected argument"),
+                "{arguments}: {told}"
+            );
+        }
+    }
+    for (option, to, code, said) in [
+        ("correction 0.2", "iso", 2, "--correction is for 4B, to it"),
+        ("correction 0.2", "dxf", 2, "--correction is for 4B, to it"),
+        ("layout checking", "iso", 0, "--layout does nothing here"),
+        ("layout checking", "3b", 0, ""),
+        ("digits 4", "dxf", 0, "--digits does nothing here"),
+        ("digits 4", "3b", 0, ""),
+        ("profile robofil", "3b", 0, "--profile does nothing here"),
+        ("profile robofil", "iso", 0, ""),
+        ("end E", "3b", 0, ""),
+    ] {
+        let arguments = format!("convert hole.3b --format {to} -o out.{to} --{option}");
+        let (ended, _, told) = wedm(folder.path(), &arguments);
+        assert_eq!(ended, code, "{arguments}: {told}");
+        assert_eq!(
+            told.contains("does nothing"),
+            said.contains("does nothing"),
+            "{told}"
+        );
+        assert!(told.contains(said), "{arguments}: {told}");
+    }
+    // The keys of a file are for all commands.
+    let keys = "correction = 0.2\nside = \"opening\"\n[program]\ndirection = \"cw\"\ntab = 3\n";
+    std::fs::write(folder.path().join("wedm.toml"), keys).unwrap();
+    let (code, _, told) = wedm(folder.path(), "convert hole.3b -o hole.iso");
+    assert!(code == 0 && !told.contains("does nothing"), "{told}");
+}
+
+/// Numbers that are long for the controller that is written for are no fault of the source.
+#[test]
+fn blocks_that_are_long_for_other_digits_are_split() {
+    let folder = tempfile::tempdir().unwrap();
+    let long = "B25000B0B25000GXL1\nB0B12000B12000GYL2\nB25000B12000B25000GXL3\nDD\n";
+    std::fs::write(folder.path().join("long.3b"), long).unwrap();
+    for (to, blocks) in [("3b", 8), ("iso", 3)] {
+        let arguments = format!("convert long.3b --format {to} -o new.{to} --digits 4");
+        let (code, _, told) = wedm(folder.path(), &arguments);
+        let said = format!("written new.{to}: {blocks} blocks");
+        assert!(code == 0 && told.contains(&said), "{arguments}: {told}");
+    }
+    std::fs::write(folder.path().join("wedm.toml"), "[program]\ndigits = 4\n").unwrap();
+    let (code, _, told) = wedm(folder.path(), "check new.3b");
+    assert!(code == 0 && told.contains("nothing found"), "{told}");
+    // A number that no usual controller takes is more likely wrong than long.
+    let odd = "B2500000B0B2500000GXL1\nB2500000B0B2500000GXL3\nDD\n";
+    std::fs::write(folder.path().join("odd.3b"), odd).unwrap();
+    let (code, _, told) = wedm(folder.path(), "convert odd.3b -o odd.iso");
+    assert!(code == 1 && told.contains("too-many-digits"), "{told}");
+}
+
+/// Arcs of a post with two decimals: their ends lie on two circles about their centres, up to as far apart as the rules let pass.
+#[test]
+fn arcs_with_rounded_centres_are_fitted() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, arcs) in [
+        ("a", "G01 X5.00 Y0.\nG03 X3.54 Y3.54 I-5.00 J0.\n"),
+        ("spiral", "G01 X5. Y0.\nG03 X0. Y5.02 I-5. J0.\n"),
+        ("half", "G01 X5. Y0.\nG03 X-5.02 Y0. I-5. J0.\n"),
+        ("long", "G01 X5. Y0.\nG03 X4.85 Y-1.25 I-5. J0.\n"),
+        (
+            "real",
+            "G01 X7.31 Y0.\nG03 X5.29 Y5.05 I-7.31 J0.00\nG03 X0.34 Y7.30 I-5.29 J-5.05\nG03 X-4.79 Y5.52 I-0.34 J-7.30\n",
+        ),
+    ] {
+        let text = format!("G90 G21\nG92 X0. Y0.\n{arcs}G01 X0. Y0.\nM02\n");
+        std::fs::write(folder.path().join("in.iso"), text).unwrap();
+        for to in ["iso", "3b", "dxf"] {
+            // A drawing of the same name would be compared with the programs.
+            let arguments = format!("convert in.iso -o {name}-{to}.{to}");
+            let (code, _, told) = wedm(folder.path(), &arguments);
+            assert_eq!(code, 0, "{arguments}: {told}");
+        }
+        let (code, _, told) = wedm(folder.path(), &format!("check {name}-iso.iso {name}-3b.3b"));
+        assert_eq!(code, 0, "{name}: {told}");
+    }
 }

@@ -75,6 +75,8 @@ declare! {
     the_contours_are_placed_by_a_correction(correction) => "the contours are those of the part, at a correction of {correction:.4} mm beside the wire's path: the program does not state it, --correction does";
     the_correction_is_not_in_the_contours => "the contours are those of the part: the correction is not in them";
     the_machine_misses_the_begin_of_a_contour_by_up_to_um(closure) => "the machine misses the start of a contour by up to {closure:.2} µm; its ends are joined there";
+    the_option_is_for_4b_alone(option) => "{option} is for 4B, to it or from it to a drawing: another conversion takes the path as it is, and corrects nothing";
+    the_option_does_nothing_there(option) => "{option} does nothing here: the result has none of what it sets";
     left_out_since_they_lead_nowhere(lines, more) => "left out, since they lead nowhere: lines {lines}{more}";
     the_program_does_not_find_itself(error) => "the program cannot find its own file: {error}";
     the_server_did_not_start(error) => "the server did not start: {error}";

@@ -267,7 +267,7 @@ declare! {
     may_be_missing_here(meant, comes_of_it) => "{meant} may be missing here: {comes_of_it} with it, and nothing else changed";
     may_be_one_too_many(found, comes_of_it) => "{found} may be one too many: {comes_of_it} without it, and nothing else changed";
     may_be_wrong_here(found, comes_of_it, meant) => "{found} may be wrong: {comes_of_it} with {meant} here, and nothing else changed";
-    full_circles_do_not_tell_how_i_and_j_are_meant => "full circles alone do not tell how I and J are meant: they are taken as leading from the start to the centre";
+    the_arcs_do_not_tell_how_i_and_j_are_meant => "the arcs of this program fit more than one meaning of I and J: they are taken as leading from the start to the centre";
     i_and_j_are_taken_from_the_center_to_the_start => "the arcs fit two readings of I and J: they are taken as leading from the centre to the start";
     i_and_j_are_taken_as_the_centers_coordinates => "the arcs fit two readings of I and J: they are taken as the centre's own coordinates";
     of_pass(pass) => " of pass {pass}";

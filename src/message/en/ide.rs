@@ -155,7 +155,7 @@ declare! {
     start_from_the_centre(mm, axis) => "{mm} mm along {axis} from the arc's centre to its start";
     centre_from_the_zero(axis, mm) => "the arc's centre lies at {axis} {mm} mm from the program's zero";
     centre_and_how_that_is_known(word, meant, known) => "**{word}** {meant} ({known})";
-    full_circles_leave_that_open => "full circles leave that open, so it is taken as the profile has it";
+    the_arcs_leave_that_open => "the arcs leave that open, so it is taken as the profile has it";
     found_from_the_arcs_of_this_program => "found from the arcs of this program, machines differ in it";
     place_of_the_table_as_set(word, index, mm) => "**{word}** place {index} of the control's table of corrections: {mm} mm, as this program sets it";
     place_of_the_table_of_the_machine(word, index, mm) => "**{word}** place {index} of the control's table of corrections, not a length. What it holds depends on the machine: arcs are compared with the setting, {mm} mm";

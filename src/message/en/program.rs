@@ -5,8 +5,16 @@ declare! {
     the_correction_is_switched_within_the_contour(line) => "line {line}: the correction is switched within the contour, expected one side all the way round";
     the_control_adds_the_correction_of_the_program => "the control adds the correction of this program (G41, G42), which no 3B controller does: convert it to .dxf, and generate the 3B program of that drawing";
     the_correction_of_the_program_is_not_that_of_the_settings(name, correction, of_settings) => "the program's own correction {name} is {correction:.3} mm, that of the settings {of_settings:.3} mm: the transition arcs of 4B depend on it, set correction to the one that the machine has";
+    the_program_holds_the_path_of_the_wire => "4B holds the part's contour, and this program holds the wire's path (it has no G41 or G42): the one does not become the other; write the 4B program from the drawing: wedm generate DRAWING --format 4b";
     not_written_the_corrections_of_the_program(corrections) => "not written: the program's own corrections, {corrections}; set them at the machine";
     no_conversion_of_a_taper(taper) => "{taper}; a conversion has only the lower contour: with --force that is written";
+    not_written_words_of_the_machine(words, more) => "not written: words of the machine: {words}{more}";
+    a_word_in_its_line(word, line) => "{word} (line {line})";
+    not_written_that_a_block_may_be_skipped(lines, more) => "not written: the / that lets the operator skip a block, in lines {lines}{more}: the new program always cuts them";
+    not_written_the_comments => "not written: the comments";
+    a_word_moves_the_wire_unfollowed(word) => "{word} moves the wire, and where to is not known";
+    no_conversion_of_such_a_way(reason) => "{reason}; a conversion leaves that way out: with --force it is written without it";
+    the_ends_of_its_arc_lie_on_two_circles(uneven) => "one end of its arc is {uneven:.3} µm farther from the centre than the other, and no arc through both can be written";
     not_written_the_taper(taper) => "not written: the taper; {taper}";
     not_written_the_stop_before_a_tab(line) => "not written: the stop in line {line}, which holds the part while its tab is cut";
     the_format_is_not_known(name, formats) => "format is \"{name}\", expected {formats}";
@@ -118,6 +126,8 @@ declare! {
     apply_the_correction_inside(correction) => "Apply the correction of {correction:.3} mm inside (opening)";
     apply_the_correction_outside(correction) => "Apply the correction of {correction:.3} mm outside (punch)";
     the_contour_is_open_and_the_side_of_the_wire_unknown(ordinal) => "contour {ordinal} is open: the side of the wire is not known";
+    end_points_are_left_as_they_are(rule, line) => "end points and block numbers are left as they are until {rule} in line {line} is repaired, see wedm check";
+    end_points_cannot_be_trusted(rule, line) => "end points cannot be worked out until {rule} in line {line} is repaired";
     convert_to_the_compact_layout => "Convert to the compact layout";
     convert_to_the_aligned_layout => "Convert to the aligned layout";
     convert_to_the_checking_layout => "Convert to the checking layout, with numbers and end points";

@@ -75,6 +75,8 @@ translate! {
     the_contours_are_placed_by_a_correction(correction) => "轮廓是工件轮廓，按补偿量 {correction:.4} mm 置于电极丝轨迹旁：程序中没有该值，可用 --correction 给出";
     the_correction_is_not_in_the_contours => "轮廓是工件轮廓：不含补偿量";
     the_machine_misses_the_begin_of_a_contour_by_up_to_um(closure) => "机床回到轮廓起点最大差 {closure:.2} µm；首尾已并为一点";
+    the_option_is_for_4b_alone(option) => "{option} 只用于转成 4B 或由 4B 转成图形：其他变换照搬轨迹，不作补偿";
+    the_option_does_nothing_there(option) => "{option} 在这里不起作用：结果里没有它所设定的内容";
     left_out_since_they_lead_nowhere(lines, more) => "没有去向、已略去的行：{lines}{more}";
     the_program_does_not_find_itself(error) => "找不到程序自身：{error}";
     the_server_did_not_start(error) => "服务器没有启动：{error}";

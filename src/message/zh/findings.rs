@@ -267,7 +267,7 @@ translate! {
     may_be_missing_here(meant, comes_of_it) => "这里可能缺 {meant}：只加上它，{comes_of_it}";
     may_be_one_too_many(found, comes_of_it) => "{found} 可能多余：只去掉它，{comes_of_it}";
     may_be_wrong_here(found, comes_of_it, meant) => "{found} 可能有错：只把这里改为 {meant}，{comes_of_it}";
-    full_circles_do_not_tell_how_i_and_j_are_meant => "只有整圆，看不出 I 和 J 的写法：按从起点到圆心处理";
+    the_arcs_do_not_tell_how_i_and_j_are_meant => "这个程序的圆弧与 I、J 的不止一种写法吻合：按从起点到圆心处理";
     i_and_j_are_taken_from_the_center_to_the_start => "圆弧符合 I 和 J 的两种写法：按从圆心到起点处理";
     i_and_j_are_taken_as_the_centers_coordinates => "圆弧符合 I 和 J 的两种写法：按圆心坐标处理";
     of_pass(pass) => "（第 {pass} 次切割）";

@@ -155,7 +155,7 @@ translate! {
     start_from_the_centre(mm, axis) => "从圆心到圆弧起点，沿 {axis} {mm} mm";
     centre_from_the_zero(axis, mm) => "圆心在程序坐标 {axis} {mm} mm 处";
     centre_and_how_that_is_known(word, meant, known) => "**{word}** {meant}（{known}）";
-    full_circles_leave_that_open => "整圆看不出来，按 profile 处理";
+    the_arcs_leave_that_open => "圆弧看不出来，按 profile 处理";
     found_from_the_arcs_of_this_program => "由本程序的圆弧得出，各机床不同";
     place_of_the_table_as_set(word, index, mm) => "**{word}** 补偿号 {index}：{mm} mm，由本程序设定";
     place_of_the_table_of_the_machine(word, index, mm) => "**{word}** 补偿号 {index}，不是长度。其中的值由机床决定：圆弧按设置的 {mm} mm 检查";

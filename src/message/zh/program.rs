@@ -5,8 +5,16 @@ translate! {
     the_correction_is_switched_within_the_contour(line) => "第 {line} 行：在轮廓中途建立或取消补偿，整圈应在同一侧";
     the_control_adds_the_correction_of_the_program => "此程序的补偿由控制器加（G41、G42），3B 控制器没有此功能：请先转换为 .dxf，再由该图形生成 3B 程序";
     the_correction_of_the_program_is_not_that_of_the_settings(name, correction, of_settings) => "程序自带的补偿量 {name} 是 {correction:.3} mm，设置中是 {of_settings:.3} mm：4B 的过渡圆弧由它决定，请把 correction 设为机床上的值";
+    the_program_holds_the_path_of_the_wire => "4B 写工件轮廓，而这个程序写的是丝的轨迹（没有 G41 或 G42）：两者不能互相变换；请由图形写出 4B 程序：wedm generate 图形 --format 4b";
     not_written_the_corrections_of_the_program(corrections) => "未写出：程序自带的补偿量 {corrections}；请在机床上设定";
     no_conversion_of_a_taper(taper) => "{taper}；转换只保留下轮廓：用 --force 则写出下轮廓";
+    not_written_words_of_the_machine(words, more) => "未写入：机床自己的字：{words}{more}";
+    a_word_in_its_line(word, line) => "{word}（第 {line} 行）";
+    not_written_that_a_block_may_be_skipped(lines, more) => "未写入：让操作者可以跳过程序段的 /，第 {lines}{more} 行：新程序总是切这些段";
+    not_written_the_comments => "未写入：注释";
+    a_word_moves_the_wire_unfollowed(word) => "{word} 移动电极丝，去向不明";
+    no_conversion_of_such_a_way(reason) => "{reason}；变换会略去这段路：加 --force 就不带它写出";
+    the_ends_of_its_arc_lie_on_two_circles(uneven) => "圆弧一端到圆心的距离比另一端大 {uneven:.3} µm，写不出通过两端的圆弧";
     not_written_the_taper(taper) => "未写出：锥度；{taper}";
     not_written_the_stop_before_a_tab(line) => "未写出：第 {line} 行的暂停，切暂留段时用它固定工件";
     the_format_is_not_known(name, formats) => "format 是“{name}”，应为 {formats}";
@@ -118,6 +126,8 @@ translate! {
     apply_the_correction_inside(correction) => "向内补偿 {correction:.3} mm（型孔）";
     apply_the_correction_outside(correction) => "向外补偿 {correction:.3} mm（凸模）";
     the_contour_is_open_and_the_side_of_the_wire_unknown(ordinal) => "轮廓 {ordinal} 不封闭：不知道电极丝在哪一侧";
+    end_points_are_left_as_they_are(rule, line) => "第 {line} 行的 {rule} 修复之前，终点坐标和段号保持原样，见 wedm check";
+    end_points_cannot_be_trusted(rule, line) => "第 {line} 行的 {rule} 修复之前，无法算出终点坐标";
     convert_to_the_compact_layout => "转换为紧凑格式";
     convert_to_the_aligned_layout => "转换为对齐格式";
     convert_to_the_checking_layout => "转换为校对格式，带段号和终点";

@@ -36,6 +36,8 @@ pub(crate) struct Evidence {
     pub(crate) long: u32,
     /// How many numbers with a point have each number of decimals.
     pub(crate) places: [u32; 8],
+    /// How many numbers with each number of decimals end in a 0 behind the point.
+    pub(crate) ending_in_zero: [u32; 8],
     /// Numbers that have four decimals or more.
     pub(crate) fine: u32,
     /// How many lines state inches, and how many inches or mm.
@@ -145,9 +147,9 @@ impl Evidence {
         ] {
             change(count, by);
         }
-        for (count, by) in self.places.iter_mut().zip(other.places) {
-            change(count, by);
-        }
+        let own = self.places.iter_mut().chain(&mut self.ending_in_zero);
+        let others = other.places.into_iter().chain(other.ending_in_zero);
+        own.zip(others).for_each(|(count, by)| change(count, by));
         self.absolute.change(&other.absolute, change);
         self.incremental.change(&other.incremental, change);
     }
@@ -160,6 +162,13 @@ impl Evidence {
             .unwrap_or(0) as u8
     }
 
+    /// The fewest decimals that a number may have whose writer leaves zeros at its end out: as many as any number that
+    /// ends in one.
+    pub(super) fn least_places(&self) -> u8 {
+        let kept = self.ending_in_zero.iter().rposition(|count| *count > 0);
+        kept.unwrap_or(0) as u8
+    }
+
     /// Counts a line's numbers.
     pub(crate) fn numbers(&mut self, block: &Block) {
         for number in [block.x, block.y, block.i, block.j, block.r]
@@ -170,7 +179,9 @@ impl Evidence {
             self.with_point += u32::from(number.point);
             self.fine += u32::from(number.decimals >= 4);
             if number.point {
-                self.places[usize::from(number.decimals).min(7)] += 1;
+                let places = usize::from(number.decimals).min(7);
+                self.places[places] += 1;
+                self.ending_in_zero[places] += u32::from(places > 0 && number.mantissa % 10 == 0);
             }
             self.bare += u32::from(!number.point && number.mantissa != 0);
             self.long += u32::from(!number.point && number.mantissa.abs() >= LONG);

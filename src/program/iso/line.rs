@@ -13,7 +13,7 @@ use crate::text::{TextEdit, difference};
 use std::ops::Range;
 
 /// The largest distance of an arc's middle from the intended one, µm: its centre is written in the program's steps.
-const MIDDLE_TOLERANCE: f64 = 2.5;
+pub(super) const MIDDLE_TOLERANCE: f64 = 2.5;
 
 /// The target of a move.
 #[derive(Clone, Copy, Debug, PartialEq)]

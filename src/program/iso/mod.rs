@@ -10,6 +10,7 @@ mod cursor;
 mod cut;
 mod cuts;
 pub(crate) mod document;
+mod dropped;
 mod encode;
 mod evidence;
 mod fixes;
@@ -42,6 +43,8 @@ mod write;
 
 pub use block::read_line;
 pub use document::Document;
+pub(crate) use dropped::Dropped;
+pub(in crate::program) use dropped::dropped;
 pub(crate) use layout::format;
 pub(crate) use mill::write_milled;
 pub(in crate::program) use taper::{Words as TaperWords, refuse_anywhere as refuse_taper};

@@ -115,7 +115,7 @@ impl Document {
             };
             let sentence = match taken {
                 CenterRule::StartToCenter => {
-                    say!(full_circles_do_not_tell_how_i_and_j_are_meant)
+                    say!(the_arcs_do_not_tell_how_i_and_j_are_meant)
                 }
                 CenterRule::CenterToStart => say!(i_and_j_are_taken_from_the_center_to_the_start),
                 CenterRule::Absolute => say!(i_and_j_are_taken_as_the_centers_coordinates),

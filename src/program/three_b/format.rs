@@ -4,8 +4,11 @@
 //! lines whose new form would differ in meaning stay byte for byte as they are.
 
 mod chunk;
+mod guard;
 mod line;
 mod stand;
+
+pub(crate) use self::guard::guarded;
 
 use self::chunk::{Chunk, Line, count_blocks, has_end};
 use self::line::{Formed, Writer};
@@ -22,18 +25,27 @@ use std::ops::Range;
 /// Blocks that are read to find the layout of a text.
 const LOOKED_AT: usize = 1000;
 
-/// The edits that bring `lines` into a layout, sorted and disjoint; without a layout, into that of most blocks.
+/// What becomes of end points and block numbers.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Ends {
+    /// They come and go with the layout.
+    OfLayout,
+    /// They stay as they stand, and none is added.
+    Kept,
+}
+
+/// The edits that bring `lines` into a layout, sorted and disjoint.
 ///
 /// Blocks, words, block numbers, comments and the header with the start stay. The other two layouts drop the block
 /// numbers and end points of the checking layout together; an end point that is not the block's own is a fault and
 /// stays in every layout. Each block gets a line of its own. Formatting twice equals formatting once.
-pub(crate) fn format(
+fn format(
     text: &SourceText,
-    layout: Option<Layout>,
+    layout: Layout,
+    ends: Ends,
     words: &Words<'_>,
     lines: Range<usize>,
 ) -> Vec<TextEdit> {
-    let layout = layout.unwrap_or_else(|| layout_of(text, words));
     // The numbers of the checking layout depend on all blocks, everything else on those before.
     let end = if layout == Layout::Checking {
         text.line_count()
@@ -48,10 +60,10 @@ pub(crate) fn format(
         firsts.into_iter().map(read).collect()
     };
     let numbers_count_blocks = numbers_count_blocks(&chunks);
-    let mut walk = Walk::new(layout);
+    let mut walk = Walk::new(layout, ends);
     chunks.iter_mut().for_each(|chunk| walk.go_through(chunk));
     edits::formed(text, &chunks, |chunk| {
-        chunk.form(text, words, layout, numbers_count_blocks, &lines)
+        chunk.form(text, words, (layout, ends), numbers_count_blocks, &lines)
     })
 }
 
@@ -106,7 +118,7 @@ impl Chunk {
         &self,
         text: &SourceText,
         words: &Words<'_>,
-        layout: Layout,
+        (layout, ends): (Layout, Ends),
         numbers_count_blocks: bool,
         lines: &Range<usize>,
     ) -> LineEdits {
@@ -119,6 +131,7 @@ impl Chunk {
                 let mut writer = Writer {
                     words,
                     layout,
+                    ends,
                     numbers_count_blocks,
                     ordinal,
                     is_over,

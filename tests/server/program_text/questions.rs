@@ -46,6 +46,40 @@ fn formatting_follows_the_layout_that_is_set_and_else_the_text() {
     editor.close();
 }
 
+/// What `tests/programs` says of every layout holds for what an editor gets, too.
+#[test]
+fn formatting_changes_nothing_of_what_is_found() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/programs/wrong");
+    let found = |text: &str| {
+        let settings = wedm::settings::Effective::default();
+        let language = wedm::program::Language::ThreeB;
+        let program = wedm::program::Document::read(language, text.into(), &settings);
+        let (findings, _) = program.findings(&settings, usize::MAX);
+        let mut rules: Vec<_> = findings.iter().map(|one| one.rule.name()).collect();
+        rules.sort();
+        rules
+    };
+    for name in [
+        "wrong_quadrant",
+        "doubled_block",
+        "x_is_another",
+        "coordinates_or_block",
+    ] {
+        let text = std::fs::read_to_string(format!("{folder}/{name}.3b")).unwrap();
+        for layout in ["compact", "aligned", "checking"] {
+            let options = json!({ "program": { "layout": layout } });
+            let mut editor = Editor::open_under(options, THREE_B, &text);
+            let edits = editor.ask("formatting", in_lines(0, 1));
+            let after = editor.edited(&edits);
+            assert_eq!(found(&after), found(&text), "{name} as {layout}:\n{after}");
+            let edits = editor.ask("rangeFormatting", in_lines(2, 4));
+            let after = editor.edited(&edits);
+            assert_eq!(found(&after), found(&text), "{name} as {layout}:\n{after}");
+            editor.close();
+        }
+    }
+}
+
 #[test]
 fn a_drawing_is_not_formatted() {
     let mut editor = Editor::open(["file:///a.dxf", "dxf"], "0\nEOF\n");

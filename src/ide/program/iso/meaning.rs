@@ -177,7 +177,7 @@ impl About<'_> {
             CenterRule::Absolute => say!(centre_from_the_zero, axis, length),
         };
         let known = if self.document.evidence().leaves_centers_open() {
-            say!(full_circles_leave_that_open)
+            say!(the_arcs_leave_that_open)
         } else {
             say!(found_from_the_arcs_of_this_program)
         };

@@ -49,7 +49,7 @@ fn every_word_says_what_it_means() {
         "G90 G03 X5. Y5. I0. J5.\nX0. Y10. |I0. J5.\nX-5. Y5. I0. J5.",
         "the arc's centre lies at X 0.000 mm",
     );
-    check("G03 X0. Y0. |I5. J0.", "full circles leave that open");
+    check("G03 X0. Y0. |I5. J0.", "the arcs leave that open");
     check(
         "G41 |D3",
         "place 3 of the control's table of corrections, not a length",

@@ -11,8 +11,8 @@ mod write;
 
 use super::block::Motion;
 use super::document::Document;
-use super::line::{Bent, Target};
-use super::moves::{Place, micrometres};
+use super::line::{Bent, MIDDLE_TOLERANCE, Target};
+use super::moves::{Bend, MICROMETRE, Move, Place, micrometres};
 use super::plain::{words_at, words_in};
 use super::style::Style;
 use super::taper::{Words, refuse, refuse_anywhere};
@@ -129,7 +129,12 @@ impl Notation for Iso {
         let bend = match old.bend {
             Bent::Line => Bent::Line,
             Bent::Radius(radius) => {
-                Bent::Radius(style.rounded((radius as f64 * factor).round() as i64))
+                let radius = style.rounded((radius as f64 * factor).round() as i64);
+                if !keeps_its_bow(at, [from, to], radius, factor) {
+                    let why = say!(its_arc_cannot_be_written_with_the_program_s_decimals);
+                    return Err(say!(line_by_number, at.line + 1, why));
+                }
+                Bent::Radius(radius)
             }
             Bent::Center(center) => Bent::Center(
                 fitting([from, to], center, factor, &style)
@@ -265,6 +270,22 @@ fn swapped_sides(document: &Document, lines: Range<usize>) -> Vec<TextEdit> {
         });
     }
     edits
+}
+
+/// Whether a scaled arc of a given radius runs along the old one: near a half turn one step of R moves its middle by
+/// many.
+fn keeps_its_bow(at: At<'_, Iso>, [from, to]: [Place; 2], radius: i64, factor: f64) -> bool {
+    let reading = at.sheet.document.reading();
+    let made = Move {
+        from,
+        to,
+        bend: Bend::Radius(radius),
+        ..at.own.made
+    };
+    let middle = |made: &Move| made.segment(reading).point_at(0.5).coords;
+    let aside = (middle(&made) - middle(&at.own.made) * factor).norm();
+    let step = at.own.style.step() as f64 / MICROMETRE as f64;
+    aside <= MIDDLE_TOLERANCE * step.max(1.0)
 }
 
 /// The centre in the program's steps that is most nearly as far from both ends.

@@ -215,6 +215,9 @@ fn programs_are_scaled_and_stay_in_their_steps() {
     let arc =
         "G92 X0 Y0\nG01 X5.000 Y0.000\nG03 X5.000 Y0.010 I-5.000 J0.005\nG01 X0.000 Y0.000\nM02\n";
     refuses("scale.mmToInch", arc, "becomes shorter");
+    // One step of R near a half turn moves its middle by ten.
+    let bow = "G90\nG92X15.189Y15.318\nG21\nG01X12.767Y12.67\nG03X-12.016Y-7.469R-16.014\nG01X-6.793Y-16.164\nG01X12.767Y12.67\nG01X15.189Y15.318\nM02\n";
+    refuses("scale.mmToInch", bow, "line 5: its arc cannot be written");
     assert_eq!(
         scaled_by(
             "H1=110\nG92 X0 Y1000\nG91\nG01 X5000\nG03 X5000 Y5000 J5000\nM02\n",

@@ -213,6 +213,8 @@ impl Report<'_> {
         let Some((usual, odd)) = self.document.usual_places().filter(|(_, odd)| *odd > 0) else {
             return;
         };
+        // Where no longer number ends in a 0, a shorter one is one that would.
+        let least = self.document.evidence().least_places().min(usual);
         let mut found = Vec::new();
         for placed in self.document.placed() {
             let own = &placed.stretch.evidence.places;
@@ -225,7 +227,8 @@ impl Report<'_> {
                 words_at(self.text, line, |letter, number, word| {
                     let own = b"XYIJR".iter().position(|of| *of == letter);
                     if let Some(own) = own.and_then(|own| lengths.get_mut(own)) {
-                        *own = (number.point && number.decimals != usual).then_some(word);
+                        let is_odd = number.decimals > usual || number.decimals < least;
+                        *own = (number.point && is_odd).then_some(word);
                     }
                 });
                 found.extend(lengths.into_iter().flatten());

@@ -3,6 +3,7 @@
 use super::super::around::StatedPoint;
 use super::super::decode::meant;
 use super::super::entry::{Entry, What};
+use super::super::pieces::{Field, pieces};
 use super::super::sum::is_jump;
 use super::{At, Document};
 use crate::geometry::{Point, Vector};
@@ -38,6 +39,20 @@ impl Document {
         of_part
             .map(|(at, part)| (self.range_of(at).start, part.concave))
             .collect()
+    }
+
+    /// True where remarks stand in the text.
+    pub(in crate::program) fn has_comments(&self) -> bool {
+        let words = self.words();
+        (0..self.text.line_count()).any(|line| {
+            let bytes = self.text.line(line);
+            let all = pieces(bytes, &words);
+            all.iter().any(|piece| {
+                let own = bytes.get(piece.range.clone()).unwrap_or_default();
+                let says = |byte: &u8| byte.is_ascii_alphanumeric() || !byte.is_ascii();
+                piece.field == Field::Comment && own.iter().any(says)
+            })
+        })
     }
 
     /// The heading with the start, before the first block, and the start in mm.

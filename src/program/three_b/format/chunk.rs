@@ -44,7 +44,8 @@ pub(super) struct Way {
 pub(super) enum Stated {
     /// It is the block's own.
     Right(Node),
-    Wrong,
+    /// It is not, or nobody asks: it stays.
+    AsItStands,
     /// There is none; the block's own, where it is known.
     Absent(Option<Node>),
 }

@@ -1,5 +1,6 @@
 //! One line in its new form.
 
+use super::Ends;
 use super::chunk::Stated;
 use crate::program::three_b::block::{Block, PartArc};
 use crate::program::three_b::layout::{
@@ -24,6 +25,7 @@ pub(super) struct Formed {
 pub(super) struct Writer<'a> {
     pub(crate) words: &'a Words<'a>,
     pub(crate) layout: Layout,
+    pub(crate) ends: Ends,
     pub(crate) numbers_count_blocks: bool,
     /// Blocks before this line.
     pub(crate) ordinal: u64,
@@ -179,6 +181,7 @@ impl Writer<'_> {
         match (self.layout, number) {
             (Layout::Compact | Layout::Aligned, Some(_)) if matches!(stated, Stated::Right(_)) => {}
             (_, Some(number)) => self.push_number(head, number)?,
+            (_, None) if self.ends == Ends::Kept => {}
             (Layout::Checking, None) if self.numbers_count_blocks => {
                 push_block_number(head, ordinal)
             }
@@ -187,7 +190,7 @@ impl Writer<'_> {
         }
         push_fields(head, self.layout, block, part);
         match (self.layout, stated) {
-            (_, Stated::Wrong) => {
+            (_, Stated::AsItStands) => {
                 push_to_comment_column(head, block);
                 if !coordinates.starts_with(b";") {
                     head.extend_from_slice(b"; ");

@@ -1,5 +1,6 @@
 //! The machine on its way through a program that is formatted, and the verdict on its stated end points.
 
+use super::Ends;
 use super::chunk::{Chunk, Line, Stated, Way, count_blocks, has_end};
 use crate::geometry::Point;
 use crate::program::three_b::around::StatedPoint;
@@ -15,6 +16,7 @@ const STATED_TOLERANCE: f64 = 2.0;
 /// The way through a program, line by line.
 pub(super) struct Walk {
     layout: Layout,
+    ends: Ends,
     /// Blocks so far.
     ordinal: u64,
     stand: Stand,
@@ -23,9 +25,10 @@ pub(super) struct Walk {
 }
 
 impl Walk {
-    pub(crate) fn new(layout: Layout) -> Walk {
+    pub(crate) fn new(layout: Layout, ends: Ends) -> Walk {
         Walk {
             layout,
+            ends,
             ordinal: 0,
             stand: Stand {
                 at: Point::origin(),
@@ -52,7 +55,13 @@ impl Walk {
                 let mut stated = Stated::Absent(None);
                 match item {
                     Item::Block { stated_end, .. } => {
-                        stated = stand.go_on(*stated_end, *way, self.layout)
+                        stated = stand.go_on(*stated_end, *way, self.layout);
+                        if self.ends == Ends::Kept {
+                            stated = match stated_end {
+                                Some(_) => Stated::AsItStands,
+                                None => Stated::Absent(None),
+                            };
+                        }
                     }
                     Item::Word {
                         word: Word::Pause, ..
@@ -124,7 +133,7 @@ impl Stand {
             (Some(node), Trust::Known | Trust::UnlessStated) if self.is_near(node) => {
                 Stated::Right(node)
             }
-            (Some(_), _) => Stated::Wrong,
+            (Some(_), _) => Stated::AsItStands,
             (None, Trust::Lost) => Stated::Absent(None),
             (None, _) => Stated::Absent(node_of(self.at)),
         }

@@ -4,7 +4,15 @@ use proptest::prelude::*;
 
 fn formatted(text: &[u8], layout: Option<Layout>) -> Vec<u8> {
     let source = SourceText::new(text.to_vec());
-    let edits = format(&source, layout, &Words::default(), 0..source.line_count());
+    let words = Words::default();
+    let layout = layout.unwrap_or_else(|| layout_of(&source, &words));
+    let edits = format(
+        &source,
+        layout,
+        Ends::OfLayout,
+        &words,
+        0..source.line_count(),
+    );
     let mut result = Vec::new();
     let mut at = 0;
     for edit in edits {
@@ -255,7 +263,8 @@ fn a_long_program_is_written_like_a_short_one() {
         let source = SourceText::new(text.into_bytes());
         let edits = format(
             &source,
-            Some(Layout::Checking),
+            Layout::Checking,
+            Ends::OfLayout,
             &Words::default(),
             0..source.line_count(),
         );

@@ -6,7 +6,7 @@
 
 use super::ThreeB;
 use crate::program::refactor::{Edits, Refactoring, Sheet};
-use crate::program::three_b::format::format;
+use crate::program::three_b::format::guarded;
 use crate::settings::Layout;
 
 pub(super) const COMPACT: Refactoring<ThreeB> = Refactoring {
@@ -26,11 +26,14 @@ pub(super) const CHECKING: Refactoring<ThreeB> = Refactoring {
 };
 
 fn laid_out(sheet: &Sheet<'_, ThreeB>, layout: Layout) -> Edits {
-    let text = sheet.document.text();
-    Ok(format(
-        text,
-        Some(layout),
-        &sheet.document.words(),
-        0..text.line_count(),
-    ))
+    let lines = 0..sheet.document.text().line_count();
+    let formatted = guarded(sheet.document, sheet.settings, Some(layout), lines);
+    match formatted.kept {
+        Some(kept) if layout == Layout::Checking => Err(say!(
+            end_points_cannot_be_trusted,
+            kept.rule.name(),
+            kept.line + 1
+        )),
+        _ => Ok(formatted.edits),
+    }
 }

@@ -1,0 +1,69 @@
+//! What a new program does not take over of an old one beside its moves, in sentences.
+
+use crate::program::document::Document;
+use crate::program::iso;
+pub(crate) use crate::program::iso::Dropped;
+
+/// Words that are named one by one.
+const NAMED: usize = 8;
+
+impl Dropped {
+    /// Of a program that is written anew.
+    pub(crate) fn of(document: &Document) -> Dropped {
+        match document {
+            Document::Iso(program) => {
+                let tilts = iso::refuse_taper(program, iso::TaperWords::All).is_err();
+                iso::dropped(program, !tilts)
+            }
+            Document::ThreeB(program) => Dropped {
+                comments: program.has_comments(),
+                ..Dropped::default()
+            },
+        }
+    }
+
+    /// Why the way of the wire would not be that of the program: in lower case without a full stop.
+    pub(crate) fn refusal(&self) -> Option<String> {
+        let (line, word) = self.moving.as_ref()?;
+        let reason = say!(a_word_moves_the_wire_unfollowed, word);
+        Some(say!(line_by_number, line + 1, reason))
+    }
+
+    pub(crate) fn sentences(&self) -> Vec<String> {
+        let mut sentences = Vec::new();
+        if !self.words.is_empty() {
+            let named = self.words.iter().take(NAMED);
+            let named: Vec<String> = named
+                .map(|(line, word)| say!(a_word_in_its_line, word, line + 1))
+                .collect();
+            let more = if self.words.len() > NAMED {
+                ", …"
+            } else {
+                ""
+            };
+            sentences.push(say!(
+                not_written_words_of_the_machine,
+                named.join(", "),
+                more
+            ));
+        }
+        if !self.optional.is_empty() {
+            let lines = self.optional.iter().take(NAMED);
+            let lines: Vec<String> = lines.map(|line| (line + 1).to_string()).collect();
+            let more = if self.optional.len() > NAMED {
+                ", …"
+            } else {
+                ""
+            };
+            sentences.push(say!(
+                not_written_that_a_block_may_be_skipped,
+                lines.join(", "),
+                more
+            ));
+        }
+        if self.comments {
+            sentences.push(say!(not_written_the_comments).to_owned());
+        }
+        sentences
+    }
+}

@@ -1,0 +1,91 @@
+//! What no program that is written anew takes over: words of the machine, comments, the choice to skip a block.
+
+use super::block::{Block, Note, read_line};
+use super::document::Document;
+use super::plain::words;
+use super::word::Token;
+use crate::text::shown;
+use std::collections::BTreeSet;
+
+/// What stands in a program beside its moves.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Dropped {
+    /// Words of the machine, each once, with their lines from 0.
+    pub(crate) words: Vec<(usize, String)>,
+    /// The first of them that moves the wire.
+    pub(crate) moving: Option<(usize, String)>,
+    /// Lines that the operator may skip, from 0.
+    pub(crate) optional: Vec<usize>,
+    pub(crate) comments: bool,
+}
+
+/// What stands in the program beside its moves. Without `taper` the words that tilt the wire are left out: they are
+/// told of elsewhere.
+pub(in crate::program) fn dropped(document: &Document, taper: bool) -> Dropped {
+    let mut found = Dropped::default();
+    let mut seen = BTreeSet::new();
+    for line in 0..document.text().line_count() {
+        let bytes = document.line_bytes(line);
+        let mut of_machine = Vec::new();
+        let block = read_line(bytes, 1, |note| {
+            if let Note::Foreign { code, range } = note
+                && (taper || !code.is_of_taper() && !code.tilts())
+            {
+                of_machine.push(range.start);
+            }
+        });
+        words(bytes, 1, |token, range| {
+            let text = bytes.get(range.start - 1..range.end - 1);
+            let text = shown(text.unwrap_or_default().trim_ascii()).to_ascii_uppercase();
+            match token {
+                Token::Comment => {
+                    found.comments |= text
+                        .bytes()
+                        .any(|byte| byte.is_ascii_alphanumeric() || !byte.is_ascii())
+                }
+                Token::Skip if !block.empty => found.optional.push(line),
+                Token::Skip => {}
+                _ if of_machine.contains(&range.start) || is_of_process(&token) => {
+                    if moves(&token, &block) && found.moving.is_none() {
+                        found.moving = Some((line, text.clone()));
+                    }
+                    let key = match &token {
+                        Token::Word { letter: b'F', .. } => "F".to_owned(),
+                        _ => text.clone(),
+                    };
+                    if seen.insert(key) {
+                        found.words.push((line, text));
+                    }
+                }
+                _ => {}
+            }
+        });
+    }
+    found
+}
+
+/// F, and the wait of G04: neither changes where the wire goes.
+fn is_of_process(token: &Token) -> bool {
+    match token {
+        Token::Word { letter, number } => match letter {
+            b'F' => true,
+            b'G' => number.whole() == Some(4),
+            _ => false,
+        },
+        _ => false,
+    }
+}
+
+/// G28 to G31 and G53, which go to places of the machine, and G65 to G67, which call what may go anywhere.
+fn moves(token: &Token, block: &Block) -> bool {
+    match token {
+        Token::Word {
+            letter: b'G',
+            number,
+        } => {
+            let code = number.whole().unwrap_or_default();
+            matches!(code, 28..=31 | 65..=67) || code == 53 && block.has_coordinates()
+        }
+        _ => false,
+    }
+}
