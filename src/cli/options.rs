@@ -146,7 +146,7 @@ impl<const GROUP: usize> Args for Keys<GROUP> {
             let arg = arg.value_name(value);
             // Each says the correction of every pass.
             match name {
-                "correction" => arg.conflicts_with("passes"),
+                "passes" => arg.conflicts_with("correction"),
                 _ => arg,
             }
         }))

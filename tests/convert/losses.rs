@@ -346,7 +346,7 @@ fn options_that_a_conversion_does_not_follow_are_not_offered() {
     }
     for (option, to, code, said) in [
         ("correction 0.2", "iso", 2, "--correction is for 4B, to it"),
-        ("correction 0.2", "dxf", 2, "--correction is for 4B, to it"),
+        ("correction 0.2", "dxf", 0, "--correction does nothing here"),
         ("layout checking", "iso", 0, "--layout does nothing here"),
         ("layout checking", "3b", 0, ""),
         ("digits 4", "dxf", 0, "--digits does nothing here"),
