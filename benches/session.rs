@@ -631,11 +631,10 @@ fn fit_session(rounds: usize) {
         "p50 20 ms",
     );
     client.skips_results.store(false, Ordering::Release);
-    let mut version = 1;
     let mut edits = Edits::default();
     let [x, y, _] = outline(10_000)[0];
     for round in 0..rounds {
-        version += 1;
+        let version = round as i64 + 2;
         let vertex = json!([x + if round % 2 == 0 { 0.001 } else { 0.0 }, y]);
         let splice = json!([{ "handle": "2A", "vertices": { "start": 0, "deleteCount": 1, "insert": [vertex] } }]);
         edits.time(&mut client, uri, |client| {
