@@ -54,7 +54,7 @@ pub(crate) struct Converted {
 /// True of a block whose numbers are too long for the digits that are set, and not for those of most controllers: it is
 /// sound, and is split when it is written.
 fn is_split(finding: &Finding) -> bool {
-    let usual = 10_i64.pow(u32::from(Effective::default().digits));
+    let usual = 10_i64.pow(Effective::default().digits);
     match &finding.detail {
         Detail::Program(fault) => {
             matches!(**fault, Fault::TooManyDigits { value, .. } if value < usual)
