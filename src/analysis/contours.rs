@@ -3,11 +3,12 @@
 use super::Analysis;
 use super::suppressed::own_role;
 use crate::drawing::{
-    Contour, ContourIndex, ContourKey, Drawing, EntityId, Outline, Role, is_drafting_layer,
-    is_drafting_linetype, nesting_depths,
+    Contour, ContourKey, Drawing, EntityId, Outline, Role, is_drafting_layer, is_drafting_linetype,
+    nesting_depths,
 };
 use crate::finding::{Aside, Side};
 use crate::fit;
+use crate::geometry::Bounds;
 use crate::settings::Effective;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -70,13 +71,10 @@ impl Analysis {
     }
 
     /// The number of contours of its own workpiece around each.
-    fn depths_by_part(
-        &self,
-        drawing: &Drawing,
-        contours: &[(&Contour, &ContourIndex)],
-    ) -> Vec<usize> {
+    fn depths_by_part(&self, drawing: &Drawing, contours: &[(&Contour, Bounds)]) -> Vec<usize> {
+        let tolerance = self.limits.tolerances.same_place;
         if self.settings.workpieces.is_empty() {
-            return nesting_depths(drawing, contours);
+            return nesting_depths(drawing, contours, tolerance);
         }
         let mut parts: BTreeMap<u16, Vec<usize>> = BTreeMap::new();
         for (at, (contour, _)) in contours.iter().enumerate() {
@@ -86,7 +84,8 @@ impl Analysis {
         let mut depths = vec![0; contours.len()];
         for of_part in parts.values() {
             let own: Vec<_> = of_part.iter().map(|&at| contours[at]).collect();
-            for (&at, depth) in of_part.iter().zip(nesting_depths(drawing, &own)) {
+            let of_own = nesting_depths(drawing, &own, tolerance);
+            for (&at, depth) in of_part.iter().zip(of_own) {
                 depths[at] = depth;
             }
         }
@@ -102,7 +101,9 @@ impl Analysis {
             None => {
                 let contours: Vec<_> = keys
                     .iter()
-                    .filter_map(|key| Some((self.chains.get(*key)?, &self.known.get(key)?.index)))
+                    .filter_map(|key| {
+                        Some((self.chains.get(*key)?, self.known.get(key)?.index.bounds()))
+                    })
                     .collect();
                 self.depths_by_part(drawing, &contours)
             }

@@ -6,9 +6,9 @@ use super::job::Job;
 use super::leads::{Contours, HOLE_CLEAR, finding};
 use super::order::{self, name};
 use super::requested::{Requested, wanted};
-use crate::drawing::{Drawing, Outline, Role, winding};
+use crate::drawing::{Drawing, Outline, Role, are_twins, winding};
 use crate::finding::{Finding, Place, Rule, Severity};
-use crate::geometry::{Point, Vector};
+use crate::geometry::{Bounds, Point, Vector};
 use crate::settings::{Compensation, Effective, Order};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -216,6 +216,12 @@ impl Job<'_> {
     ) -> Option<(Point, f64)> {
         let own = &self.outlines[index];
         let bounds = own.contour.bounds(self.drawing);
+        // The same outline, drawn again.
+        let is_twin = |other: &Outline, about: &Bounds| {
+            let tolerance = self.units(self.settings.tolerances.same_place);
+            let (own, other) = ((&own.contour, &bounds), (&other.contour, about));
+            are_twins(self.drawing, own, other, tolerance)
+        };
         let lies_within = |other: &&Outline| {
             let about = other.contour.bounds(self.drawing);
             about != bounds
@@ -228,6 +234,7 @@ impl Job<'_> {
                 && other.contour.segment(self.drawing, 0).is_some_and(|first| {
                     winding(self.drawing, &own.contour, first.geometry.point_at(0.5)) != 0
                 })
+                && !is_twin(other, &about)
         };
         let region = Region {
             drawing: self.drawing,
