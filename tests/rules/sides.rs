@@ -90,3 +90,95 @@ fn an_outline_that_is_drawn_again_is_no_level_of_nesting() {
         assert_eq!(of_rule, vec![Severity::Error; doubts], "{findings:#?}");
     }
 }
+
+/// Two outlines that share a stretch of wall: an error where the wire of the one runs in what the other leaves.
+#[test]
+fn parts_that_share_a_wall_have_no_room_between_them() {
+    let left = || rectangle([0.0, 0.0], [10.0, 10.0]);
+    let clockwise = || match left() {
+        Geometry::Polyline { mut vertices, .. } => {
+            vertices.reverse();
+            Geometry::Polyline {
+                closed: true,
+                vertices,
+            }
+        }
+        other => other,
+    };
+    let (punch, opening, both) = (Role::Punch, Role::Opening, Role::Both);
+    for (one, other, roles, errors) in [
+        (
+            left(),
+            rectangle([10.0, 0.0], [20.0, 10.0]),
+            [punch, punch],
+            1,
+        ),
+        (
+            clockwise(),
+            rectangle([10.0, 0.0], [20.0, 10.0]),
+            [punch, punch],
+            1,
+        ),
+        (
+            left(),
+            rectangle([10.0, 5.0], [20.0, 15.0]),
+            [punch, punch],
+            1,
+        ),
+        (
+            left(),
+            rectangle([10.002, 0.0], [20.0, 10.0]),
+            [punch, punch],
+            1,
+        ),
+        (
+            left(),
+            rectangle([9.998, 0.0], [20.0, 10.0]),
+            [punch, punch],
+            1,
+        ),
+        (
+            left(),
+            rectangle([10.0, 0.0], [20.0, 10.0]),
+            [opening, opening],
+            0,
+        ),
+        (
+            left(),
+            rectangle([10.0, 0.0], [20.0, 10.0]),
+            [punch, opening],
+            0,
+        ),
+        (
+            left(),
+            rectangle([10.0, 0.0], [20.0, 10.0]),
+            [both, both],
+            0,
+        ),
+        // An island at the wall of its opening, and an opening at the edge of its punch.
+        (
+            left(),
+            rectangle([0.0, 4.0], [3.0, 7.0]),
+            [opening, punch],
+            1,
+        ),
+        (
+            left(),
+            rectangle([0.0, 4.0], [3.0, 7.0]),
+            [punch, opening],
+            0,
+        ),
+        // Drawn twice.
+        (left(), left(), [punch, punch], 0),
+        (left(), clockwise(), [opening, opening], 0),
+    ] {
+        let mut drawing = Drawing::new(None);
+        for (geometry, role) in [one, other].into_iter().zip(roles) {
+            drawing.push(entity(geometry, Some(role)));
+        }
+        let findings = analysed(&drawing).1;
+        let found = severities(&findings, Rule::NarrowSlot);
+        let found = found.iter().filter(|it| **it == Severity::Error).count();
+        assert_eq!(found, errors, "{roles:?} {findings:#?}");
+    }
+}
