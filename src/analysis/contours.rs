@@ -187,8 +187,8 @@ pub(super) fn part_of(drawing: &Drawing, settings: &Effective, id: EntityId) -> 
 }
 
 /// True when an entity is part of a contour, which may be a lone line: it has segments, its role is not `ignore`, it is
-/// visible, or it or its layer has been given a role, and it is not set aside by its linetype or
-/// its layer. A colour or a handle alone does not bring back a frozen entity.
+/// visible, or it has been given a role, or its own layer hides it and has, and it is not set aside by its linetype or
+/// its layer. A colour or a handle alone does not bring back a frozen entity, nor does a role of its layer one that is invisible itself.
 pub(crate) fn is_cut(drawing: &Drawing, settings: &Effective, id: EntityId) -> bool {
     let Some(entity) = drawing
         .get(id)
@@ -202,7 +202,11 @@ pub(crate) fn is_cut(drawing: &Drawing, settings: &Effective, id: EntityId) -> b
     {
         return false;
     }
-    let is_asked_for = || entity.role.is_some() || settings.layers.contains_key(&*entity.layer);
+    let hiding_layer_has_role = || {
+        let layer = drawing.hiding_layer(id);
+        layer.is_some_and(|layer| *layer == entity.layer && settings.layers.contains_key(&**layer))
+    };
+    let is_asked_for = || entity.role.is_some() || hiding_layer_has_role();
     role_of(drawing, settings, id) != Some(Role::Ignore)
         && (drawing.visibility(id).is_seen() || is_asked_for())
         && set_aside(drawing, settings, id).is_none()
