@@ -144,7 +144,7 @@ pub(super) fn role_of(drawing: &Drawing, settings: &Effective, id: EntityId) -> 
         .role
         .or_else(by_handle)
         .or_else(by_linetype)
-        .or_else(|| settings.layers.get(&*entity.layer).copied())
+        .or_else(|| settings.layers.get(&entity.layer))
         .or_else(by_color)
 }
 
@@ -158,7 +158,7 @@ pub(crate) fn set_aside(drawing: &Drawing, settings: &Effective, id: EntityId) -
     if is_asked_for {
         return None;
     }
-    let layer_has_role = || settings.layers.contains_key(&*entity.layer);
+    let layer_has_role = || settings.layers.contains(&*entity.layer);
     if let Some(linetype) = drawing.linetype(id) {
         if role_of_linetype(settings, &linetype.name).is_some() {
             return None;
@@ -204,7 +204,7 @@ pub(crate) fn is_cut(drawing: &Drawing, settings: &Effective, id: EntityId) -> b
     }
     let hiding_layer_has_role = || {
         let layer = drawing.hiding_layer(id);
-        layer.is_some_and(|layer| *layer == entity.layer && settings.layers.contains_key(&**layer))
+        layer.is_some_and(|layer| *layer == entity.layer && settings.layers.contains(&**layer))
     };
     let is_asked_for = || entity.role.is_some() || hiding_layer_has_role();
     role_of(drawing, settings, id) != Some(Role::Ignore)

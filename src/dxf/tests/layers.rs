@@ -227,6 +227,8 @@ fn colours_are_those_of_the_entity_its_block_or_its_layer() {
         "xxxxxx-x-"
     );
     assert_eq!(roles("[colors]\nwhite = \"punch\""), "xxxxxx-x-");
+    // Case does not matter in the name of a layer.
+    assert_eq!(roles("[layers]\nLOCKED = \"ignore\""), "---xxx-x-");
     // A handle comes before layer and colour, and does not bring back an invisible entity.
     assert_eq!(
         roles("[contours]\nB = \"ignore\"\nF = \"punch\"\n[layers]\nLocked = \"punch\""),
