@@ -58,9 +58,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
                 return report::refuse(path, &opened.document, &refusal, advice);
             }
         };
-        count += planned.holes.len();
-        csv += &drill::rows(&path.to_string_lossy(), &snapshot, &planned.holes);
-        drawn = Some(drill::drawn(&snapshot, &planned.holes));
+        let holes = drill::drilled(planned.holes);
+        count += holes.len();
+        csv += &drill::rows(&path.to_string_lossy(), &snapshot, &holes);
+        drawn = Some(drill::drawn(&snapshot, &holes));
     }
     let bytes = match drawn.filter(|_| is_dxf) {
         Some(drawing) => dxf::write(&drawing).map_err(Failure)?,

@@ -7,6 +7,12 @@ use crate::toolpath::StartHole;
 /// The names of the columns.
 pub(crate) const HEAD: &str = "drawing,x_mm,y_mm,diameter_mm,contour,hole\n";
 
+/// The holes that are drilled: not those that were found where there is no room for any, which is an error of the drawing.
+pub(crate) fn drilled(mut holes: Vec<StartHole>) -> Vec<StartHole> {
+    holes.retain(|hole| !hole.cuts);
+    holes
+}
+
 /// A row of CSV for each hole, in mm; without a diameter where the settings have none.
 pub(crate) fn rows(name: &str, snapshot: &Snapshot, holes: &[StartHole]) -> String {
     let unit_mm = snapshot.settings.unit_of(&snapshot.drawing).mm;

@@ -174,7 +174,13 @@ impl Effective {
                 UnitSetting::Inch => Unit::INCH,
             },
             margin: settings.margin(),
-            layers: ByName::of(settings.layers.iter().flatten().map(|(name, role)| (name, *role))),
+            layers: ByName::of(
+                settings
+                    .layers
+                    .iter()
+                    .flatten()
+                    .map(|(name, role)| (name, *role)),
+            ),
             document: None,
             suppressed: BTreeMap::new(),
             linetypes: settings

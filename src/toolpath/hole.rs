@@ -29,6 +29,8 @@ pub struct StartHole {
     pub at: Point,
     /// By the settings or by a mark; else it was found.
     pub is_given: bool,
+    /// It was found, and cuts into a contour: there is no place for one of the set diameter.
+    pub cuts: bool,
 }
 
 /// The faults of the start holes of the set diameter: of given ones, and of openings without room for one.
@@ -76,10 +78,15 @@ impl Job<'_> {
                 faults.extend(self.hole_fault(at, reach, &contours));
                 given.push((at, index));
             } else if outline.role == Role::Opening
-                && let Some((_, depth)) = self.deepest(index, &contours, reach)
+                && let Some((at, depth)) = self.deepest(index, &contours, reach)
                 && depth < reach - self.units(1e-6)
             {
-                faults.extend(self.no_room(index, depth));
+                // One that is only too near is proposed all the same.
+                let found = match self.cuts(depth) {
+                    true => self.no_room(index, depth),
+                    false => self.hole_fault(at, reach, &contours),
+                };
+                faults.extend(found);
             }
         }
         faults.extend(self.holes_that_meet(given));
@@ -150,7 +157,22 @@ impl Job<'_> {
         };
         let first = outline.contour.segment(self.drawing, 0);
         let place = first.as_ref().map(Place::from);
-        self.hole_finding(place, depth < diameter / 2.0, sentence)
+        self.hole_finding(place, true, sentence)
+    }
+
+    /// True for a hole that is so far from a contour, drawing units, that it cuts into it.
+    fn cuts(&self, away: f64) -> bool {
+        let diameter = self.settings.start_hole.unwrap_or_default();
+        away * self.unit_mm < diameter / 2.0 - 1e-6
+    }
+
+    /// A hole that was found, and cuts into a contour, which [`hole_faults`] says.
+    pub(super) fn finds_no_room(&self, at: Point, contours: &Contours) -> bool {
+        let is_told = self.settings.severity(Rule::StartHole).is_some();
+        let reach = self
+            .hole_reach()
+            .filter(|_| is_told && !self.settings.mills);
+        reach.is_some_and(|reach| self.cuts(contours.walls().distance_to(at, reach)))
     }
 
     /// Holes that run into each other, unless they are the same.
@@ -191,19 +213,27 @@ impl Job<'_> {
         faults
     }
 
-    /// True where a start hole keeps its distance from every contour, and runs into none of the others; always where
+    /// True where a start hole keeps its distance from every contour, and from the others; always where
     /// none is drilled.
     pub(super) fn has_room(&self, at: Point, contours: &Contours, others: &[Point]) -> bool {
         let Some(reach) = self.hole_reach() else {
             return true;
         };
-        let diameter = self.units(self.settings.start_hole.unwrap_or_default());
         let rounding = self.units(1e-6);
-        contours.walls().nearer(at, reach - rounding).is_none()
-            && others.iter().all(|other| {
-                let apart = (other - at).norm();
-                apart <= rounding || apart >= diameter
-            })
+        contours.walls().nearer(at, reach - rounding).is_none() && self.is_apart(at, others)
+    }
+
+    /// True where a start hole leaves a web beside each of the others, or is the same hole; always where none is drilled.
+    pub(super) fn is_apart(&self, at: Point, others: &[Point]) -> bool {
+        if self.hole_reach().is_none() {
+            return true;
+        }
+        let diameter = self.settings.start_hole.unwrap_or_default();
+        let (rounding, least) = (self.units(1e-6), self.units(diameter + HOLE_CLEAR));
+        others.iter().all(|other| {
+            let apart = (other - at).norm();
+            apart <= rounding || apart >= least - rounding
+        })
     }
 
     /// The point of an opening that is furthest from every contour, and its distance; `enough` will do. `None` where it

@@ -89,11 +89,13 @@ impl Job<'_> {
             is_opening.then_some(at)
         };
         let has_room = |at: Point| self.has_room(at, contours, holes);
+        let is_apart = |at: Point| self.is_apart(at, holes);
         let threading = Threading {
             first: &first,
             last: &deepest,
             reach: self.hole_reach(),
             has_room: &has_room,
+            is_apart: &is_apart,
         };
         let thread = if let Some(stand) = stand {
             stand.begin

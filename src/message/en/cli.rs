@@ -5,6 +5,7 @@ declare! {
     more_errors_than_before => "the repaired text has more errors than before; nothing is written";
     no_program_is_written => "no program is written";
     no_program_of_a_drawing_with(path, errors, word) => "{path}: no program is written, the drawing has {errors}; repair it (wedm fix {word} --in-place), or insist with --force";
+    no_program_of_a_drawing_beyond_repair(path, errors) => "{path}: no program is written, the drawing has {errors}; repair it in CAD or change the settings, or insist with --force";
     nothing_of_a_program_with(path, errors) => "{path}: nothing is written, the program has {errors}; repair them, or insist with --force";
     a_drawing_where_a_program_is_expected => "it is a drawing, expected a program: wedm generate makes one from it";
     nothing_is_made_with_such_settings => "nothing is made with settings that do not fit, see above";

@@ -5,6 +5,7 @@ translate! {
     more_errors_than_before => "修复后错误反而更多；未写入任何文件";
     no_program_is_written => "未写出程序";
     no_program_of_a_drawing_with(path, errors, word) => "{path}：图形有 {errors}，不写出程序；请先修复（wedm fix {word} --in-place），或加 --force 强制写出";
+    no_program_of_a_drawing_beyond_repair(path, errors) => "{path}：图形有 {errors}，不写出程序；请在 CAD 中修正或更改设置，或加 --force 强制写出";
     nothing_of_a_program_with(path, errors) => "{path}：程序有 {errors}，不写出任何文件；请先修复，或加 --force 强制写出";
     a_drawing_where_a_program_is_expected => "这是图形，此处要程序：用 wedm generate 由它生成程序";
     nothing_is_made_with_such_settings => "设置不合适，未写出任何文件，见上文";

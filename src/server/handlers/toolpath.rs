@@ -24,7 +24,7 @@ pub(in crate::server) fn toolpath(context: &RequestContext, _: OptionsOf) -> Res
 pub(in crate::server) fn holes(context: &RequestContext, asked: Holes) -> Result<Exported> {
     let task = Task::of(context)?;
     let planned = task.planned(context)?;
-    let (snapshot, holes) = (&task.snapshot, &planned.holes);
+    let (snapshot, holes) = (&task.snapshot, &drill::drilled(planned.holes));
     let bytes = match asked.format {
         HoleForm::Dxf => dxf::write(&drill::drawn(snapshot, holes)).map_err(internal)?,
         HoleForm::Csv => {
