@@ -161,10 +161,6 @@ fn a_frozen_reference_hides_all_and_one_that_is_off_what_lies_on_its_layer() {
     // A role of the layer of the reference brings back what lies on it, one of another layer nothing.
     for (role, is_cut) in [("COLD", true), ("X", false)] {
         let frozen = FROZEN.replace("1 entity on it is", "3 entities on it are");
-        let said = match is_cut {
-            true => vec![invisible],
-            false => vec![&*frozen, invisible],
-        };
         check(
             "0 INSERT 8 COLD 2 B 10 0 20 0",
             &format!("[layers]\n{role} = \"punch\""),
@@ -174,7 +170,7 @@ fn a_frozen_reference_hides_all_and_one_that_is_off_what_lies_on_its_layer() {
                 (Frozen, false),
                 (Invisible, false),
             ],
-            &said,
+            &[&*frozen, invisible],
         );
     }
     let two = of_part.replace("1 entity on it is", "2 entities on it are");
