@@ -158,7 +158,7 @@ pub(crate) fn set_aside(drawing: &Drawing, settings: &Effective, id: EntityId) -
     if is_asked_for {
         return None;
     }
-    let layer_has_role = || settings.layers.contains(&*entity.layer);
+    let layer_has_role = || settings.layers.contains(&entity.layer);
     if let Some(linetype) = drawing.linetype(id) {
         if role_of_linetype(settings, &linetype.name).is_some() {
             return None;
@@ -204,7 +204,7 @@ pub(crate) fn is_cut(drawing: &Drawing, settings: &Effective, id: EntityId) -> b
     }
     let hiding_layer_has_role = || {
         let layer = drawing.hiding_layer(id);
-        layer.is_some_and(|layer| *layer == entity.layer && settings.layers.contains(&**layer))
+        layer.is_some_and(|layer| *layer == entity.layer && settings.layers.contains(layer))
     };
     let is_asked_for = || entity.role.is_some() || hiding_layer_has_role();
     role_of(drawing, settings, id) != Some(Role::Ignore)

@@ -30,7 +30,7 @@ pub struct Effective {
     /// Set by the user.
     pub states_unit: bool,
     pub margin: f64,
-    pub(crate) layers: ByName<Role>,
+    pub layers: ByName<Role>,
     /// Roles by linetype, in upper case.
     pub linetypes: BTreeMap<String, Role>,
     /// The name of the document's file.
