@@ -67,7 +67,7 @@ fn an_outline_that_is_drawn_again_is_no_level_of_nesting() {
             1,
         ),
         (
-            vec![frame(0.0), frame(0.09), frame(0.0), hole.clone()],
+            vec![frame(0.0), frame(0.06), frame(0.0), hole.clone()],
             vec![punch, opening, punch, punch],
             2,
         ),
