@@ -244,6 +244,18 @@ impl Job<'_> {
         contours: &Contours,
         enough: f64,
     ) -> Option<(Point, f64)> {
+        self.deepest_beside(index, contours, enough, &[])
+    }
+
+    /// The same for a start hole that is to keep apart from others: where one has no room beside these, the distance is below what a
+    /// hole needs.
+    pub(super) fn deepest_beside(
+        &self,
+        index: usize,
+        contours: &Contours,
+        enough: f64,
+        others: &[Point],
+    ) -> Option<(Point, f64)> {
         let own = &self.outlines[index];
         let bounds = own.contour.bounds(self.drawing);
         // The same outline, drawn again.
@@ -271,6 +283,9 @@ impl Job<'_> {
             own,
             islands: self.outlines.iter().filter(lies_within).collect(),
             walls: contours.walls(),
+            others,
+            nearer: self.units(self.settings.start_hole.unwrap_or_default() + HOLE_CLEAR)
+                - self.hole_reach().unwrap_or_default(),
         };
         let half = bounds.width().max(bounds.height()) / 2.0;
         if !half.is_finite() || half <= 0.0 {
@@ -290,6 +305,9 @@ struct Region<'a> {
     own: &'a Outline,
     islands: Vec<&'a Outline>,
     walls: &'a Walls,
+    /// Holes to keep apart from, and by how much more than from a wall, drawing units.
+    others: &'a [Point],
+    nearer: f64,
 }
 
 impl Region<'_> {
@@ -304,10 +322,14 @@ impl Region<'_> {
         let square = |center: Point, half: f64, inside: Option<bool>| {
             let away = self.walls.distance_to(center, half);
             let inside = inside.unwrap_or_else(|| self.holds(center));
+            let walls = if inside { away } else { -away };
+            let of_others = self.others.iter();
+            let apart = of_others.map(|other| (other - center).norm() - self.nearer);
             Square {
                 center,
                 half,
-                depth: if inside { away } else { -away },
+                walls,
+                depth: apart.fold(walls, f64::min),
             }
         };
         let first = square(middle, half, None);
@@ -321,7 +343,7 @@ impl Region<'_> {
             }
             let half = parent.half / 2.0;
             // No wall comes between the middle of a square and those of its quarters that is further away than these.
-            let inside = (parent.depth.abs() > half * SQRT_2).then_some(parent.depth > 0.0);
+            let inside = (parent.walls.abs() > half * SQRT_2).then_some(parent.walls > 0.0);
             for (x, y) in [(-half, -half), (half, -half), (-half, half), (half, half)] {
                 let quarter = square(parent.center + Vector::new(x, y), half, inside);
                 if quarter.depth > best.1 + within * 1e-3 {
@@ -336,10 +358,12 @@ impl Region<'_> {
     }
 }
 
-/// A square of a region, by its middle. `depth` is how far that is from the walls, below 0 outside.
+/// A square of a region, by its middle. `walls` is how far that is from the walls, below 0 outside; `depth` is less where another hole is
+/// nearer.
 struct Square {
     center: Point,
     half: f64,
+    walls: f64,
     depth: f64,
 }
 
