@@ -241,3 +241,50 @@ fn proposed_holes_keep_apart() {
         }
     }
 }
+
+/// All of the text stays, byte for byte, except the next free handle; what is new has handles of its own.
+#[test]
+fn a_drawing_with_the_holes_is_the_drawing() {
+    let layer = |handle: &str, name: &str| {
+        format!(
+            "0\nLAYER\n5\n{handle}\n330\n2\n100\nAcDbSymbolTableRecord\n100\nAcDbLayerTableRecord\n2\n{name}\n70\n0\n62\n7\n6\nCONTINUOUS\n390\nF\n"
+        )
+    };
+    let entities = "0\nELLIPSE\n5\nB1\n330\n1F\n100\nAcDbEntity\n67\n1\n8\n0\n100\nAcDbEllipse\n10\n80\n20\n10\n30\n0\n11\n9\n21\n0\n31\n0\n40\n0.5\n41\n0\n42\n6.283185307179586\n\
+        0\nHATCH\n5\nB2\n330\n1E\n100\nAcDbEntity\n8\n0\n2\nANSI31\n\
+        0\nCIRCLE\n5\nB3\n330\n1E\n100\nAcDbEntity\n8\n0\n100\nAcDbCircle\n10\n10\n20\n10\n40\n5\n\
+        0\nLINE\n5\nB0\n330\n1F\n100\nAcDbEntity\n67\n1\n8\n0\n10\n0\n20\n0\n11\n9\n21\n9\n";
+    let text = |layers: &str, seed: &str| {
+        format!(
+            "999\nby hand\n0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n9\n$HANDSEED\n5\n{seed}\n0\nENDSEC\n0\nSECTION\n2\nTABLES\n0\nTABLE\n2\nLAYER\n5\n2\n70\n1\n{layers}0\nENDTAB\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n{entities}0\nENDSEC\n0\nEOF\n"
+        )
+    };
+    let desk = Desk::new();
+    let options = "--side opening --start-hole 2";
+    for (line_end, there) in [("\n", false), ("\r\n", true)] {
+        let own = layer("10", "0") + &layer("11", "start-holes").repeat(usize::from(there));
+        let drawn = text(&own, "F0").replace('\n', line_end);
+        desk.write("plate.dxf", &drawn);
+        check(
+            &desk,
+            &format!("holes plate.dxf {options} -o drilled.dxf"),
+            0,
+            &["!1 hole"],
+        );
+        let made = String::from_utf8(desk.read("drilled.dxf").to_vec()).unwrap();
+        let (layers, [circle, mark], seed) = match there {
+            true => (own, ["F1", "F2"], "F3"),
+            false => (own + &layer("F1", "START-HOLES"), ["F2", "F3"], "F4"),
+        };
+        let holes = format!(
+            "0\nCIRCLE\n5\n{circle}\n330\n1E\n100\nAcDbEntity\n8\nSTART-HOLES\n100\nAcDbCircle\n10\n10.0\n20\n10.0\n30\n0.0\n40\n1.0\n\
+             0\nTEXT\n5\n{mark}\n330\n1E\n100\nAcDbEntity\n8\nSTART-HOLES\n100\nAcDbText\n10\n10.0\n20\n10.0\n30\n0.0\n40\n1.0\n1\nO\n100\nAcDbText\n"
+        );
+        let expected = text(&layers, seed).replace(
+            "0\nENDSEC\n0\nEOF\n",
+            &format!("{holes}0\nENDSEC\n0\nEOF\n"),
+        );
+        assert_eq!(made.replace(line_end, "\n"), expected);
+        assert_eq!(made.matches(line_end).count(), expected.lines().count());
+    }
+}

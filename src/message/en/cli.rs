@@ -168,6 +168,7 @@ declare! {
     holes_of_several_drawings_are_csv(count) => "the holes of {count} drawings are written as .csv; a .dxf holds those of one";
     holes_that_are_not_written(ending) => "holes are written as .csv or .dxf, not as .{ending}";
     no_holes_of_a_drawing_with(path, errors) => "{path}: no holes are listed for a drawing with {errors}";
+    the_holes_are_in_a_new_drawing => "the input is no DXF text: this is a new drawing with new handles; what is not cut, such as hatches and dimensions, is not in it, and ellipses and splines are arcs";
     the_holes_are_written(heading, target, holes) => "{heading} {target}: {holes}";
     upper_end_at(x, y) => "upper end {x:.3}, {y:.3}";
     the_cut_takes(length, minutes, cost) => "cut: {length:.3} mm in {minutes:.2} min{cost}";

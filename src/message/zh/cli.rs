@@ -168,6 +168,7 @@ translate! {
     holes_of_several_drawings_are_csv(count) => "{count} 张图的穿丝孔写为 .csv；一个 .dxf 只放一张图的";
     holes_that_are_not_written(ending) => "穿丝孔写为 .csv 或 .dxf，不写 .{ending}";
     no_holes_of_a_drawing_with(path, errors) => "{path}：图形有{errors}，不列出穿丝孔";
+    the_holes_are_in_a_new_drawing => "输入不是 DXF 文本：写出的是新图形，句柄也是新的；填充、标注等不切割的内容不在其中，椭圆和样条成为圆弧";
     the_holes_are_written(heading, target, holes) => "{heading} {target}：{holes}";
     upper_end_at(x, y) => "上端 {x:.3}, {y:.3}";
     the_cut_takes(length, minutes, cost) => "切割：{length:.3} mm，{minutes:.2} min{cost}";
