@@ -423,7 +423,7 @@ fn findings(
         // The reader knows no settings, so its findings get their severities here. A layer with a role is cut or not as
         // the role says. Where the settings give the unit, the drawing need not.
         let is_answered = match &finding.detail {
-            Detail::Unseen { layer, .. } => settings.layers.contains_key(&**layer),
+            Detail::Unseen { layer, .. } => settings.layers.contains(layer),
             Detail::Said(_) if finding.rule == Rule::Units => settings.states_unit,
             _ => false,
         };

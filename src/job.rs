@@ -291,7 +291,13 @@ impl Wanted<'_> {
             let entities: Vec<&Entity> = pieces
                 .filter_map(|piece| snapshot.drawing.get(piece.entity))
                 .collect();
-            let on = |layer: &&String| entities.iter().any(|entity| *entity.layer == ***layer);
+            let is_called = |name: &str, layer: &str| {
+                name == layer || name.to_uppercase() == layer.to_uppercase()
+            };
+            let on = |layer: &&String| {
+                let mut on_layers = entities.iter().map(|entity| &*entity.layer);
+                on_layers.any(|own| is_called(own, layer))
+            };
             let met: Vec<&String> = layers.iter().filter(on).collect();
             if let Some(first) = entities.first()
                 && !met.is_empty()

@@ -3,11 +3,12 @@
 use super::Analysis;
 use super::suppressed::own_role;
 use crate::drawing::{
-    Contour, ContourIndex, ContourKey, Drawing, EntityId, Outline, Role, is_drafting_layer,
-    is_drafting_linetype, nesting_depths,
+    Contour, ContourKey, Drawing, EntityId, Outline, Role, is_drafting_layer, is_drafting_linetype,
+    nesting_depths,
 };
 use crate::finding::{Aside, Side};
 use crate::fit;
+use crate::geometry::Bounds;
 use crate::settings::Effective;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -70,13 +71,10 @@ impl Analysis {
     }
 
     /// The number of contours of its own workpiece around each.
-    fn depths_by_part(
-        &self,
-        drawing: &Drawing,
-        contours: &[(&Contour, &ContourIndex)],
-    ) -> Vec<usize> {
+    fn depths_by_part(&self, drawing: &Drawing, contours: &[(&Contour, Bounds)]) -> Vec<usize> {
+        let tolerance = self.limits.tolerances.same_place;
         if self.settings.workpieces.is_empty() {
-            return nesting_depths(drawing, contours);
+            return nesting_depths(drawing, contours, tolerance);
         }
         let mut parts: BTreeMap<u16, Vec<usize>> = BTreeMap::new();
         for (at, (contour, _)) in contours.iter().enumerate() {
@@ -86,7 +84,8 @@ impl Analysis {
         let mut depths = vec![0; contours.len()];
         for of_part in parts.values() {
             let own: Vec<_> = of_part.iter().map(|&at| contours[at]).collect();
-            for (&at, depth) in of_part.iter().zip(nesting_depths(drawing, &own)) {
+            let of_own = nesting_depths(drawing, &own, tolerance);
+            for (&at, depth) in of_part.iter().zip(of_own) {
                 depths[at] = depth;
             }
         }
@@ -102,7 +101,9 @@ impl Analysis {
             None => {
                 let contours: Vec<_> = keys
                     .iter()
-                    .filter_map(|key| Some((self.chains.get(*key)?, &self.known.get(key)?.index)))
+                    .filter_map(|key| {
+                        Some((self.chains.get(*key)?, self.known.get(key)?.index.bounds()))
+                    })
                     .collect();
                 self.depths_by_part(drawing, &contours)
             }
@@ -143,7 +144,7 @@ pub(super) fn role_of(drawing: &Drawing, settings: &Effective, id: EntityId) -> 
         .role
         .or_else(by_handle)
         .or_else(by_linetype)
-        .or_else(|| settings.layers.get(&*entity.layer).copied())
+        .or_else(|| settings.layers.get(&entity.layer))
         .or_else(by_color)
 }
 
@@ -157,7 +158,7 @@ pub(crate) fn set_aside(drawing: &Drawing, settings: &Effective, id: EntityId) -
     if is_asked_for {
         return None;
     }
-    let layer_has_role = || settings.layers.contains_key(&*entity.layer);
+    let layer_has_role = || settings.layers.contains(&entity.layer);
     if let Some(linetype) = drawing.linetype(id) {
         if role_of_linetype(settings, &linetype.name).is_some() {
             return None;
@@ -186,8 +187,8 @@ pub(super) fn part_of(drawing: &Drawing, settings: &Effective, id: EntityId) -> 
 }
 
 /// True when an entity is part of a contour, which may be a lone line: it has segments, its role is not `ignore`, it is
-/// visible, or it or its layer has been given a role, and it is not set aside by its linetype or
-/// its layer. A colour or a handle alone does not bring back a frozen entity.
+/// visible, or it has been given a role, or its own layer hides it and has, and it is not set aside by its linetype or
+/// its layer. A colour or a handle alone does not bring back a frozen entity, nor does a role of its layer one that is invisible itself.
 pub(crate) fn is_cut(drawing: &Drawing, settings: &Effective, id: EntityId) -> bool {
     let Some(entity) = drawing
         .get(id)
@@ -201,7 +202,11 @@ pub(crate) fn is_cut(drawing: &Drawing, settings: &Effective, id: EntityId) -> b
     {
         return false;
     }
-    let is_asked_for = || entity.role.is_some() || settings.layers.contains_key(&*entity.layer);
+    let hiding_layer_has_role = || {
+        let layer = drawing.hiding_layer(id);
+        layer.is_some_and(|layer| *layer == entity.layer && settings.layers.contains(layer))
+    };
+    let is_asked_for = || entity.role.is_some() || hiding_layer_has_role();
     role_of(drawing, settings, id) != Some(Role::Ignore)
         && (drawing.visibility(id).is_seen() || is_asked_for())
         && set_aside(drawing, settings, id).is_none()

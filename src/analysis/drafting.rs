@@ -72,7 +72,7 @@ impl Analysis {
         let has_role = entity.role.is_some()
             || own_role(drawing, settings, piece.entity).is_some()
             || linetype.is_some_and(|it| role_of_linetype(settings, &it.name).is_some())
-            || (settings.layers.contains_key(&*entity.layer) && is_for_reading());
+            || (settings.layers.contains(&entity.layer) && is_for_reading());
         let join = self.limits.tolerances.join;
         let length = line.length();
         // Where the contour is the wire's own path, a single line may be all of it.

@@ -113,6 +113,7 @@ impl Analysis {
             let sides: Vec<Option<Side>> = ordered.iter().map(|&key| side_of(self, key)).collect();
             self.report_lost_pockets(drawing, &ordered, &sides, &mut report);
             self.report_punches_within(drawing, &ordered, &sides, &mut report);
+            self.report_doubtful_nesting(drawing, &ordered, &mut report);
         }
         let mut of_job = Vec::new();
         if self.settings.start_hole.is_some() {

@@ -3,7 +3,9 @@
 use super::compare::{Observed, Outlooks, SegmentId};
 use super::pairs::Pairs;
 use super::report::Report;
-use super::told::{Doubles, Told, ToldPair, gather_crossings, merged};
+use super::told::{
+    Doubles, Told, ToldPair, gather_crossings, is_without_room, merged, takes_of_the_other,
+};
 use crate::drawing::{ContourKey, Drawing, EntityId};
 use crate::finding::{Detail, NotJudged, Place, Rule, Severity, Side};
 use crate::geometry::Point;
@@ -82,7 +84,11 @@ impl Pairs {
         wire_side: &dyn Fn(ContourKey) -> Option<Side>,
         report: &mut Report,
     ) {
-        let told = match self.told.take().filter(|told| told.holds(wire_side)) {
+        let told = match self
+            .told
+            .take()
+            .filter(|told| told.holds(outlook, wire_side))
+        {
             Some(told) => told,
             None => Arc::new(self.tell(drawing, outlook, wire_side, report)),
         };
@@ -177,6 +183,7 @@ impl Pairs {
         let is_middle = |key: ContourKey| {
             outlook(key).is_some_and(|it| report.settings.goes_along_middle(it.contour.closed))
         };
+        let mut meeting: FxHashMap<[ContourKey; 2], bool> = FxHashMap::default();
         let mut seen: Vec<(usize, Ends, &Observed)> = Vec::new();
         for each in self.seen.told() {
             let ends = |(key, index): SegmentId| outlook(key)?.segment_id(index);
@@ -187,6 +194,16 @@ impl Pairs {
                 && concerned(each.other.0, each.sides.1)
                 && let (Some(one), Some(other)) = (ends(each.one), ends(each.other))
             {
+                // Walls on one another: a fault where one wire takes of what the other leaves.
+                if is_without_room(each) {
+                    let keys = [each.one.0, each.other.0];
+                    let takes = meeting
+                        .entry(keys)
+                        .or_insert_with(|| takes_of_the_other(outlook, keys, &side_of));
+                    if !*takes || is_for_a_path {
+                        continue;
+                    }
+                }
                 seen.push((each.rule, (one, other), each));
             }
         }
@@ -238,7 +255,8 @@ impl Pairs {
         let open_is_an_error = report.open_is_an_error();
         for (at, (number, ends, each)) in seen.iter().enumerate() {
             let rule = &PAIR_RULES[*number];
-            if rule.silent_for_doubles && doubles.contains(&(ends.0.0, ends.1.0))
+            if (rule.silent_for_doubles || is_without_room(each))
+                && doubles.contains(&(ends.0.0, ends.1.0))
                 || merged.contains(&at)
             {
                 continue;
@@ -284,6 +302,7 @@ impl Pairs {
                 crossings: None,
             });
         }
+        told.meeting = meeting;
         for kind in gather_crossings(&mut told.pairs) {
             *told.absorbed.entry(kind).or_default() += 1;
         }

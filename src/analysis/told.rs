@@ -1,6 +1,6 @@
 //! The findings from observations between segments.
 
-use super::compare::{Observed, SegmentId};
+use super::compare::{Observed, Outlooks, SegmentId};
 use crate::drawing::{ContourKey, EntityId};
 use crate::finding::{Detail, Place, Rule, Severity, Side};
 use crate::rules::PAIR_RULES;
@@ -12,6 +12,8 @@ use std::collections::BTreeMap;
 pub(super) struct Told {
     /// The side of the wire at each of the contours.
     pub(super) sides: FxHashMap<ContourKey, Option<Side>>,
+    /// Contours that lie on one another with the wire on different sides, and whether one takes of the part of the other.
+    pub(super) meeting: FxHashMap<[ContourKey; 2], bool>,
     /// The place of the first run that has not been compared.
     pub(super) uncompared: Option<Place>,
     /// In the order of the rules, and in the machining order of the entities.
@@ -133,10 +135,50 @@ impl Doubles {
 }
 
 impl Told {
-    pub(super) fn holds(&self, wire_side: &dyn Fn(ContourKey) -> Option<Side>) -> bool {
+    pub(super) fn holds(
+        &self,
+        outlook: Outlooks,
+        wire_side: &dyn Fn(ContourKey) -> Option<Side>,
+    ) -> bool {
         self.sides
             .iter()
             .all(|(&key, &side)| wire_side(key) == side)
+            && self.meeting.iter().all(|(&[one, other], &takes)| {
+                takes_of_the_other(outlook, [one, other], wire_side) == takes
+            })
+    }
+}
+
+/// True for walls that lie on one another: what is seen between others has the disc that touches both.
+pub(super) fn is_without_room(seen: &Observed) -> bool {
+    PAIR_RULES[seen.rule].rule == Rule::NarrowSlot && seen.disc.is_none()
+}
+
+/// Of two contours with the wire on different sides of a wall that they share: true where the wire of each runs in the part of the other.
+/// That of an opening at the edge of its punch runs in waste, and so do those of two openings side by side.
+pub(super) fn takes_of_the_other(
+    outlook: Outlooks,
+    keys: [ContourKey; 2],
+    wire_side: &dyn Fn(ContourKey) -> Option<Side>,
+) -> bool {
+    // Whether it is a punch, and its area; `None` for an open one, which keeps what lies on the other side of the wire.
+    let of = |key: ContourKey| {
+        let (outlook, side) = (outlook(key)?, wire_side(key)?);
+        let twice_area = outlook.index.twice_area();
+        let closed = outlook.contour.closed;
+        Some(closed.then_some((side.sign() * twice_area < 0.0, twice_area.abs())))
+    };
+    let [Some(one), Some(other)] = keys.map(of) else {
+        return false;
+    };
+    match (one, other) {
+        (None, None) => true,
+        (Some((is_punch, _)), None) | (None, Some((is_punch, _))) => is_punch,
+        (Some((true, _)), Some((true, _))) => true,
+        (Some((false, _)), Some((false, _))) => false,
+        // One lies in the other: the part is the inner one where the punch is.
+        (Some((true, punch)), Some((false, opening)))
+        | (Some((false, opening)), Some((true, punch))) => punch < opening,
     }
 }
 

@@ -1,14 +1,18 @@
-//! Sides that contradict the nesting: a punch that is cut out of another punch.
+//! Sides that contradict the nesting: a punch that is cut out of another punch; and a nesting that is in doubt, since an outline lies so near
+//! another one everywhere that it may be a copy of it.
 
 use super::Analysis;
 use super::known::Known;
 use super::report::Report;
-use crate::drawing::{Contour, ContourKey, Drawing, winding};
+use crate::drawing::{Contour, ContourKey, Drawing, are_twins, twins, winding};
 use crate::finding::{Detail, Place, Rule, Severity, Side};
 use crate::settings::SideSetting;
 
 /// More contours than these are not compared at every edit.
 const MOST_CONTOURS: usize = 500;
+
+/// mm: no wire leaves a wall that is thinner than this everywhere, nor is an outline drawn again so badly that it is further off.
+const THIN: f64 = 0.1;
 
 impl Analysis {
     /// The first punch that lies within another one of its workpiece, and how many more there are. Nesting alone gives
@@ -31,6 +35,7 @@ impl Analysis {
             contour.closed.then_some((contour, known, is_punch))
         });
         let closed: Vec<(&Contour, &Known, bool)> = closed.collect();
+        let same_place = self.limits.tolerances.same_place;
         let within = |&(inner, known, is_punch): &(&Contour, &Known, bool)| {
             let first = inner.segment(drawing, 0).filter(|_| is_punch)?;
             let point = first.geometry.point_at(0.5);
@@ -41,6 +46,7 @@ impl Analysis {
                     && bounds != own
                     && bounds.merged(&own) == bounds
                     && winding(drawing, outer, point) != 0
+                    && !are_twins(drawing, (outer, &bounds), (inner, &own), same_place)
             };
             let area = |(_, known, _): &&(&Contour, &Known, bool)| known.index.twice_area().abs();
             let holder = closed.iter().filter(holds);
@@ -68,5 +74,65 @@ impl Analysis {
             Detail::Said(sentence),
             vec![Place::Entity { entity: outer }],
         );
+    }
+    /// Contours with sides by nesting that run beside another one everywhere, further off than what lies in one place and
+    /// nearer than the cut is wide: copies, or walls; the sides of all that lies within them depend on it.
+    pub(super) fn report_doubtful_nesting(
+        &self,
+        drawing: &Drawing,
+        ordered: &[ContourKey],
+        report: &mut Report,
+    ) {
+        if self.settings.side != SideSetting::Auto || report.is_for_a_path() {
+            return;
+        }
+        let same_place = self.limits.tolerances.same_place;
+        let thin = (2.0 * self.limits.correction).min(THIN / self.limits.unit_mm);
+        let all = ordered
+            .iter()
+            .filter_map(|key| Some((self.chains.get(*key)?, &**self.known.get(key)?)));
+        let all: Vec<(&Contour, &Known)> = all.collect();
+        let contours: Vec<_> = all
+            .iter()
+            .map(|(contour, known)| (*contour, known.index.bounds()))
+            .collect();
+        for [one, other] in twins(drawing, &contours, thin) {
+            let (Some(first), Some(second)) = (all.get(one), all.get(other)) else {
+                continue;
+            };
+            let is_wall = match (first.1.stated, second.1.stated) {
+                (Some(own), Some(theirs)) => own != theirs,
+                _ => false,
+            };
+            let is_copy = || {
+                let [own, met] = [first, second].map(|it| (it.0, it.1.index.bounds()));
+                are_twins(drawing, (own.0, &own.1), (met.0, &met.1), same_place)
+            };
+            let entity = |of: &Contour| of.pieces.first().map(|piece| piece.entity);
+            let (Some(own), Some(met)) = (entity(first.0), entity(second.0)) else {
+                continue;
+            };
+            if first.1.part != second.1.part || is_wall || is_copy() {
+                continue;
+            }
+            let severity = Some(Severity::Error);
+            if !report.counts(Rule::NarrowSlot, severity) {
+                continue;
+            }
+            let name = |of| drawing.get(of).map_or("", |entity| &entity.handle);
+            let sentence = say!(
+                an_outline_that_may_be_a_copy,
+                name(met),
+                name(own),
+                thin * self.limits.unit_mm
+            );
+            report.add(
+                Rule::NarrowSlot,
+                severity,
+                Place::Entity { entity: met },
+                Detail::Said(sentence),
+                vec![Place::Entity { entity: own }],
+            );
+        }
     }
 }

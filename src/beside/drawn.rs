@@ -112,7 +112,8 @@ impl Drawn {
         let Some(kept) = at.and_then(|at| self.sided.get(at)) else {
             return &self.outlines;
         };
-        kept.get_or_init(|| sided(&self.drawing, &self.outlines, sides))
+        let tolerance = self.settings.tolerances.same_place / self.unit_mm;
+        kept.get_or_init(|| sided(&self.drawing, &self.outlines, (sides, tolerance)))
     }
 
     /// Under which sides a program may have been written.

@@ -60,11 +60,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     output::write(arguments.output.as_deref(), made.program.text.as_bytes())?;
     // `wedm check` reports the drawing's findings; these are the program's.
     let of_program = |finding: &&Finding| {
-        matches!(finding.rule, Rule::Settings | Rule::LeadIn)
-            || matches!(
-                finding.detail,
-                Detail::OffsetCollapse { point: true, .. } | Detail::NoPartner { .. }
-            )
+        matches!(
+            finding.rule,
+            Rule::Settings | Rule::LeadIn | Rule::StartHole
+        ) || matches!(
+            finding.detail,
+            Detail::OffsetCollapse { point: true, .. } | Detail::NoPartner { .. }
+        )
     };
     let said: Vec<Finding> = made.warnings.iter().filter(of_program).cloned().collect();
     report::say(path, document, &said);

@@ -5,8 +5,8 @@ use super::options::{Common, Program};
 use super::output::{self, styled};
 use super::{Failure, Verdict, report};
 use crate::disk::ending_of;
+use crate::job;
 use crate::job::drill;
-use crate::{dxf, job};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -58,14 +58,16 @@ pub(super) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
                 return report::refuse(path, &opened.document, &refusal, advice);
             }
         };
-        count += planned.holes.len();
-        csv += &drill::rows(&path.to_string_lossy(), &snapshot, &planned.holes);
-        drawn = Some(drill::drawn(&snapshot, &planned.holes));
+        let holes = drill::drilled(planned.holes);
+        count += holes.len();
+        csv += &drill::rows(&path.to_string_lossy(), &snapshot, &holes);
+        if is_dxf {
+            let source = opened.document.source();
+            drawn = Some(drill::as_dxf(source, &snapshot, &holes).map_err(Failure)?);
+        }
     }
-    let bytes = match drawn.filter(|_| is_dxf) {
-        Some(drawing) => dxf::write(&drawing).map_err(Failure)?,
-        None => csv.into_bytes(),
-    };
+    let is_new = drawn.as_ref().is_some_and(|drawn| drawn.is_new);
+    let bytes = drawn.map_or_else(|| csv.into_bytes(), |drawn| drawn.bytes);
     output::write(arguments.output.as_deref(), &bytes)?;
     if let Some(target) = &arguments.output {
         output::say(&say!(
@@ -74,6 +76,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
             output::name(target),
             say!(holes, count)
         ));
+        if is_new {
+            output::say(say!(the_holes_are_in_a_new_drawing));
+        }
     }
     Ok(Verdict::of_errors(any_errors))
 }

@@ -160,7 +160,15 @@ pub(crate) fn refuse_programs(
     refusal: &Refusal,
 ) -> Result<Verdict, Failure> {
     let word = output::word(path);
-    let advice = |errors| say!(no_program_of_a_drawing_with, path.display(), errors, word);
+    let can_be_fixed = document.fix_all().is_some();
+    let advice = |errors| match can_be_fixed {
+        true => say!(no_program_of_a_drawing_with, path.display(), errors, word),
+        false => say!(
+            no_program_of_a_drawing_beyond_repair,
+            path.display(),
+            errors
+        ),
+    };
     refuse(path, document, refusal, advice)
 }
 

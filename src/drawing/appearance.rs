@@ -117,17 +117,25 @@ impl Drawing {
         visibility: Visibility,
         layer: &Arc<str>,
     ) -> bool {
-        let before = match visibility {
-            Visibility::Shown => self.unseen.remove(&id),
-            other => self.unseen.insert(id, (other, layer.clone())),
+        let now = (visibility != Visibility::Shown).then(|| (visibility, layer.clone()));
+        let before = match now.clone() {
+            None => self.unseen.remove(&id),
+            Some(now) => self.unseen.insert(id, now),
         };
-        before.map_or(Visibility::Shown, |(before, _)| before) != visibility
+        before != now
     }
 
     pub fn visibility(&self, id: EntityId) -> Visibility {
         self.unseen
             .get(&id)
             .map_or(Visibility::Shown, |(visibility, _)| *visibility)
+    }
+
+    /// The layer that hides an entity: its own, or that of the block reference that draws it. `None` for one that hides itself, and for
+    /// one that is seen.
+    pub(crate) fn hiding_layer(&self, id: EntityId) -> Option<&Arc<str>> {
+        let (visibility, layer) = self.unseen.get(&id)?;
+        matches!(visibility, Visibility::Off | Visibility::Frozen).then_some(layer)
     }
 
     /// Entities that are not simply shown, with the layer that decides it; in no order.

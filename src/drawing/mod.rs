@@ -21,6 +21,7 @@ mod names;
 mod nesting;
 mod outline;
 mod slots;
+mod twins;
 
 pub(crate) use appearance::{
     Appearance, Color, Linetype, Marks, SUPPRESS, Visibility, mark_of_layer,
@@ -41,6 +42,7 @@ pub use kind::Kind;
 pub(crate) use nesting::{nesting_depths, turns_about, winding, winding_of};
 pub use outline::Outline;
 pub(crate) use outline::wire_side;
+pub(crate) use twins::{are_twins, twins};
 
 use crate::geometry::{Segment, Tolerances};
 use names::Names;

@@ -1,27 +1,27 @@
 //! Which closed contours lie within which.
 
-use super::{Contour, ContourIndex, Drawing};
+use super::twins::{firsts, twins};
+use super::{Contour, Drawing};
 use crate::geometry::{Bounds, Grid, Point, Segment, cross, turn};
 use std::f64::consts::TAU;
 
 /// For each closed contour, the number of others that hold it: 0 for the outermost. Open contours have depth 0 and hold
-/// nothing.
+/// nothing. Each contour is given with its box.
 ///
-/// A contour lies within another when its first point does; where the two touch in just that point, either answer is
-/// possible. Costs the number of boxes about each first point, and of the segments of their
+/// One that lies within `tolerance` of another everywhere is the same outline drawn again: the two count once, and have
+/// one depth. A contour lies within another when its first point does; where the two touch in just that point, either
+/// answer is possible. Costs the number of boxes about each first point, and of the segments of their
 /// contours.
 pub(crate) fn nesting_depths(
     drawing: &Drawing,
-    contours: &[(&Contour, &ContourIndex)],
+    contours: &[(&Contour, Bounds)],
+    tolerance: f64,
 ) -> Vec<usize> {
     let boxes: Vec<Bounds> = contours
         .iter()
-        .map(|(contour, index)| {
-            if contour.closed {
-                index.bounds()
-            } else {
-                Bounds::EMPTY
-            }
+        .map(|(contour, bounds)| match contour.closed {
+            true => *bounds,
+            false => Bounds::EMPTY,
         })
         .collect();
     let mut grid = Grid::default();
@@ -29,6 +29,7 @@ pub(crate) fn nesting_depths(
         .iter()
         .enumerate()
         .for_each(|(position, &bounds)| grid.insert(position, bounds));
+    let firsts = firsts(contours.len(), &twins(drawing, contours, tolerance));
     let depth = |inner: usize| {
         let (contour, own) = (contours[inner].0, &boxes[inner]);
         let Some(first) = contour.segment(drawing, 0).filter(|_| contour.closed) else {
@@ -39,11 +40,15 @@ pub(crate) fn nesting_depths(
         grid.near(&Bounds::of_points(&[point]), |outer, _| {
             let theirs = &boxes[outer];
             let holds_box = theirs.merged(own) == *theirs && theirs != own;
-            depth += usize::from(holds_box && winding(drawing, contours[outer].0, point) != 0);
+            let is_drawn_again = firsts[outer] != outer || outer == firsts[inner];
+            depth += usize::from(
+                holds_box && !is_drawn_again && winding(drawing, contours[outer].0, point) != 0,
+            );
         });
         depth
     };
-    (0..contours.len()).map(depth).collect()
+    let depths: Vec<usize> = (0..contours.len()).map(depth).collect();
+    firsts.into_iter().map(|first| depths[first]).collect()
 }
 
 /// The winding number of a closed contour about `point`, positive counter-clockwise; undefined on the contour itself.

@@ -46,7 +46,10 @@ impl Inherited {
             layer: layer.clone(),
             color,
             linetype: stroke(&insert.appearance.stroke, around_linetype, layer, states),
-            hidden: around_hidden.or(own),
+            hidden: match own {
+                Some((Visibility::Invisible, _)) => own,
+                _ => around_hidden.or(own),
+            },
         }
     }
 
@@ -58,8 +61,8 @@ impl Inherited {
         states: &mut LayerStates,
     ) -> ((Visibility, Arc<str>), Option<Color>, Option<Linetype>) {
         let visibility = match &self.hidden {
+            _ if appearance.invisible => (Visibility::Invisible, layer.clone()),
             Some(hidden) => hidden.clone(),
-            None if appearance.invisible => (Visibility::Invisible, layer.clone()),
             None => (states.of(layer), layer.clone()),
         };
         let color = match appearance.paint {

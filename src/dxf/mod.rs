@@ -6,6 +6,7 @@
 //! Invariant: after any sequence of edits a document equals a fresh reading of its text, except for its entity ids.
 
 mod ahead;
+mod append;
 mod binary;
 mod blocks;
 mod change;
@@ -52,6 +53,7 @@ use crate::drawing::{Drawing, EntityId, Unit};
 use crate::finding::{Detail, Finding, Place, Rule, Severity};
 use crate::geometry::Tolerances;
 use crate::text::{Again, SourceText};
+pub(crate) use append::Added;
 use blocks::Blocks;
 use code_page::CodePage;
 use layer_table::LayerStates;

@@ -35,10 +35,14 @@ told! {
                 say!(sharp_corners_that_the_wire_runs_inside, count, radius, telling.tool())
             }
         };
-    /// Facing walls are `width` apart, the wire needs `required`.
+    /// Facing walls are `width` apart, the wire needs `required`. Those of two parts may lie on one another: 0.
     NarrowSlot { width: f64, required: f64 } => {
+        let is_without_room = *width == 0.0;
         let (width, required) = told_apart(width * telling.unit_mm, required * telling.unit_mm);
-        say!(the_slot_is_too_narrow, width, required, telling.tool())
+        match is_without_room {
+            true => say!(walls_lie_on_one_another, telling.tool(), required),
+            false => say!(the_slot_is_too_narrow, width, required, telling.tool())
+        }
     };
     /// The offset loses a part of the outline, near a point.
     LostPocket { near: Point } => say!(the_offset_loses_this_part_of_the_outline, telling.tool());

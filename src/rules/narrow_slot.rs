@@ -4,11 +4,14 @@
 //! walls from opposite sides, holds no other part of the outlines, and could only grow by moving along the slot. A
 //! corner is not a slot: between its walls the disc can always shrink. The mouth of a run of arcs below the correction
 //! is left to `small-radius`.
+//!
+//! Walls of two contours that lie on one another leave no room at all. Whether the wire of one then runs in the part of the other depends on
+//! both contours: that is decided where the sides are known.
 
 use super::wall::{Corner, Joints, Wall, side_of};
 use super::{Limits, NEIGHBOURS, PairObservation, PairRule, small_radius};
 use crate::finding::{Detail, Rule, Side};
-use crate::geometry::{Point, Segment, curvature, facing, foot_inside};
+use crate::geometry::{Point, Segment, curvature, facing, foot_inside, shared_length};
 
 pub(crate) const RULE: PairRule = PairRule {
     rule: Rule::NarrowSlot,
@@ -22,13 +25,31 @@ pub(crate) const RULE: PairRule = PairRule {
                 ..PairObservation::default()
             }
         };
-        narrowest(one, other, same_contour)
-            .map(observation)
-            .into_iter()
-            .collect()
+        let slot = narrowest(one, other, same_contour).map(observation);
+        let without_room = match same_contour {
+            true => None,
+            false => sides_without_room(one, other),
+        };
+        let all = without_room.into_iter().flatten();
+        let sides = all.map(|(own, theirs)| (Some(own), Some(theirs)));
+        let is_seen = |sides: &(Option<Side>, Option<Side>)| {
+            slot.is_some_and(|slot: PairObservation| slot.sides == *sides)
+        };
+        let without_room = sides
+            .filter(|sides| !is_seen(sides))
+            .map(|sides| PairObservation {
+                sides,
+                ..PairObservation::default()
+            });
+        slot.into_iter().chain(without_room).collect()
     },
     detail: |one, other, same_contour| {
-        let Slot { width, .. } = narrowest(one, other, same_contour)?;
+        let slot = narrowest(one, other, same_contour);
+        let width = match (slot, same_contour) {
+            (Some(slot), _) => slot.width,
+            (None, true) => return None,
+            (None, false) => sides_without_room(one, other).map(|_| 0.0)?,
+        };
         Some(Detail::NarrowSlot {
             width,
             required: 2.0 * one.outlook.limits.correction,
@@ -46,6 +67,23 @@ struct Slot {
     to: Point,
     width: f64,
     sides: (Option<Side>, Option<Side>),
+}
+
+/// The sides of travel on which two wires run on different sides of walls that lie on one another, one way and the other. `None` where the
+/// two do not.
+fn sides_without_room(one: &Wall, other: &Wall) -> Option<[(Side, Side); 2]> {
+    let tolerances = &one.outlook.limits.tolerances;
+    let (a, b) = (one.geometry(), other.geometry());
+    let run_alike = match (a, b) {
+        (Segment::Line(a), Segment::Line(b)) => a.direction().dot(&b.direction()) > 0.0,
+        (Segment::Arc(a), Segment::Arc(b)) => a.sweep * b.sweep > 0.0,
+        _ => return None,
+    };
+    let shared = shared_length(a, b, tolerances.same_place);
+    (shared > tolerances.same_place.max(tolerances.resolution)).then_some(match run_alike {
+        true => [(Side::Left, Side::Right), (Side::Right, Side::Left)],
+        false => [(Side::Left, Side::Left), (Side::Right, Side::Right)],
+    })
 }
 
 /// The narrowest place between two segments that is a local minimum of the width.

@@ -1,5 +1,6 @@
 //! Settings with every default filled in.
 
+use super::by_name::ByName;
 use super::{
     Budget, Compensation, ContourSettings, Corner, Direction, JobSettings, Jumps, Layout, Lead,
     LengthSetting, MillingSettings, Order, PairSettings, Passes, PointSetting, Profile,
@@ -29,7 +30,7 @@ pub struct Effective {
     /// Set by the user.
     pub states_unit: bool,
     pub margin: f64,
-    pub layers: BTreeMap<String, Role>,
+    pub layers: ByName<Role>,
     /// Roles by linetype, in upper case.
     pub linetypes: BTreeMap<String, Role>,
     /// The name of the document's file.
@@ -175,7 +176,13 @@ impl Effective {
                 UnitSetting::Inch => Unit::INCH,
             },
             margin: settings.margin(),
-            layers: settings.layers.clone().unwrap_or_default(),
+            layers: ByName::of(
+                settings
+                    .layers
+                    .iter()
+                    .flatten()
+                    .map(|(name, role)| (name, *role)),
+            ),
             document: None,
             suppressed: BTreeMap::new(),
             linetypes: settings

@@ -3,6 +3,7 @@
 //! Each level holds only what somebody set. Keys are camelCase in JSON and kebab-case in `wedm.toml`.
 
 mod budget;
+mod by_name;
 #[macro_use]
 mod table;
 mod choices;

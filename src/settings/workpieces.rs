@@ -1,14 +1,14 @@
 //! Which part is drawn on which layers.
 
 use super::Settings;
-use std::collections::BTreeMap;
+use super::by_name::ByName;
 
 /// Parts by the layers they are drawn on.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Workpieces {
     /// In the order of their names.
     names: Vec<String>,
-    by_layer: BTreeMap<String, u16>,
+    by_layer: ByName<u16>,
 }
 
 impl Workpieces {
@@ -18,7 +18,7 @@ impl Workpieces {
             workpieces.names.push(name.clone());
             let number = u16::try_from(workpieces.names.len()).unwrap_or(u16::MAX);
             for layer in layers {
-                workpieces.by_layer.entry(layer.clone()).or_insert(number);
+                workpieces.by_layer.add(layer, number);
             }
         }
         workpieces
@@ -34,7 +34,7 @@ impl Workpieces {
 
     /// The number of the part that a layer belongs to, from 1; 0 for none.
     pub(crate) fn of_layer(&self, layer: &str) -> u16 {
-        self.by_layer.get(layer).copied().unwrap_or(0)
+        self.by_layer.get(layer).unwrap_or(0)
     }
 
     /// The name of a part by its number.

@@ -6,9 +6,9 @@ use super::job::Job;
 use super::leads::{Contours, HOLE_CLEAR, finding};
 use super::order::{self, name};
 use super::requested::{Requested, wanted};
-use crate::drawing::{Drawing, Outline, winding};
+use crate::drawing::{Drawing, Outline, are_twins, winding};
 use crate::finding::{Finding, Place, Rule, Severity};
-use crate::geometry::{Point, Vector};
+use crate::geometry::{Bounds, Point, Vector};
 use crate::settings::{Compensation, Effective, Order};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -29,6 +29,8 @@ pub struct StartHole {
     pub at: Point,
     /// By the settings or by a mark; else it was found.
     pub is_given: bool,
+    /// It was found, and cuts into a contour: there is no place for one of the set diameter.
+    pub cuts: bool,
 }
 
 /// The faults of the start holes of the set diameter: of given ones, and of openings without room for one.
@@ -76,10 +78,15 @@ impl Job<'_> {
                 faults.extend(self.hole_fault(at, reach, &contours));
                 given.push((at, index));
             } else if self.has_waste_inside(index)
-                && let Some((_, depth)) = self.deepest(index, &contours, reach)
+                && let Some((at, depth)) = self.deepest(index, &contours, reach)
                 && depth < reach - self.units(1e-6)
             {
-                faults.extend(self.no_room(index, depth));
+                // One that is only too near is proposed all the same.
+                let found = match self.cuts(depth) {
+                    true => self.no_room(index, depth),
+                    false => self.hole_fault(at, reach, &contours),
+                };
+                faults.extend(found);
             }
         }
         faults.extend(self.holes_that_meet(given));
@@ -150,7 +157,22 @@ impl Job<'_> {
         };
         let first = outline.contour.segment(self.drawing, 0);
         let place = first.as_ref().map(Place::from);
-        self.hole_finding(place, depth < diameter / 2.0, sentence)
+        self.hole_finding(place, true, sentence)
+    }
+
+    /// True for a hole that is so far from a contour, drawing units, that it cuts into it.
+    fn cuts(&self, away: f64) -> bool {
+        let diameter = self.settings.start_hole.unwrap_or_default();
+        away * self.unit_mm < diameter / 2.0 - 1e-6
+    }
+
+    /// A hole that was found, and cuts into a contour, which [`hole_faults`] says.
+    pub(super) fn finds_no_room(&self, at: Point, contours: &Contours) -> bool {
+        let is_told = self.settings.severity(Rule::StartHole).is_some();
+        let reach = self
+            .hole_reach()
+            .filter(|_| is_told && !self.settings.mills);
+        reach.is_some_and(|reach| self.cuts(contours.walls().distance_to(at, reach)))
     }
 
     /// Holes that run into each other, unless they are the same.
@@ -191,19 +213,27 @@ impl Job<'_> {
         faults
     }
 
-    /// True where a start hole keeps its distance from every contour, and runs into none of the others; always where
+    /// True where a start hole keeps its distance from every contour, and from the others; always where
     /// none is drilled.
     pub(super) fn has_room(&self, at: Point, contours: &Contours, others: &[Point]) -> bool {
         let Some(reach) = self.hole_reach() else {
             return true;
         };
-        let diameter = self.units(self.settings.start_hole.unwrap_or_default());
         let rounding = self.units(1e-6);
-        contours.walls().nearer(at, reach - rounding).is_none()
-            && others.iter().all(|other| {
-                let apart = (other - at).norm();
-                apart <= rounding || apart >= diameter
-            })
+        contours.walls().nearer(at, reach - rounding).is_none() && self.is_apart(at, others)
+    }
+
+    /// True where a start hole leaves a web beside each of the others, or is the same hole; always where none is drilled.
+    pub(super) fn is_apart(&self, at: Point, others: &[Point]) -> bool {
+        if self.hole_reach().is_none() {
+            return true;
+        }
+        let diameter = self.settings.start_hole.unwrap_or_default();
+        let (rounding, least) = (self.units(1e-6), self.units(diameter + HOLE_CLEAR));
+        others.iter().all(|other| {
+            let apart = (other - at).norm();
+            apart <= rounding || apart >= least - rounding
+        })
     }
 
     /// The point of an opening that is furthest from every contour, and its distance; `enough` will do. `None` where it
@@ -214,8 +244,26 @@ impl Job<'_> {
         contours: &Contours,
         enough: f64,
     ) -> Option<(Point, f64)> {
+        self.deepest_beside(index, contours, enough, &[])
+    }
+
+    /// The same for a start hole that is to keep apart from others: where one has no room beside these, the distance is below what a
+    /// hole needs.
+    pub(super) fn deepest_beside(
+        &self,
+        index: usize,
+        contours: &Contours,
+        enough: f64,
+        others: &[Point],
+    ) -> Option<(Point, f64)> {
         let own = &self.outlines[index];
         let bounds = own.contour.bounds(self.drawing);
+        // The same outline, drawn again.
+        let is_twin = |other: &Outline, about: &Bounds| {
+            let tolerance = self.units(self.settings.tolerances.same_place);
+            let (own, other) = ((&own.contour, &bounds), (&other.contour, about));
+            are_twins(self.drawing, own, other, tolerance)
+        };
         let lies_within = |other: &&Outline| {
             let about = other.contour.bounds(self.drawing);
             about != bounds
@@ -228,12 +276,16 @@ impl Job<'_> {
                 && other.contour.segment(self.drawing, 0).is_some_and(|first| {
                     winding(self.drawing, &own.contour, first.geometry.point_at(0.5)) != 0
                 })
+                && !is_twin(other, &about)
         };
         let region = Region {
             drawing: self.drawing,
             own,
             islands: self.outlines.iter().filter(lies_within).collect(),
             walls: contours.walls(),
+            others,
+            nearer: self.units(self.settings.start_hole.unwrap_or_default() + HOLE_CLEAR)
+                - self.hole_reach().unwrap_or_default(),
         };
         let half = bounds.width().max(bounds.height()) / 2.0;
         if !half.is_finite() || half <= 0.0 {
@@ -253,6 +305,9 @@ struct Region<'a> {
     own: &'a Outline,
     islands: Vec<&'a Outline>,
     walls: &'a Walls,
+    /// Holes to keep apart from, and by how much more than from a wall, drawing units.
+    others: &'a [Point],
+    nearer: f64,
 }
 
 impl Region<'_> {
@@ -267,10 +322,14 @@ impl Region<'_> {
         let square = |center: Point, half: f64, inside: Option<bool>| {
             let away = self.walls.distance_to(center, half);
             let inside = inside.unwrap_or_else(|| self.holds(center));
+            let walls = if inside { away } else { -away };
+            let of_others = self.others.iter();
+            let apart = of_others.map(|other| (other - center).norm() - self.nearer);
             Square {
                 center,
                 half,
-                depth: if inside { away } else { -away },
+                walls,
+                depth: apart.fold(walls, f64::min),
             }
         };
         let first = square(middle, half, None);
@@ -284,7 +343,7 @@ impl Region<'_> {
             }
             let half = parent.half / 2.0;
             // No wall comes between the middle of a square and those of its quarters that is further away than these.
-            let inside = (parent.depth.abs() > half * SQRT_2).then_some(parent.depth > 0.0);
+            let inside = (parent.walls.abs() > half * SQRT_2).then_some(parent.walls > 0.0);
             for (x, y) in [(-half, -half), (half, -half), (-half, half), (half, half)] {
                 let quarter = square(parent.center + Vector::new(x, y), half, inside);
                 if quarter.depth > best.1 + within * 1e-3 {
@@ -299,10 +358,12 @@ impl Region<'_> {
     }
 }
 
-/// A square of a region, by its middle. `depth` is how far that is from the walls, below 0 outside.
+/// A square of a region, by its middle. `walls` is how far that is from the walls, below 0 outside; `depth` is less where another hole is
+/// nearer.
 struct Square {
     center: Point,
     half: f64,
+    walls: f64,
     depth: f64,
 }
 

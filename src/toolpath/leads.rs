@@ -352,6 +352,8 @@ pub(super) struct Threading<'a> {
     pub reach: Option<f64>,
     /// True where a start hole has room.
     pub(crate) has_room: &'a dyn Fn(Point) -> bool,
+    /// True where it keeps apart from those of the other contours.
+    pub(crate) is_apart: &'a dyn Fn(Point) -> bool,
 }
 
 /// The thread hole for a lead to a landing, the point of the path that belongs to `entry`. The landing itself where there is no lead.
@@ -389,7 +391,7 @@ pub(super) fn thread_hole(
         if (center - begin).norm() <= 1e-6 / unit_mm {
             return Ok(begin);
         }
-        if clear(center).is_ok() {
+        if (threading.is_apart)(center) && clear(center).is_ok() {
             return Ok(center);
         }
     }
@@ -429,6 +431,7 @@ pub(super) fn thread_hole(
     }
     if threading.reach.is_some()
         && let Some(deepest) = (threading.last)()
+        && (threading.is_apart)(deepest)
         && clear(deepest).is_ok()
     {
         return Ok(deepest);

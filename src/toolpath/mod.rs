@@ -185,6 +185,7 @@ pub(crate) fn plan_while(
             outline: path.outline,
             at: path.thread_hole,
             is_given: settings.thread.is_some(),
+            cuts: false,
         };
         return Ok(Planned {
             paths: vec![path],
@@ -230,10 +231,14 @@ pub(crate) fn plan_while(
             .zip(&wanted)
             .map(|(&outline, wanted)| (outline, wanted.thread.is_some()))
             .collect();
-        let hole = |path: &WirePath| StartHole {
-            outline: path.outline,
-            at: path.thread_hole,
-            is_given: is_given.get(&path.outline) == Some(&true),
+        let hole = |path: &WirePath| {
+            let is_given = is_given.get(&path.outline) == Some(&true);
+            StartHole {
+                outline: path.outline,
+                at: path.thread_hole,
+                is_given,
+                cuts: !is_given && job.finds_no_room(path.thread_hole, &contours),
+            }
         };
         // An electrode comes from above.
         let firsts = paths

@@ -98,8 +98,17 @@ impl Job<'_> {
             None
         };
         let first: Vec<Point> = center.into_iter().chain(wanted.proposed).collect();
+        let is_apart = |at: Point| self.is_apart(at, holes);
         let deepest = || {
             let (at, _) = self.deepest(unled.outline, contours, f64::INFINITY)?;
+            let at = match is_apart(at) {
+                true => at,
+                false => {
+                    let reach = self.hole_reach()?;
+                    let beside = self.deepest_beside(unled.outline, contours, reach, holes);
+                    beside.filter(|(_, depth)| *depth >= reach)?.0
+                }
+            };
             is_opening.then_some(at)
         };
         let has_room = |at: Point| self.has_room(at, contours, holes);
@@ -108,6 +117,7 @@ impl Job<'_> {
             last: &deepest,
             reach: self.hole_reach(),
             has_room: &has_room,
+            is_apart: &is_apart,
         };
         let thread = if let Some(stand) = stand {
             stand.begin

@@ -3,6 +3,7 @@
 mod corners;
 mod doubles;
 mod ends;
+mod sides;
 mod whole;
 
 use std::sync::Arc;

@@ -111,6 +111,19 @@ fn what_is_not_seen_is_not_cut_and_said_once_for_each_layer() {
         &[(Invisible, false)],
         &[r#"information at "LINE": 1 entity is invisible (group code 60): not cut"#],
     );
+    // Nor where its layer has a role.
+    check(
+        &line("8 A 60 1"),
+        "[layers]\nA = \"opening\"",
+        &[(Invisible, false)],
+        &[r#"information at "LINE": 1 entity is invisible (group code 60): not cut"#],
+    );
+    check(
+        &line("8 COLD 60 1"),
+        "[layers]\nCOLD = \"opening\"",
+        &[(Invisible, false)],
+        &[r#"information at "LINE": 1 entity is invisible (group code 60): not cut"#],
+    );
     // A text is not cut anyway.
     check("0 TEXT 8 COLD 10 1 20 1 1 X", "", &[(Frozen, false)], &[]);
 }
@@ -134,9 +147,32 @@ fn a_frozen_reference_hides_all_and_one_that_is_off_what_lies_on_its_layer() {
     check(
         "0 INSERT 8 COLD 2 B 10 0 20 0",
         "",
-        &[(Frozen, false); 4],
-        &[&FROZEN.replace("1 entity on it is", "4 entities on it are")],
+        &[
+            (Frozen, false),
+            (Frozen, false),
+            (Frozen, false),
+            (Invisible, false),
+        ],
+        &[
+            &FROZEN.replace("1 entity on it is", "3 entities on it are"),
+            invisible,
+        ],
     );
+    // A role of the layer of the reference brings back what lies on it, one of another layer nothing.
+    for (role, is_cut) in [("COLD", true), ("X", false)] {
+        let frozen = FROZEN.replace("1 entity on it is", "3 entities on it are");
+        check(
+            "0 INSERT 8 COLD 2 B 10 0 20 0",
+            &format!("[layers]\n{role} = \"punch\""),
+            &[
+                (Frozen, is_cut),
+                (Frozen, false),
+                (Frozen, false),
+                (Invisible, false),
+            ],
+            &[&*frozen, invisible],
+        );
+    }
     let two = of_part.replace("1 entity on it is", "2 entities on it are");
     check(
         "0 INSERT 8 DARK 2 B 10 0 20 0",
@@ -187,6 +223,8 @@ fn colours_are_those_of_the_entity_its_block_or_its_layer() {
         "xxxxxx-x-"
     );
     assert_eq!(roles("[colors]\nwhite = \"punch\""), "xxxxxx-x-");
+    // Case does not matter in the name of a layer.
+    assert_eq!(roles("[layers]\nLOCKED = \"ignore\""), "---xxx-x-");
     // A handle comes before layer and colour, and does not bring back an invisible entity.
     assert_eq!(
         roles("[contours]\nB = \"ignore\"\nF = \"punch\"\n[layers]\nLocked = \"punch\""),

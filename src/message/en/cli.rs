@@ -5,6 +5,7 @@ declare! {
     more_errors_than_before => "the repaired text has more errors than before; nothing is written";
     no_program_is_written => "no program is written";
     no_program_of_a_drawing_with(path, errors, word) => "{path}: no program is written, the drawing has {errors}; repair it (wedm fix {word} --in-place), or insist with --force";
+    no_program_of_a_drawing_beyond_repair(path, errors) => "{path}: no program is written, the drawing has {errors}; repair it in CAD or change the settings, or insist with --force";
     nothing_of_a_program_with(path, errors) => "{path}: nothing is written, the program has {errors}; repair them, or insist with --force";
     a_drawing_where_a_program_is_expected => "it is a drawing, expected a program: wedm generate makes one from it";
     nothing_is_made_with_such_settings => "nothing is made with settings that do not fit, see above";
@@ -170,6 +171,7 @@ declare! {
     holes_of_several_drawings_are_csv(count) => "the holes of {count} drawings are written as .csv; a .dxf holds those of one";
     holes_that_are_not_written(ending) => "holes are written as .csv or .dxf, not as .{ending}";
     no_holes_of_a_drawing_with(path, errors) => "{path}: no holes are listed for a drawing with {errors}";
+    the_holes_are_in_a_new_drawing => "the input is no DXF text: this is a new drawing with new handles; what is not cut, such as hatches and dimensions, is not in it, and ellipses and splines are arcs";
     the_holes_are_written(heading, target, holes) => "{heading} {target}: {holes}";
     upper_end_at(x, y) => "upper end {x:.3}, {y:.3}";
     the_cut_takes(length, minutes, cost) => "cut: {length:.3} mm in {minutes:.2} min{cost}";

@@ -80,6 +80,7 @@ declare! {
     a_sharp_corner_that_the_wire_runs_inside(turn, radius, tool) => "sharp corner of {turn:.1}°: where {tool} runs inside of it, it is left with R {radius} mm";
     sharp_corners_that_the_wire_runs_inside(count, radius, tool) => "{count} sharp corners: those that {tool} runs inside of are left with R {radius} mm";
     the_slot_is_too_narrow(width, required, tool) => "slot is {width} mm wide, {tool} needs {required} mm: it cannot pass without cutting the walls";
+    walls_lie_on_one_another(tool, required) => "two parts share this wall, with no room between them: {tool} needs {required} mm and cuts into the other part";
     the_offset_loses_this_part_of_the_outline(tool) => "the offset loses this part of the outline: {tool} does not reach it";
     the_wire_does_not_reach_this_part_of_the_outline(uncut, tool) => "{tool} does not reach this part of the outline: {uncut} mm stay uncut";
     a_point_is_left_of_the_outline(required, tool) => "at a correction of {required} mm a point is left of the outline: {tool} is threaded there and cuts nothing more";

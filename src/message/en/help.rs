@@ -63,7 +63,7 @@ Exit codes: 0 no error found, 1 errors in the drawing, 2 could not read, or wron
     ("fit output", "Write the picture there, as .svg, .png or .pdf"),
     ("fit format", "Form of the output"),
     ("holes", "List the start holes for the drill, as CSV or on a layer of a DXF"),
-    ("holes/", "One row a hole: the drawing, x and y in mm, the diameter in mm if --start-hole or the settings give it, the contour that is cut from it, and whether the hole was given or found. A hole without room is reported on stderr, and the command ends with 1."),
+    ("holes/", "One row a hole: the drawing, x and y in mm, the diameter in mm if --start-hole or the settings give it, the contour that is cut from it, and whether the hole was given or found. A hole that would cut into a contour is reported on stderr; one that was found is not listed, and the command ends with 1. One that is only too near to a contour or to another hole is listed, with a warning."),
     ("holes paths", "The drawings"),
     ("holes output", "Write the list there, as .csv or .dxf [default: CSV to stdout]"),
     ("inspect", "List every segment with its radius and its verdict"),

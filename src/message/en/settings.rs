@@ -53,6 +53,7 @@ declare! {
     a_limit_needs_a_tab(key) => "{key} has no effect without program.tab: expected the length, mm, that an opening with a heavier slug leaves standing";
     a_punch_within_a_punch(inner, outer, others) => "contour {inner} is a punch within the punch {outer}{others}: the wire would cut into that part; make it an opening, or draw it in a workpiece of its own";
     and_more_punches(more) => ", and so are {more} more";
+    an_outline_that_may_be_a_copy(copy, outline, thin) => "outline {copy} runs within {thin:.3} mm of outline {outline} everywhere: as a copy of it, it is to be deleted; as a wall so thin, both are to be given their roles; the sides of all that lies within them depend on it";
     a_layer_above_the_depth(key, layer, depth) => "{key} is {layer}, expected at most milling.depth {depth}";
     too_many_layers(key, layer, layers, most) => "{key} is {layer}, which makes {layers:.0} layers of milling.depth, expected at most {most}";
     the_file_has_too_many_bytes(bytes, most) => "the file has {bytes} bytes, expected at most {most}: none of it applies";

@@ -5,6 +5,7 @@ translate! {
     more_errors_than_before => "修复后错误反而更多；未写入任何文件";
     no_program_is_written => "未写出程序";
     no_program_of_a_drawing_with(path, errors, word) => "{path}：图形有 {errors}，不写出程序；请先修复（wedm fix {word} --in-place），或加 --force 强制写出";
+    no_program_of_a_drawing_beyond_repair(path, errors) => "{path}：图形有 {errors}，不写出程序；请在 CAD 中修正或更改设置，或加 --force 强制写出";
     nothing_of_a_program_with(path, errors) => "{path}：程序有 {errors}，不写出任何文件；请先修复，或加 --force 强制写出";
     a_drawing_where_a_program_is_expected => "这是图形，此处要程序：用 wedm generate 由它生成程序";
     nothing_is_made_with_such_settings => "设置不合适，未写出任何文件，见上文";
@@ -170,6 +171,7 @@ translate! {
     holes_of_several_drawings_are_csv(count) => "{count} 张图的穿丝孔写为 .csv；一个 .dxf 只放一张图的";
     holes_that_are_not_written(ending) => "穿丝孔写为 .csv 或 .dxf，不写 .{ending}";
     no_holes_of_a_drawing_with(path, errors) => "{path}：图形有{errors}，不列出穿丝孔";
+    the_holes_are_in_a_new_drawing => "输入不是 DXF 文本：写出的是新图形，句柄也是新的；填充、标注等不切割的内容不在其中，椭圆和样条成为圆弧";
     the_holes_are_written(heading, target, holes) => "{heading} {target}：{holes}";
     upper_end_at(x, y) => "上端 {x:.3}, {y:.3}";
     the_cut_takes(length, minutes, cost) => "切割：{length:.3} mm，{minutes:.2} min{cost}";

@@ -80,6 +80,7 @@ translate! {
     a_sharp_corner_that_the_wire_runs_inside(turn, radius, tool) => "{turn:.1}° 的尖角：{tool}在内侧走时，会留下 R {radius} mm 的圆角";
     sharp_corners_that_the_wire_runs_inside(count, radius, tool) => "{count} 处尖角：{tool}在内侧走的会留下 R {radius} mm 的圆角";
     the_slot_is_too_narrow(width, required, tool) => "槽宽 {width} mm，{tool}需要 {required} mm：通过时必然切到槽壁";
+    walls_lie_on_one_another(tool, required) => "两个工件共用这道壁，其间没有空隙：{tool}需要 {required} mm，会切入另一个工件";
     the_offset_loses_this_part_of_the_outline(tool) => "偏移后丢失这部分轮廓：{tool}到不了";
     the_wire_does_not_reach_this_part_of_the_outline(uncut, tool) => "{tool}到不了这部分轮廓：{uncut} mm 未切到";
     a_point_is_left_of_the_outline(required, tool) => "按补偿量 {required} mm，轮廓只剩一点：{tool}穿在那里，什么也切不到";

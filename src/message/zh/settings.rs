@@ -53,6 +53,7 @@ translate! {
     a_limit_needs_a_tab(key) => "没有 program.tab，{key} 不起作用：应设废料更重的型孔暂留段的长度，mm";
     a_punch_within_a_punch(inner, outer, others) => "轮廓 {inner} 是凸模，却在凸模 {outer} 之内{others}：丝会切入那个工件；应作为型孔，或画在另一个工件中";
     and_more_punches(more) => "，这样的还有 {more} 个";
+    an_outline_that_may_be_a_copy(copy, outline, thin) => "轮廓 {copy} 处处与轮廓 {outline} 相距不到 {thin:.3} mm：若是重复绘制，应删去；若真是这样薄的壁，应给两者都指定角色；其内所有轮廓的加工侧都取决于此";
     a_layer_above_the_depth(key, layer, depth) => "{key} 是 {layer}，最多应为 milling.depth {depth}";
     too_many_layers(key, layer, layers, most) => "{key} 是 {layer}，milling.depth 要分 {layers:.0} 层，最多允许 {most} 层";
     the_file_has_too_many_bytes(bytes, most) => "文件有 {bytes} 字节，最多允许 {most}：整个文件无效";

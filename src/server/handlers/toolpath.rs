@@ -1,7 +1,6 @@
 //! `wedm/toolpath`: the path of the wire's centre; `wedm/holes`: the thread holes as a file for the drill.
 
 use super::Task;
-use crate::dxf;
 use crate::job::drill;
 use crate::protocol::{Exported, HoleForm, Holes, OptionsOf, Toolpath};
 use crate::server::config::name_of;
@@ -24,9 +23,13 @@ pub(in crate::server) fn toolpath(context: &RequestContext, _: OptionsOf) -> Res
 pub(in crate::server) fn holes(context: &RequestContext, asked: Holes) -> Result<Exported> {
     let task = Task::of(context)?;
     let planned = task.planned(context)?;
-    let (snapshot, holes) = (&task.snapshot, &planned.holes);
+    let (snapshot, holes) = (&task.snapshot, &drill::drilled(planned.holes));
     let bytes = match asked.format {
-        HoleForm::Dxf => dxf::write(&drill::drawn(snapshot, holes)).map_err(internal)?,
+        HoleForm::Dxf => {
+            let source = task.subject.source();
+            let drawn = drill::as_dxf(source, snapshot, holes);
+            drawn.map_err(internal)?.bytes
+        }
         HoleForm::Csv => {
             let name = name_of(&asked.uri).unwrap_or(asked.uri);
             [drill::HEAD, &drill::rows(&name, snapshot, holes)]
