@@ -172,8 +172,8 @@ struct Suspect<'a> {
     numbers: Vec<OnceCell<Option<u32>>>,
     /// The cut before it has missed the place where this one should begin.
     begins_astray: bool,
-    /// A line stands twice: one between them may be lost.
-    has_twins: bool,
+    /// A line may be lost: between two that are alike, or before an arc with which the cut begins.
+    may_lack_a_line: bool,
 }
 
 impl Contour for Suspect<'_> {
@@ -181,7 +181,7 @@ impl Contour for Suspect<'_> {
     /// All moves.
     type Lead = Vec<Move>;
 
-    const CLEARLY: f64 = 1.5;
+    const CLEARLY: f64 = 2.1;
 
     fn finalists(&self) -> usize {
         64
@@ -252,7 +252,7 @@ impl Contour for Suspect<'_> {
         let is_a_slip = match change {
             Change::Delete { index } => self.is_twice(*index),
             Change::Insert { .. } => false,
-            Change::Replace { meant, .. } => !meant.is_calculated && !self.has_twins,
+            Change::Replace { meant, .. } => !meant.is_calculated && !self.may_lack_a_line,
             Change::Exchange { .. } => true,
         };
         let (plainness, speaks) = match change {
@@ -268,7 +268,7 @@ impl Contour for Suspect<'_> {
             Change::Delete { index } if self.is_twice(*index) => (Plainness::Slip, -3.0),
             Change::Delete { .. } => (Plainness::Calculated, 0.0),
             Change::Exchange { .. } => (Plainness::Slip, 0.0),
-            Change::Insert { .. } => (Plainness::Slip, 1.5),
+            Change::Insert { .. } => (Plainness::Slip, Self::CLEARLY),
         };
         // What is calculated comes behind what may have been written.
         let later = match change {
@@ -344,7 +344,7 @@ impl<'a> Suspect<'a> {
             .collect();
         order.sort_by_key(apart);
         let mut suspect = Suspect {
-            has_twins: false,
+            may_lack_a_line: false,
             document,
             total: way.total(),
             begins_astray: begins_astray(document, &lines),
@@ -354,7 +354,10 @@ impl<'a> Suspect<'a> {
             pool,
             order,
         };
-        suspect.has_twins = (0..suspect.lines.len()).any(|index| suspect.is_twice(index));
+        let mut indices = 0..suspect.lines.len();
+        let has_twins = indices.clone().any(|index| suspect.is_twice(index));
+        let first = indices.find_map(|index| suspect.made(index));
+        suspect.may_lack_a_line = has_twins || first.is_some_and(|made| made.is_arc());
         suspect
     }
 

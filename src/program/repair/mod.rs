@@ -8,12 +8,16 @@ pub(super) mod search;
 
 use crate::finding::{FixKind, TextFix};
 use crate::geometry::Segment;
-use crate::program::path::crossings_of;
+use crate::program::path::{FEWEST_CROSSING, crossings_of};
 use crate::text::TextEdit;
 
 /// Whether a way crosses itself; `None` where more than the pieces `left` would be read to find out. What is read is
 /// taken from them.
 pub(super) fn crosses_itself(pieces: &[Segment], arcs: usize, left: &mut usize) -> Option<bool> {
+    // Of so few nothing is reported.
+    if pieces.len() < FEWEST_CROSSING {
+        return Some(false);
+    }
     if *left == 0 {
         return None;
     }
