@@ -9,6 +9,8 @@
 //! `WEDM_FAULTS=SEED,PROGRAMS` takes other programs, or more of them; `WEDM_FAULTS_SHOW=TEXT` shows each fault whose group, kind or
 //! outcome holds the text and that is not set right.
 
+#[path = "faults/alone.rs"]
+mod alone;
 #[path = "faults/chance.rs"]
 mod chance;
 #[path = "faults/contours.rs"]

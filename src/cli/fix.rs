@@ -7,7 +7,7 @@ use super::report::{self, Row};
 use super::{Failure, Verdict, files};
 use crate::disk::Seen;
 use crate::document::{Document, Source};
-use crate::finding::{Edit, Finding, Rule, Severity};
+use crate::finding::{Edit, Finding, Fix, Place, Rule, Severity};
 use crate::job::{self, Repairs};
 use crate::message::{readable, said};
 use crate::text::Writing;
@@ -94,6 +94,8 @@ struct Repair {
     after: Vec<Row>,
     /// The repairs that cannot be written, and why.
     refused: Vec<(Row, String)>,
+    /// The findings of a program that several repairs explain equally well: the line of each, and the repairs.
+    choices: Vec<(usize, String)>,
     rounds: usize,
 }
 
@@ -129,12 +131,14 @@ fn repair(path: &Path, mut document: Document) -> Result<Repair, Failure> {
     }
     let after = report::rows(path, &mut document);
     let refused = refused(path, &document);
+    let choices = choices(&document);
     let repair = Repair {
         bytes_before,
         before,
         document,
         after,
         refused,
+        choices,
         rounds,
     };
     let errors = |rows: &[Row]| {
@@ -176,6 +180,40 @@ fn refused(path: &Path, document: &Document) -> Vec<(Row, String)> {
         ))
     };
     repaired.take(LISTED).filter_map(reason).collect()
+}
+
+/// The repairs between which only the user can choose, each once.
+fn choices(document: &Document) -> Vec<(usize, String)> {
+    let (Source::Program(_), Some(text)) = (document.source(), document.text()) else {
+        return Vec::new();
+    };
+    let findings = document.all_findings();
+    let left = findings
+        .iter()
+        .filter(|finding| finding.severity <= Severity::Warning);
+    let mut choices: Vec<(usize, String)> = Vec::new();
+    for finding in left.take(LEFT) {
+        let Place::Text { range } = &finding.place else {
+            continue;
+        };
+        let fixes = document.fixes(finding);
+        if fixes.len() < 2 || fixes.iter().any(|fix| fix.preferred) {
+            continue;
+        }
+        let title = |fix: &Fix<Edit>| {
+            let Edit::Text(edits) = &fix.edit else {
+                return None;
+            };
+            let line = text.line_of(edits.first()?.range.start) + 1;
+            Some(say!(a_choice, line, fix.kind.title(document.unit_mm())))
+        };
+        let titles: Vec<String> = fixes.iter().filter_map(title).collect();
+        let titles = titles.join(say!(semicolon));
+        if !choices.iter().any(|(_, known)| *known == titles) {
+            choices.push((text.line_of(range.start) + 1, titles));
+        }
+    }
+    choices
 }
 
 fn deliver(
@@ -281,5 +319,9 @@ fn summarise(path: &Path, repair: &Repair) {
         let place = format!("{name}:{}:{}", row.line, row.column);
         let what = say!(says, place, format!("{}{reason}", row.message));
         output::say(&say!(says, styled(output::WARNING, say!(left)), what));
+    }
+    for (line, titles) in &repair.choices {
+        let place = format!("{name}:{line}");
+        output::say(&say!(says, place, say!(one_of_these_may_be_meant, titles)));
     }
 }

@@ -69,6 +69,39 @@ pub fn program(group: Group, chance: &mut Chance) -> Option<String> {
     written.ok().map(|program| program.text)
 }
 
+/// Contours with their ways in and out, written in 3B; `None` where that cannot be.
+pub fn written(contours: &[Vec<Segment>], program: &str) -> Option<String> {
+    let source = Source::Segment {
+        entity: EntityId(0),
+        segment: 0,
+    };
+    let path = |pieces: &Vec<Segment>| WirePath {
+        outline: 0,
+        pass: 1,
+        counter_clockwise: None,
+        cut_off: false,
+        correction: 0.0,
+        thread_hole: pieces[0].start(),
+        side: None,
+        segments: (0..)
+            .zip(pieces)
+            .map(|(nth, &geometry)| PathSegment {
+                geometry,
+                source: match nth {
+                    0 => Source::LeadIn,
+                    nth if nth + 1 == pieces.len() => Source::LeadOut,
+                    _ => source,
+                },
+            })
+            .collect(),
+    };
+    let paths: Vec<WirePath> = contours.iter().map(path).collect();
+    let (settings, errors) = from_toml(&format!("[program]\n{program}\n"));
+    assert_eq!(errors, []);
+    let written = Format::ThreeB.write(&paths, 1.0, &Effective::of(&settings), &mut |_, _| true);
+    written.ok().map(|program| program.text)
+}
+
 /// One of the programs that people published.
 fn published(chance: &mut Chance) -> String {
     let name = chance.of(&[
@@ -144,7 +177,7 @@ fn path(nth: usize, is_offset_by_control: bool, chance: &mut Chance) -> WirePath
     }
 }
 
-fn contour(chance: &mut Chance) -> Vec<Segment> {
+pub fn contour(chance: &mut Chance) -> Vec<Segment> {
     let at = Point::new;
     let (w, h) = (chance.length(8.0, 90.0), chance.length(6.0, 60.0));
     let corners: Vec<Point> = match chance.below(9) {

@@ -96,9 +96,16 @@ fn acts(document: &Document) -> Vec<Act> {
 /// How far two decoded blocks may be apart that mean the same, µm.
 const SAME: f64 = 3.0;
 
+/// The same for those of which nothing was calculated.
+const EQUAL: f64 = 1.0;
+
 fn is_same(one: &[Act], other: &[Act]) -> bool {
+    is_within(SAME, one, other)
+}
+
+fn is_within(um: f64, one: &[Act], other: &[Act]) -> bool {
     let same = |(a, b): (&Act, &Act)| {
-        let is_near = |a: Vector, b: Vector| (a - b).norm() <= SAME;
+        let is_near = |a: Vector, b: Vector| (a - b).norm() <= um;
         let bends = match (a.bend, b.bend) {
             (None, None) => true,
             (Some(a), Some(b)) => a.iter().zip(b).all(|(a, b)| is_near(*a, b)),
@@ -118,6 +125,48 @@ fn closure(acts: &[Act]) -> f64 {
 
 fn with(document: &Document, edits: &[TextEdit]) -> Option<String> {
     String::from_utf8(edited(document.text()?.bytes(), edits)?).ok()
+}
+
+/// The program that fix-all leaves.
+fn fixed(group: Group, document: &Document) -> Document {
+    let mut present = document.clone();
+    for _ in 0..ROUNDS {
+        let Some(edits) = present.fix_all_in_text() else {
+            break;
+        };
+        let Some(text) = with(&present, &edits) else {
+            break;
+        };
+        present = read(group, &text);
+    }
+    present
+}
+
+/// What fix-all leaves of a program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Left {
+    /// What it was before the fault.
+    Right,
+    /// What the fault made of it.
+    Alone,
+    Wrong,
+}
+
+/// What fix-all leaves of a program with a fault, and the text of it.
+pub fn left_of(group: Group, sound: &str, faulty: &str) -> (Left, String) {
+    let document = read(group, faulty);
+    let left = fixed(group, &document);
+    let text = left.text().map(|text| text.as_str_lossy().into_owned());
+    let text = text.unwrap_or_default();
+    let made = acts(&left);
+    let how = if text == sound || is_within(EQUAL, &made, &acts(&read(group, sound))) {
+        Left::Right
+    } else if is_within(EQUAL, &made, &acts(&document)) {
+        Left::Alone
+    } else {
+        Left::Wrong
+    };
+    (how, text)
 }
 
 /// Judges one fault; `None` where it changes nothing: neither what the program means nor what is said of it.
@@ -148,16 +197,7 @@ pub fn judge(group: Group, sound: &str, faulty: &Faulty) -> Option<Verdict> {
     let first_fix = first_text
         .as_ref()
         .is_some_and(|text| is_same(&meant, &acts(&read(group, text))));
-    let mut present = document.clone();
-    for _ in 0..ROUNDS {
-        let Some(edits) = present.fix_all_in_text() else {
-            break;
-        };
-        let Some(text) = with(&present, &edits) else {
-            break;
-        };
-        present = read(group, &text);
-    }
+    let mut present = fixed(group, &document);
     let left = acts(&present);
     let outcome = if is_same(&left, &meant) {
         Outcome::Right

@@ -150,3 +150,48 @@ fn a_circle_with_a_wrong_key_becomes_no_other_circle() {
     );
     assert!(right > 100, "{right}");
 }
+
+/// One digit more or less in two different blocks closes it as well.
+const ALIKE: &str = "G91\nG01 X-3000 Y500\nG01 X10000 Y-500\nG01 X5500 Y4100\nG01 X-6300 Y6800\nG01 X-6200 Y-10900\nG01 X-3000 Y500\nG01 X3000 Y-500\nM02\n";
+
+#[test]
+fn a_number_is_not_calculated_where_a_digit_was_lost() {
+    for program in [ALIKE] {
+        let faulty = format!("%\n{}", with(program, "X-6200", "X-620"));
+        let left = fixed(&faulty);
+        assert!(left == faulty || left == format!("%\n{program}"), "{left}");
+    }
+}
+
+#[test]
+fn a_circle_without_its_quadrant_is_left_alone_where_its_centre_may_lie_elsewhere() {
+    for way in ["B3000B0B3000GX", "B1000B3000B3000GY"] {
+        let circle = format!("{way}L1\nB17427B0B69708GYSR2\n{way}L3\nDD\n");
+        check_untouched(&circle, "SR2", "SR");
+        check_untouched(&circle, "SR2", "SR8");
+    }
+}
+
+#[test]
+fn of_two_digits_of_two_blocks_that_close_a_contour_none_is_chosen() {
+    let three_b = "B2817B2266B2817GXL2\nB6977B5739B6977GXL2\nB720B8977B6102GYNR2\nB1101B7206B11318GXNR1\nB14260B7773B14260GXL4\n\
+                   B3668B1812B3668GXL1\nB9237B4153B9237GXL1\nB6910B15217B15217GYL2\nB2817B2266B2817GXL4\nDD\n";
+    check_untouched(three_b, "B5739B", "B5639B");
+    let iso = "%\nG91\nG92X6736Y69498\nG01X-2935Y-1680\nG01X-14757Y-16981\nG02X-41356Y-24768R25633\nG03X-3251Y-33187R16705\n\
+               G03X43994Y-47848R34195\nG01X26470Y-17324\nG01X37904Y65716\nG03X-49004Y74392R44781\nG01X2935Y1680\nM02\n";
+    let faulty = with(iso, "X-14757", "X-1457");
+    let left = fixed(&faulty);
+    // The way out is the way in backwards, and stays.
+    assert!(left.contains("G01X2935Y1680\n"), "{left}");
+}
+
+#[test]
+fn a_doubled_arc_goes_alone() {
+    let iso = "%\nG90\nG92X0Y0\nG01X5000Y0\nG02X5000Y10000I0J5000\nG01X15000Y10000\nG02X15000Y0I0J-5000\nG01X5000Y0\nG01X0Y0\nM02\n";
+    let arc = "G02X5000Y10000I0J5000\n";
+    let left = fixed(&with(iso, arc, &arc.repeat(2)));
+    assert!(
+        left == iso || left == with(iso, arc, &arc.repeat(2)),
+        "{left}"
+    );
+}

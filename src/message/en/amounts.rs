@@ -27,6 +27,7 @@ declare! {
     cut_length(mm) => "cut {mm:.1} mm";
     jumps_length(mm) => "jumps {mm:.1} mm";
     comma => ", ";
+    semicolon => "; ";
     and => " and ";
     error => "error";
     warning => "warning";

@@ -163,6 +163,8 @@ declare! {
     nothing_to_repair(name) => "{name}: nothing to repair";
     nothing_could_be_repaired_safely(name) => "{name}: nothing could be repaired safely";
     not_repaired => "not repaired";
+    a_choice(line, what) => "line {line}: {what}";
+    one_of_these_may_be_meant(choices) => "one of these may be meant, choose it in the editor: {choices}";
     its_fix_moves_the_contour_by_more_than_the_correction => " (its fix moves the contour by more than the correction: choose it in the editor)";
     several_files_are_found(files) => "{files} found, expected one, or --in-place, --check or --diff";
     would_be_formatted_heading => "would be formatted:";

@@ -27,6 +27,7 @@ translate! {
     cut_length(mm) => "切割 {mm:.1} mm";
     jumps_length(mm) => "空走 {mm:.1} mm";
     comma => "，";
+    semicolon => "；";
     and => " 和 ";
     error => "错误";
     warning => "警告";

@@ -163,6 +163,8 @@ translate! {
     nothing_to_repair(name) => "{name}：没有需要修复的";
     nothing_could_be_repaired_safely(name) => "{name}：没有能安全修复的";
     not_repaired => "未修复";
+    a_choice(line, what) => "第 {line} 行：{what}";
+    one_of_these_may_be_meant(choices) => "可能是以下之一，请在编辑器中选择：{choices}";
     its_fix_moves_the_contour_by_more_than_the_correction => "（修复会使轮廓移动超过补偿量：请在编辑器中选择）";
     several_files_are_found(files) => "找到 {files}，应为一个，或加 --in-place、--check 或 --diff";
     would_be_formatted_heading => "格式将改变：";

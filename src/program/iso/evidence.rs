@@ -242,7 +242,8 @@ impl Evidence {
             (true, false) => MICROMETRE,
             (true, true) => 2_540,
             (false, inch) => {
-                (if inch { 25_400_000 } else { 1_000_000 }) / 10_i64.pow(u32::from(self.decimals()))
+                (if inch { 25_400_000 } else { 1_000_000 })
+                    / 10_i64.pow(u32::from(self.finest_places()))
             }
         };
         Reading {
@@ -251,6 +252,14 @@ impl Evidence {
             incremental,
             tolerance: (STEPS * step).clamp(STEPS * MICROMETRE, COARSEST),
         }
+    }
+
+    /// The decimals that numbers are rounded to: one with more may be a slip.
+    fn finest_places(&self) -> u8 {
+        let usual = self.usual_places().map(|(places, _)| places);
+        usual
+            .filter(|places| *places > 1)
+            .unwrap_or(self.decimals())
     }
 
     /// Whole numbers are the finest steps where no number has a point, or where each that has one stands among at least

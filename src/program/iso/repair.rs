@@ -4,13 +4,14 @@
 //! earlier state again, so that most cost a few lines; all is bounded by counted lines, so that the result depends on
 //! the text alone.
 
+mod against;
 mod around;
 pub(super) mod found;
 mod lost;
 mod scan;
 mod words;
 
-use super::block::{Block, word_range};
+use super::block::Block;
 use super::document::Document;
 use super::labels::LOOKED_BACK;
 use super::line::push_changed;
@@ -20,9 +21,11 @@ use super::plain::plain;
 use crate::finding::{Detail, Fault, Finding, FixKind, Place, Rule, Severity};
 use crate::geometry::{Segment, Vector};
 use crate::program::of_cut::OfCut;
-use crate::program::repair::search::{self, Contour, Verdict, search};
+use crate::program::repair::crosses_itself;
+use crate::program::repair::search::{self, Contour, Plainness, Verdict, search};
 use crate::text::TextEdit;
-use around::{LONGEST, begins_astray, cut_around, is_way, stands_alone};
+pub(super) use around::cut_around;
+use around::{LONGEST, begins_astray, is_way, stands_alone, with_numbers_kept};
 use found::{Repair, Repairs};
 use scan::{Against, Line, Way};
 use std::borrow::Cow;
@@ -169,6 +172,8 @@ struct Suspect<'a> {
     numbers: Vec<OnceCell<Option<u32>>>,
     /// The cut before it has missed the place where this one should begin.
     begins_astray: bool,
+    /// A line may be lost: between two that are alike, or before an arc with which the cut begins.
+    may_lack_a_line: bool,
 }
 
 impl Contour for Suspect<'_> {
@@ -176,10 +181,14 @@ impl Contour for Suspect<'_> {
     /// All moves.
     type Lead = Vec<Move>;
 
-    const CLEARLY: f64 = 1.5;
+    const CLEARLY: f64 = 2.1;
 
     fn finalists(&self) -> usize {
-        16
+        64
+    }
+
+    fn is_searched_whole(&self) -> bool {
+        self.order.len() == self.lines.len()
     }
 
     fn order(&self) -> Vec<usize> {
@@ -235,23 +244,48 @@ impl Contour for Suspect<'_> {
     fn judged(&self, change: &Change, cost: f64) -> (Option<Verdict>, usize) {
         let lines = self.lines_with(change);
         let (after, runs) = self.way.with(change.index(), change.replaced(), &lines);
-        let cost = after.soft + cost;
-        let is_sounder = self.total.hard == 0 && cost + Self::CLEARLY < self.total.soft;
-        let is_better = after.hard < self.total.hard || (after.hard == 0 && is_sounder);
+        let cost = after.cost() + cost;
+        let (was, is) = (self.total.faults(), after.faults());
+        let is_sounder = was == [0, 0] && cost + Self::CLEARLY < self.total.cost();
+        let is_better = is < was || (after.hard == 0 && is_sounder);
         // A change that adds a way, or removes something that stands only once, is never sure.
         let is_a_slip = match change {
             Change::Delete { index } => self.is_twice(*index),
             Change::Insert { .. } => false,
-            Change::Replace { meant, .. } => !meant.is_calculated,
+            Change::Replace { meant, .. } => !meant.is_calculated && !self.may_lack_a_line,
             Change::Exchange { .. } => true,
+        };
+        let (plainness, speaks) = match change {
+            Change::Replace { meant, .. } => {
+                let is_a_word = !meant.is_calculated && !meant.found.is_empty();
+                let plainness = match is_a_word {
+                    true => Plainness::Slip,
+                    false => Plainness::Calculated,
+                };
+                (plainness, meant.evidence)
+            }
+            // A line that stands twice tells so itself.
+            Change::Delete { index } if self.is_twice(*index) => (Plainness::Slip, -3.0),
+            Change::Delete { .. } => (Plainness::Calculated, 0.0),
+            Change::Exchange { .. } => (Plainness::Slip, 0.0),
+            Change::Insert { .. } => (Plainness::Slip, Self::CLEARLY),
+        };
+        // What is calculated comes behind what may have been written.
+        let later = match change {
+            Change::Replace { .. } if plainness == Plainness::Calculated => Self::CLEARLY,
+            _ => 0.0,
         };
         let verdict = Verdict {
             left: after.hard as usize,
-            cost,
+            cost: cost + later,
+            plainness,
+            evidence: after.soft + speaks,
             may_be_sure: after.hard == 0
+                && after.back <= self.total.back
                 && after.beside == 0
+                && after.unlike <= self.total.unlike
                 && is_a_slip
-                && self.total.hard > 0
+                && was > [0, 0]
                 && !self.begins_astray,
         };
         (is_better.then_some(verdict), runs + 1)
@@ -265,6 +299,22 @@ impl Contour for Suspect<'_> {
 
     fn is_alike(one: &Vec<Move>, other: &Vec<Move>) -> bool {
         one == other
+    }
+
+    fn crosses(&self, change: Option<&Change>, left: &mut usize) -> Option<bool> {
+        let pieces = match change {
+            Some(change) => {
+                let lines = self.lines_with(change);
+                self.way
+                    .pieces_with(change.index(), change.replaced(), &lines)
+            }
+            None => self.way.pieces_with(0, 0, &[]),
+        };
+        let arcs = pieces
+            .iter()
+            .filter(|piece| piece.as_arc().is_some())
+            .count();
+        crosses_itself(&pieces, arcs, left)
     }
 }
 
@@ -293,7 +343,8 @@ impl<'a> Suspect<'a> {
             .filter(|index| !is_long || apart(index) <= NEAR)
             .collect();
         order.sort_by_key(apart);
-        Suspect {
+        let mut suspect = Suspect {
+            may_lack_a_line: false,
             document,
             total: way.total(),
             begins_astray: begins_astray(document, &lines),
@@ -302,7 +353,12 @@ impl<'a> Suspect<'a> {
             way,
             pool,
             order,
-        }
+        };
+        let mut indices = 0..suspect.lines.len();
+        let has_twins = indices.clone().any(|index| suspect.is_twice(index));
+        let first = indices.find_map(|index| suspect.made(index));
+        suspect.may_lack_a_line = has_twins || first.is_some_and(|made| made.is_arc());
+        suspect
     }
 
     fn block(&self, index: usize) -> &Block {
@@ -431,28 +487,7 @@ impl<'a> Suspect<'a> {
             meant,
             closes: self.total.open > 0,
             is_sure: repair.is_sure,
-            explains: self.total.hard > 0,
+            explains: self.total.faults() > [0, 0],
         })
-    }
-}
-
-/// Two lines exchanged; their block numbers stay where they are.
-fn with_numbers_kept(one: &[u8], other: &[u8]) -> Vec<Vec<u8>> {
-    let number = |line: &[u8]| {
-        word_range(line, 1, |letter, _| letter == b'N').map(|range| range.start - 1..range.end - 1)
-    };
-    match (number(one), number(other)) {
-        (Some(a), Some(b)) => {
-            let with = |line: &[u8], place: Range<usize>, number: &[u8]| {
-                let mut line = line.to_vec();
-                line.splice(place, number.iter().copied());
-                line
-            };
-            vec![
-                with(other, b.clone(), &one[a.clone()]),
-                with(one, a, &other[b]),
-            ]
-        }
-        _ => vec![other.to_vec(), one.to_vec()],
     }
 }

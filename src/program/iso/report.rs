@@ -13,7 +13,7 @@ use super::moves::{Place as Spot, Reading, apart, meet, micrometres};
 use super::part::{Part, WireSide};
 use super::plain::word_at;
 use super::repair::found::Repair;
-use super::repair::{line_of, troubles};
+use super::repair::{cut_around, line_of, troubles};
 use super::stretch::Stretch;
 use crate::finding::{Detail, Fault, Finding, Place, Rule, Severity, Side};
 use crate::geometry::cross;
@@ -186,6 +186,10 @@ fn suspects(document: &Document, troubles: &[usize]) -> Vec<Finding> {
 impl Tried for Document {
     fn edit(&mut self, range: Range<usize>, replacement: &str) {
         Document::edit(self, range, replacement);
+    }
+
+    fn cut_lines(&self, line: usize) -> Range<usize> {
+        cut_around(self, line)
     }
 }
 

@@ -6,7 +6,7 @@
 //! itself must tell what was meant, and the gap may not grow.
 
 use super::keys::is_slip;
-use crate::finding::{Detail, Fault, Finding, FixKind, Rule, Severity, TextFix};
+use crate::finding::{Detail, Fault, Finding, FixKind, Place, Rule, Severity, TextFix};
 use crate::geometry::{Arc, Segment};
 use crate::program::path::Kind;
 use crate::program::report::Report;
@@ -26,6 +26,9 @@ const ONE_BY_ONE_OF_LONG: usize = 4;
 pub(in crate::program) trait Tried: Report + Program + Clone {
     /// Replaces a range of bytes and rereads what it touched.
     fn edit(&mut self, range: Range<usize>, replacement: &str);
+
+    /// The lines of the cut around a line.
+    fn cut_lines(&self, line: usize) -> Range<usize>;
 }
 
 /// The properties of a program that a repair must not make worse.
@@ -157,6 +160,37 @@ fn speaks_for_itself(rule: Rule) -> bool {
     )
 }
 
+/// True for faults whose place does not tell which block is wrong: their repairs are guesses about the whole cut.
+fn is_of_cut(rule: Rule) -> bool {
+    matches!(
+        rule,
+        Rule::NotClosed
+            | Rule::SuspectBlock
+            | Rule::PathCrossesItself
+            | Rule::Spur
+            | Rule::ReversedArc
+            | Rule::DoubledBlock
+    )
+}
+
+/// True where the cut of the first line that was edited still has a fault.
+fn leaves_faults(edited: &impl Tried, edits: &[TextEdit]) -> bool {
+    let text = edited.text();
+    let Some(first) = edits.first() else {
+        return false;
+    };
+    let lines = edited.cut_lines(text.line_of(first.range.start.min(text.len())));
+    let is_fault = |finding: &&Finding| {
+        finding.severity <= Severity::Warning
+            && (is_of_cut(finding.rule)
+                || matches!(finding.rule, Rule::ArcOffRadius | Rule::ArcWithoutRadius))
+    };
+    let plain = edited.plain();
+    plain.iter().filter(is_fault).any(|finding| {
+        matches!(&finding.place, Place::Text { range } if lines.contains(&text.line_of(range.start)))
+    })
+}
+
 /// True for a repair that adds geometry.
 fn invents(kind: &FixKind) -> bool {
     matches!(kind, FixKind::Close { .. } | FixKind::InsertBlock { .. })
@@ -210,7 +244,8 @@ pub(in crate::program) fn gated(
     let before = Judged::of(program, finding);
     let (mut good, mut bad) = (Vec::new(), Vec::new());
     for mut fix in fixes {
-        let after = Judged::of(&edited(program, &fix.edit), finding);
+        let tried = edited(program, &fix.edit);
+        let after = Judged::of(&tried, finding);
         // Unreadable text may have hidden something.
         let spoils = before.standing.is_better_than(&after.standing)
             && (finding.rule != Rule::Syntax || invents(&fix.kind));
@@ -223,7 +258,8 @@ pub(in crate::program) fn gated(
         );
         let passes = before
             .standing
-            .allows(&after.standing, for_itself, by_a_slip);
+            .allows(&after.standing, for_itself, by_a_slip)
+            && !(is_of_cut(finding.rule) && leaves_faults(&tried, &fix.edit));
         if !passes || invents(&fix.kind) {
             refuse(&mut fix);
         }
@@ -243,6 +279,7 @@ pub(in crate::program) fn together(
     program: &impl Tried,
     fixes: Vec<(Rule, TextFix)>,
 ) -> Vec<TextEdit> {
+    let fixes = one_of_each_cut(program, fixes);
     let mut taken = Taken::default();
     let fixes: Vec<(Rule, TextFix)> = fixes
         .into_iter()
@@ -275,6 +312,36 @@ pub(in crate::program) fn together(
         }
     }
     kept.edits()
+}
+
+/// Without the guesses about a cut in which something else is repaired: that may be what was wrong with it. And without
+/// those that leave it a fault.
+fn one_of_each_cut(program: &impl Tried, fixes: Vec<(Rule, TextFix)>) -> Vec<(Rule, TextFix)> {
+    let text = program.text();
+    let line = |fix: &TextFix| fix.edit.first().map(|edit| text.line_of(edit.range.start));
+    let (mut guesses, mut others): (Vec<_>, Vec<_>) =
+        fixes.into_iter().partition(|(rule, _)| is_of_cut(*rule));
+    // The same repair may be that of several findings.
+    let mut lines: BTreeMap<usize, Vec<TextEdit>> = BTreeMap::new();
+    for (_, fix) in &others {
+        lines.extend(line(fix).map(|line| (line, fix.edit.clone())));
+    }
+    let is_short = text.len() <= TRIED;
+    guesses.retain(|(_, fix)| {
+        let Some(own) = line(fix) else {
+            return false;
+        };
+        let mut in_cut = lines.range(program.cut_lines(own));
+        let is_alone = in_cut.all(|(_, edit)| *edit == fix.edit);
+        let keeps =
+            is_alone && !(is_short && leaves_faults(&edited(program, &fix.edit), &fix.edit));
+        if keeps {
+            lines.insert(own, fix.edit.clone());
+        }
+        keeps
+    });
+    others.append(&mut guesses);
+    others
 }
 
 /// Edits that are made together, by their start: an edit can only touch its neighbours.

@@ -61,8 +61,14 @@ pub(in crate::program) fn meant(text: &str, pointed: Option<bool>) -> Vec<(Strin
             put(at, next + 1, &swapped, Key::Swapped);
         }
     }
-    for digit in all {
-        put(text.len(), text.len(), digit, Key::Lost);
+    // Behind the last digit, and the last one before the point.
+    let ends = text
+        .find('.')
+        .filter(|at| *at > 0)
+        .into_iter()
+        .chain([text.len()]);
+    for at in ends {
+        all.iter().for_each(|digit| put(at, at, digit, Key::Lost));
     }
     match text.starts_with(['-', '+']) {
         true => put(0, 1, "", Key::Sign),

@@ -7,16 +7,32 @@ pub(super) mod keys;
 pub(super) mod search;
 
 use crate::finding::{FixKind, TextFix};
+use crate::geometry::Segment;
+use crate::program::path::{FEWEST_CROSSING, crossings_of};
 use crate::text::TextEdit;
 
-/// Turns repairs found by trying into offers: the best one first, which is preferred, and also made
-/// by "fix all" where it is sure. Those that cannot be written are left out.
+/// Whether a way crosses itself; `None` where more than the pieces `left` would be read to find out. What is read is
+/// taken from them.
+pub(super) fn crosses_itself(pieces: &[Segment], arcs: usize, left: &mut usize) -> Option<bool> {
+    // Of so few nothing is reported.
+    if pieces.len() < FEWEST_CROSSING {
+        return Some(false);
+    }
+    if *left == 0 {
+        return None;
+    }
+    let crosses = !crossings_of(pieces, arcs, left).is_empty();
+    (crosses || *left > 0).then_some(crosses)
+}
+
+/// Turns repairs found by trying into offers: the best one first, which is preferred, and made by "fix all", where it is
+/// sure. Those that cannot be written are left out.
 pub(super) fn offered(
     found: impl Iterator<Item = Option<(FixKind, Vec<TextEdit>, bool)>>,
 ) -> Vec<TextFix> {
     let fix = |(nth, repair): (usize, Option<_>)| {
         let (kind, edits, is_sure) = repair?;
-        Some(TextFix::text(kind, is_sure, edits).preferred_if(nth == 0))
+        Some(TextFix::text(kind, is_sure, edits).preferred_if(nth == 0 && is_sure))
     };
     found.enumerate().filter_map(fix).collect()
 }

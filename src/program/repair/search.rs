@@ -73,13 +73,26 @@ pub(in crate::program) struct Repair<M> {
     pub(crate) is_whole: bool,
 }
 
+/// How plain a change is. Of changes that are equally plain and leave a contour equally sound, none is sure.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(in crate::program) enum Plainness {
+    /// One slip: a digit lost, added, changed or exchanged with the next, a sign, a word, a line twice, lost or exchanged
+    /// with the next.
+    Slip,
+    /// A number that is calculated from all others.
+    Calculated,
+}
+
 /// The result of a change.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::program) struct Verdict {
     /// The remaining evidence against the contour.
     pub(crate) left: usize,
-    /// Its cost: the lower, the likelier.
+    /// Its cost: the lower, the likelier. It says which change comes first.
     pub(crate) cost: f64,
+    pub(crate) plainness: Plainness,
+    /// The part of the cost that is evidence of the text for the change or against it: all slips are equally likely.
+    pub(crate) evidence: f64,
     /// The only evidence against it is an equally likely change.
     pub(crate) may_be_sure: bool,
 }
@@ -92,7 +105,7 @@ pub(in crate::program) trait Contour {
     /// Where a change leads.
     type Lead;
 
-    /// The second best repair must cost this much more for the best to be sure.
+    /// The text must say this much less for every other repair that is as plain for the best to be sure.
     const CLEARLY: f64;
 
     /// How many of the best changes are compared: each is followed along the whole contour.
@@ -132,6 +145,11 @@ pub(in crate::program) trait Contour {
         false
     }
 
+    /// False where only some of the blocks are searched.
+    fn is_searched_whole(&self) -> bool {
+        true
+    }
+
     /// Whether a change is offered. All are searched: a possibly lost block counts against a possibly wrong one.
     fn holds(&self, _change: &Change<Self::Meant>) -> bool {
         true
@@ -151,8 +169,10 @@ pub(in crate::program) fn search<C: Contour>(
     // Lost blocks are searched for everywhere, and must leave room for wrong ones.
     let reserve = *left / 4 * 3;
     let (mut lost, mut moved, mut found) = (Vec::new(), Vec::new(), Vec::new());
+    let mut is_complete = contour.is_searched_whole();
     let mut judge = |change: Change<C::Meant>, cost: f64, reserve: usize, into: &mut Vec<_>| {
         if *left <= reserve {
+            is_complete &= matches!(change, Change::Insert { .. });
             return;
         }
         let (verdict, runs) = contour.judged(&change, cost);
@@ -184,7 +204,7 @@ pub(in crate::program) fn search<C: Contour>(
     }
     found.extend(moved);
     found.extend(lost);
-    ranked(contour, found)
+    ranked(contour, found, is_complete)
 }
 
 /// The line over a gap, and the arc that fills it smoothly.
@@ -196,23 +216,34 @@ fn fillings(gap: Vector, headings: Option<[Vector; 2]>) -> impl Iterator<Item = 
     ways.filter(move |_| gap.norm() >= SHORTEST)
 }
 
-/// The changes with different results, best first.
-fn ranked<C: Contour>(contour: &C, mut judged: Vec<Judged<C>>) -> Vec<Repair<C::Meant>> {
+/// The changes with different results, best first. None is sure where not all were judged.
+fn ranked<C: Contour>(
+    contour: &C,
+    mut judged: Vec<Judged<C>>,
+    mut is_complete: bool,
+) -> Vec<Repair<C::Meant>> {
     judged.sort_by(|(a, _), (b, _)| a.left.cmp(&b.left).then(a.cost.total_cmp(&b.cost)));
+    let least = judged.first().map_or(0, |(best, _)| best.left);
+    judged.retain(|(verdict, _)| verdict.left == least);
+    is_complete &= judged.len() <= contour.finalists();
     judged.truncate(contour.finalists());
     let mut left = MOST_FOLLOWED;
     let crosses_now = !judged.is_empty() && contour.crosses(None, &mut left) == Some(true);
     // Of changes with the same way the plainest comes first; ways that still cross themselves come last.
     let (mut kept, mut leads, mut crossing) = (Vec::<Judged<C>>::new(), Vec::new(), Vec::new());
-    let (mut is_either, mut outside) = (false, None);
+    let (mut is_rivalled, mut outside) = (false, None);
     for (verdict, change) in judged {
         let best = kept.first();
-        if kept.len() == HANDED_OUT || best.is_some_and(|(best, _)| verdict.left > best.left) {
+        if is_rivalled && kept.len() == HANDED_OUT {
             break;
+        }
+        let rivals = best.is_some_and(|best| is_rival::<C>(best, &(verdict, &change)));
+        if kept.len() == HANDED_OUT && !rivals {
+            continue;
         }
         let lead = contour.lead(&change);
         if let Some(known) = leads.iter().position(|known| C::is_alike(known, &lead)) {
-            is_either |= best.is_some_and(|(best, other)| {
+            is_rivalled |= best.is_some_and(|(best, other)| {
                 known == 0
                     && verdict.cost - best.cost < C::CLEARLY
                     && contour.is_either(other, &change)
@@ -220,34 +251,43 @@ fn ranked<C: Contour>(contour: &C, mut judged: Vec<Judged<C>>) -> Vec<Repair<C::
             continue;
         }
         let is_held = contour.holds(&change);
-        if !is_held && outside.is_some() {
+        if !is_held && (is_rivalled || outside.is_some() || best.is_some() && !rivals) {
             continue;
         }
         let Some(crosses) = contour.crosses(Some(&change), &mut left) else {
             // The others are not known, so that none is sure.
-            is_either = true;
+            is_complete = false;
             break;
         };
         match (is_held, crosses) {
             (true, false) => {
-                kept.push((verdict, change));
-                leads.push(lead);
+                is_rivalled |= rivals;
+                if kept.len() < HANDED_OUT {
+                    kept.push((verdict, change));
+                    leads.push(lead);
+                }
             }
-            (false, false) => outside = Some(verdict),
+            (false, false) if best.is_some() => is_rivalled |= rivals,
+            // It comes before all that are offered.
+            (false, false) => outside = Some((verdict, change)),
             (true, true) if crosses_now && !matches!(change, Change::Exchange { .. }) => {
                 crossing.push((verdict, change))
             }
             _ => {}
         }
     }
-    let is_sure = !is_either && is_sure::<C>(&kept, outside);
+    let is_alone = |best: &Judged<C>| {
+        let outside = outside.as_ref().map(|(verdict, change)| (*verdict, change));
+        best.0.may_be_sure && !outside.is_some_and(|outside| is_rival::<C>(best, &outside))
+    };
+    let mut is_sure = is_complete && !is_rivalled && kept.first().is_some_and(is_alone);
     if kept.is_empty() {
         crossing.truncate(HANDED_OUT);
-        (kept, is_either) = (crossing, true);
+        (kept, is_sure) = (crossing, false);
     }
     let repair = |(nth, (verdict, change)): (usize, Judged<C>)| Repair {
         change,
-        is_sure: nth == 0 && is_sure && !is_either,
+        is_sure: nth == 0 && is_sure,
         is_whole: verdict.left == 0,
     };
     kept.into_iter().enumerate().map(repair).collect()
@@ -255,21 +295,22 @@ fn ranked<C: Contour>(contour: &C, mut judged: Vec<Judged<C>>) -> Vec<Repair<C::
 
 type Judged<C> = (Verdict, Change<<C as Contour>::Meant>);
 
-/// True where the first of the repairs is surely meant: no other one, nor any of `outside`, which are not offered,
-/// explains as much with as little.
-fn is_sure<C: Contour>(kept: &[Judged<C>], outside: Option<Verdict>) -> bool {
-    let Some(((best, change), others)) = kept.split_first() else {
-        return false;
-    };
+/// True where another change is as plain as the best one, and the text says no less for it.
+fn is_rival<C: Contour>(
+    (best, change): &Judged<C>,
+    (other, its): &(Verdict, &Change<C::Meant>),
+) -> bool {
     // A doubled block is stronger evidence than a possibly lost one.
-    let is_twin = matches!(change, Change::Delete { .. });
-    let counts = |(_, other): &&Judged<C>| !is_twin || !matches!(other, Change::Insert { .. });
-    let rival = others.iter().find(counts).map(|(rival, _)| *rival);
-    let is_clear = |rival: Verdict| {
-        rival.left > best.left || (rival.left == best.left && rival.cost - best.cost >= C::CLEARLY)
+    let is_twin = matches!(change, Change::Delete { .. }) && matches!(its, Change::Insert { .. });
+    // What is calculated fits by itself.
+    let clearly = match best.plainness > other.plainness {
+        true => 2.0 * C::CLEARLY,
+        false => C::CLEARLY,
     };
-    let mut rivals = rival.into_iter().chain(outside.filter(|_| !is_twin));
-    best.may_be_sure && rivals.all(is_clear)
+    !is_twin
+        && other.left == best.left
+        && other.plainness <= best.plainness
+        && other.evidence - best.evidence < clearly
 }
 
 #[cfg(test)]
@@ -339,6 +380,8 @@ mod tests {
             let verdict = Verdict {
                 left,
                 cost,
+                plainness: Plainness::Slip,
+                evidence: cost,
                 may_be_sure: true,
             };
             (Some(verdict), 1)

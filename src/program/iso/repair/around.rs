@@ -1,6 +1,6 @@
-//! The lines of a cut, and what is known of it from those before them.
+//! The lines of a cut, and what is known of it from those before them; and two of them exchanged.
 
-use crate::program::iso::block::{Block, Motion};
+use crate::program::iso::block::{Block, Motion, word_range};
 use crate::program::iso::document::Document;
 use crate::program::iso::moves::{Place, distance};
 use std::ops::Range;
@@ -16,7 +16,7 @@ const ASTRAY: f64 = 20_000.0;
 
 /// The lines between the stops around a line, or between the places where subprograms begin, end and are called; more
 /// than [`LONGEST`] where there are too many.
-pub(super) fn cut_around(document: &Document, line: usize) -> Range<usize> {
+pub(in crate::program::iso) fn cut_around(document: &Document, line: usize) -> Range<usize> {
     let is_order_kept = document.order().is_none();
     let ends_with = |line: usize| {
         let block = document.block(line);
@@ -92,4 +92,25 @@ pub(super) fn stands_alone(document: &Document, lines: &Range<usize>) -> bool {
 /// True for a line of the way itself.
 pub(super) fn is_way(block: &Block) -> bool {
     !(block.empty || block.sets_position || block.takes_coordinates)
+}
+
+/// Two lines exchanged; their block numbers stay where they are.
+pub(super) fn with_numbers_kept(one: &[u8], other: &[u8]) -> Vec<Vec<u8>> {
+    let number = |line: &[u8]| {
+        word_range(line, 1, |letter, _| letter == b'N').map(|range| range.start - 1..range.end - 1)
+    };
+    match (number(one), number(other)) {
+        (Some(a), Some(b)) => {
+            let with = |line: &[u8], place: Range<usize>, number: &[u8]| {
+                let mut line = line.to_vec();
+                line.splice(place, number.iter().copied());
+                line
+            };
+            vec![
+                with(other, b.clone(), &one[a.clone()]),
+                with(one, a, &other[b]),
+            ]
+        }
+        _ => vec![other.to_vec(), one.to_vec()],
+    }
 }

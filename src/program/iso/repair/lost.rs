@@ -92,6 +92,7 @@ impl Suspect<'_> {
             found,
             meant,
             is_calculated: false,
+            evidence: 0.0,
         };
         Some((meant, prior))
     }

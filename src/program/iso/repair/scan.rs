@@ -1,10 +1,13 @@
 //! Weighs the evidence against a way, move by move: faults and oddities.
 
-use crate::geometry::Vector;
+pub(crate) use super::against::Against;
+use crate::geometry::{Segment, Vector};
 use crate::program::iso::block::{Block, Motion, Note, Stop, read_line};
 use crate::program::iso::document::Document;
 use crate::program::iso::machine::Machine;
-use crate::program::iso::moves::{Bend, Course, Move, Place, Reading, added, apart, distance};
+use crate::program::iso::moves::{
+    Bend, Course, Move, Place, Reading, added, apart, distance, micrometres,
+};
 use crate::program::iso::shape::directions;
 use crate::program::path::{BACK, CLEAR, ROUNDING, TANGENT, tolerance, turn};
 
@@ -54,37 +57,6 @@ struct CutUnderWay {
     heading: Option<Vector>,
     /// All of it could be read.
     whole: bool,
-}
-
-/// The evidence against a way.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Against {
-    pub(crate) hard: u32,
-    pub(crate) soft: f64,
-    /// Cuts that do not close.
-    pub(crate) open: u32,
-    /// Cuts that close, but do not return to the thread hole.
-    pub(crate) beside: u32,
-}
-
-impl Against {
-    fn plus(self, other: Against) -> Against {
-        Against {
-            hard: self.hard + other.hard,
-            soft: self.soft + other.soft,
-            open: self.open + other.open,
-            beside: self.beside + other.beside,
-        }
-    }
-
-    fn minus(self, other: Against) -> Against {
-        Against {
-            hard: self.hard - other.hard,
-            soft: self.soft - other.soft,
-            open: self.open - other.open,
-            beside: self.beside - other.beside,
-        }
-    }
 }
 
 /// A way as far as it has been run.
@@ -273,6 +245,27 @@ impl<'a> Way<'a> {
     }
 }
 
+impl Way<'_> {
+    /// The pieces that are cut, with other lines in place of `count` ones, µm. An arc that cannot be is left out.
+    pub(crate) fn pieces_with(&self, index: usize, count: usize, lines: &[Line]) -> Vec<Segment> {
+        let mut machine = self.before[0].machine;
+        let all = self.lines[..index]
+            .iter()
+            .chain(lines)
+            .chain(&self.lines[(index + count).min(self.lines.len())..]);
+        let moves = all.filter_map(|line| machine.run(&line.block, self.reading));
+        let piece = |made: Move| match made.course(self.reading) {
+            Course::Line => Some(Segment::line(micrometres(made.from), micrometres(made.to))),
+            Course::Arc(arc) => Some(Segment::Arc(arc)),
+            Course::OffRadius { .. } | Course::NoRadius => None,
+        };
+        moves
+            .filter(|made| made.is_cut() && made.goes_anywhere())
+            .filter_map(piece)
+            .collect()
+    }
+}
+
 impl Scan {
     /// Runs a line; returns the end of the cut that ends with it.
     fn step(&mut self, line: &Line, reading: &Reading) -> Option<End> {
@@ -337,7 +330,7 @@ impl Scan {
                     .map_or(0.0, |center| {
                         (distance(made.from, center) - distance(made.to, center)).abs()
                     });
-                self.against.soft += (miss / 1e3).min(3.0) * 0.6;
+                self.against.vague += (miss / 1e3).min(3.0) * 0.6;
             }
             Course::OffRadius { .. } | Course::NoRadius => self.against.hard += 1,
         }
@@ -389,6 +382,13 @@ impl Scan {
     ) {
         let turned = turn(before, start);
         let has_arc = made.is_arc() || last.is_arc();
+        // Two lines do so, an arc may.
+        if turned > BACK && has_arc {
+            self.against.back += 1;
+            self.against.soft += 1.2;
+            self.against.vague += 3.8;
+            return;
+        }
         if turned > BACK {
             self.against.hard += 1;
             return;
@@ -399,13 +399,16 @@ impl Scan {
             }
             _ => slack,
         };
-        self.against.soft += match (has_arc, turned) {
-            (_, turned) if turned < slack => 0.0,
-            (true, turned) if turned < CLEAR => 5.0,
-            (true, _) => 3.0,
-            (false, turned) if turned < 0.05 => 3.0,
-            (false, _) => 0.0,
+        // A joint that is tangent to an arc may be so by chance, two are meant.
+        let (soft, vague) = match (has_arc, turned) {
+            (_, turned) if turned < slack => (0.0, 0.0),
+            (true, turned) if turned < CLEAR => (1.2, 3.8),
+            (true, _) => (1.2, 1.8),
+            (false, turned) if turned < 0.05 => (0.0, 3.0),
+            (false, _) => (0.0, 0.0),
         };
+        self.against.soft += soft;
+        self.against.vague += vague;
     }
 
     /// Ends the cut that is under way.
@@ -427,6 +430,8 @@ fn against_end(cut: &CutUnderWay, from: Place, to: Place, reading: &Reading) -> 
     if !cut.whole {
         return Against::default();
     }
+    let is_unlike = cut.moves > 3 && apart(to, from) != apart(cut.start, cut.entered);
+    let unlike = u32::from(is_unlike);
     let pairs = [
         (cut.start, to),
         (cut.entered, to),
@@ -445,29 +450,26 @@ fn against_end(cut: &CutUnderWay, from: Place, to: Place, reading: &Reading) -> 
             hard: 1,
             soft: 0.0,
             open: 1,
-            beside: 0,
+            unlike,
+            ..Against::default()
         };
     }
     // A program is written so that it closes to the last digit, and returns to the thread hole.
     let is_beside = distance(cut.start, to) > tolerance;
-    let soft = if missed > 0.0 { 2.0 } else { 0.0 } + if is_beside { 2.0 } else { 0.0 };
+    let odd = |is_odd: bool| if is_odd { 2.0 } else { 0.0 };
+    let soft = odd(missed > 0.0) + odd(is_beside) + odd(is_unlike);
     Against {
         hard: 0,
         soft,
         open: 0,
         beside: u32::from(is_beside),
+        unlike,
+        ..Against::default()
     }
 }
 
-/// A line that is almost along an axis is odder than one that is not.
+/// A line that is not along an axis is odder than one that is: how much it leans says nothing of what was meant.
 fn slant(made: &Move) -> f64 {
-    let [x, y] = apart(made.to, made.from).map(|along| (along as f64).abs());
-    let (long, short) = (x.max(y), x.min(y));
-    if short == 0.0 {
-        0.0
-    } else if short < long * 0.05 {
-        3.0
-    } else {
-        1.0
-    }
+    let is_along = apart(made.to, made.from).contains(&0);
+    if is_along { 0.0 } else { 1.0 }
 }

@@ -19,6 +19,7 @@ pub(super) mod prior {
     pub(crate) const SWAP: f64 = 0.3;
     pub(crate) const MOTION: f64 = 0.3;
     pub(crate) const POINT: f64 = 0.3;
+    pub(crate) const ZERO: f64 = 0.5;
     pub(crate) const DIGIT: f64 = 0.6;
     pub(crate) const DOUBLED: f64 = 0.3;
     pub(crate) const MORE: f64 = 0.8;
@@ -95,9 +96,10 @@ pub(crate) struct Meant {
     /// The present text, and the intended one.
     pub(crate) found: String,
     pub(crate) meant: String,
-    /// The number was calculated from the others and does not differ from the present one by a
-    /// single keystroke: the others may be wrong instead.
+    /// The number was calculated from the others, which may be wrong instead.
     pub(crate) is_calculated: bool,
+    /// What the other numbers of the cut say against it.
+    pub(crate) evidence: f64,
 }
 
 /// A line with changed words.
@@ -137,12 +139,18 @@ impl Words<'_> {
     }
 
     fn put(&mut self, line: Vec<u8>, prior: f64, found: &str, meant: &str) {
+        self.put_with(line, prior, 0.0, found, meant);
+    }
+
+    /// `evidence` is a part of the whole `prior`.
+    fn put_with(&mut self, line: Vec<u8>, prior: f64, evidence: f64, found: &str, meant: &str) {
         let (found, meant) = (found.to_owned(), meant.to_owned());
         let meant = Meant {
             line,
             found,
             meant,
             is_calculated: false,
+            evidence,
         };
         self.meant.push((meant, prior));
     }
@@ -253,6 +261,8 @@ impl Words<'_> {
                 None => {
                     let with = with_word(self.bytes, &meant, self.pool.is_parted);
                     self.put(with, prior::MOTION, "", &meant);
+                    // Its line may be lost as well, and under G90 nothing tells.
+                    self.call_calculated(!self.before.incremental);
                 }
             }
         }
@@ -262,6 +272,15 @@ impl Words<'_> {
         let both = ranges.reduce(|a, b| a.start.min(b.start)..a.end.max(b.end));
         if let Some(both) = both.filter(|_| is_line) {
             self.rewrite(both, "", prior::WORD);
+            // These are two words.
+            self.call_calculated(true);
+        }
+    }
+
+    /// Whether the last of the intended lines is no slip.
+    fn call_calculated(&mut self, is_calculated: bool) {
+        if let Some((made, _)) = self.meant.last_mut() {
+            made.is_calculated = is_calculated;
         }
     }
 
@@ -274,9 +293,12 @@ impl Words<'_> {
         };
         let (letters, text) = word.split_at(at);
         let found = self.length(number);
+        let zeros = text_zeros(text);
         for (text, key) in keys::meant(text, self.document.pointed()) {
             let prior = match key {
                 Key::Digit => prior::DIGIT,
+                // Zeros are lost first.
+                Key::Lost if text_zeros(&text) > zeros => prior::ZERO,
                 Key::Lost | Key::More => prior::MORE,
                 Key::Doubled => prior::DOUBLED,
                 Key::Swapped => prior::SWAP,
@@ -287,7 +309,9 @@ impl Words<'_> {
                 self.pool.prior(letter, Some(found), self.length(number))
             });
             let meant = format!("{letters}{text}");
-            self.push(range.clone(), &meant, prior + more, &word, &meant);
+            let mut line = self.bytes.to_vec();
+            line.splice(range.clone(), meant.bytes());
+            self.put_with(line, prior + more, more, &word, &meant);
         }
     }
 
@@ -340,12 +364,7 @@ impl Words<'_> {
         for (axis, letter) in [(0, b'I'), (1, b'J')] {
             if let Some(place) = solved(made, center, axis) {
                 let words = to_center(rule, [place; 2], made.from, self.before.zero);
-                let known = self.meant.len();
                 self.set(letter, words[axis]);
-                for (meant, _) in self.meant.iter_mut().skip(known) {
-                    let [found, new] = [&meant.found, &meant.meant].map(|word| word.as_bytes());
-                    meant.is_calculated = !found.is_empty() && !keys::is_slip(found, new);
-                }
             }
         }
     }
@@ -370,7 +389,9 @@ impl Words<'_> {
             let found = self.length(number);
             if found != length {
                 let prior = prior::VALUE + self.pool.prior(letter, Some(found), length);
+                let own = self.text(&range);
                 self.rewrite(range, &meant, prior);
+                self.call_calculated(!keys::is_slip(own.as_bytes(), meant.as_bytes()));
             }
             return;
         }
@@ -429,6 +450,10 @@ fn solved(made: &Move, center: Place, axis: usize) -> Option<i64> {
     let square = end[0] * end[0] + end[1] * end[1];
     let place = (square / 2.0 - at(center, other) * end[other]) / along;
     (place.abs() < 1e13).then(|| made.from[axis].wrapping_add(place.round() as i64))
+}
+
+fn text_zeros(text: &str) -> usize {
+    text.bytes().filter(|byte| *byte == b'0').count()
 }
 
 fn number_of(text: &str) -> Option<Number> {

@@ -79,6 +79,18 @@ impl Tried for Document {
     fn edit(&mut self, range: Range<usize>, replacement: &str) {
         Document::edit(self, range, replacement);
     }
+
+    fn cut_lines(&self, line: usize) -> Range<usize> {
+        let own = || {
+            let cut = self.cut_of(self.entry_at(&self.text.line_range(line))?)?;
+            let line_of = |at| self.text.line_of(self.range_of(at).start);
+            let mut entries = self.entries_of(&cut);
+            let first = line_of(entries.next()?);
+            let last = entries.next_back().map_or(first, line_of);
+            Some(first.min(line)..last.max(line) + 1)
+        };
+        own().unwrap_or(line..line + 1)
+    }
 }
 
 impl Document {

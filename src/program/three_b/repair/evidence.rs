@@ -4,11 +4,12 @@
 use super::super::block::Motion;
 use super::super::entry::Move;
 use super::super::rules::position_mismatch::mismatch;
+use super::slips::Digits;
 use super::{Change, Item, STATED, Slip, Suspect};
 use crate::geometry::{Arc, Point, Segment, Vector, turn};
-use crate::program::path::{HeldWay, Writing, closing, crossings_of};
+use crate::program::path::{HeldWay, Writing, closing};
 use crate::program::repair::gap::{SMOOTH, is_one_line};
-use crate::program::repair::search::Verdict;
+use crate::program::repair::search::{Plainness, Verdict};
 
 /// How much likelier another pass, or the hole in the middle of a circle, makes a change.
 const SAYS: f64 = 0.5;
@@ -127,23 +128,71 @@ impl Suspect<'_> {
         let others = self.is_as_beside(&items) - self.is_as_beside(&self.items)
             + is_about_hole(&items)
             - is_about_hole(&self.items);
-        let cost = match is_stated {
-            true => cost - 0.3 * gain,
+        let doubled = 1.5 * f64::from(joined.doubled);
+        // Two lines may run on nearly straight by chance.
+        let met = f64::from((joined.round - joined.split).clamp(-2, 2));
+        let (told, evidence) = match is_stated {
+            true => (-0.3 * gain, -0.3 * met),
             false => {
-                let doubled = 1.5 * f64::from(joined.doubled);
-                cost - leads - SAYS * others - 0.6 * gain
-                    + 0.3 * joined.turns.clamp(-3.0, 3.0)
-                    + doubled
+                let told = doubled - leads - SAYS * others;
+                (told - 0.6 * gain, told - 0.3 * met)
             }
         };
+        // How far it turns altogether says which is likelier, and not which is meant.
+        let turns = match is_stated {
+            true => 0.0,
+            false => 0.3 * joined.turns.clamp(-3.0, 3.0),
+        };
+        let cost = cost + told + turns;
         // Where most are out of their turn, the numbers follow another rule.
         let lacks_a_number =
             after.out_of_turn > 0 && (2 * after.out_of_turn <= items.len() || items.len() == 1);
+        let (plainness, speaks) = self.plainness(change);
         Some(Verdict {
             left,
             cost,
-            may_be_sure: !lacks_a_number && self.may_be_sure(change, left),
+            plainness,
+            evidence: evidence + speaks,
+            may_be_sure: !lacks_a_number
+                && (is_stated || plainness == Plainness::Slip)
+                && self.may_be_sure(change, left),
         })
+    }
+
+    /// How plain a change is, and what its own kind says against it.
+    fn plainness(&self, change: &Change) -> (Plainness, f64) {
+        let Change::Replace {
+            index,
+            meant: (block, slip),
+        } = change
+        else {
+            let speaks = match change {
+                // A block that stands twice tells so itself.
+                Change::Delete { .. } => -1.0,
+                // Coordinates without a line along an axis between them speak for a lost one.
+                Change::Insert { index, meant } => {
+                    let is_along = meant.0.x == 0 || meant.0.y == 0;
+                    match (meant.0.motion.is_line(), self.stated(*index).is_some()) {
+                        (true, true) if is_along => 0.3,
+                        (true, _) => 1.5,
+                        // An arc fills the gap smoothly, or is none.
+                        (false, _) => 0.8,
+                    }
+                }
+                _ => 0.0,
+            };
+            return (Plainness::Slip, speaks);
+        };
+        let was_like_line = self.items.get(*index).and_then(|item| item.block);
+        let is_made_arc = was_like_line.is_some_and(|old| {
+            old.motion.is_line() && !block.motion.is_line() && old.j == old.x.max(old.y)
+        });
+        match slip {
+            Slip::Number(_, Digits::Any) | Slip::Coordinates => (Plainness::Calculated, 0.0),
+            Slip::Motion if is_made_arc => (Plainness::Slip, 1.2),
+            Slip::Unread { keys } => (Plainness::Slip, 0.4 * *keys as f64),
+            _ => (Plainness::Slip, 0.0),
+        }
     }
 
     /// True where the first block or the last one becomes another.
@@ -242,12 +291,8 @@ fn ways(items: &[Item]) -> impl Iterator<Item = (Segment, Move)> {
 }
 
 pub(super) fn crosses_itself(items: &[Item], arcs: usize, left: &mut usize) -> Option<bool> {
-    if *left == 0 {
-        return None;
-    }
     let pieces: Vec<Segment> = ways(items).map(|(way, _)| way).collect();
-    let crosses = !crossings_of(&pieces, arcs, left).is_empty();
-    (crosses || *left > 0).then_some(crosses)
+    crate::program::repair::crosses_itself(&pieces, arcs, left)
 }
 
 fn is_closed(items: &[Item]) -> bool {

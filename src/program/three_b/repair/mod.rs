@@ -12,7 +12,7 @@ pub(super) use slips::{Slip, is_sound};
 
 use super::around::StatedPoint;
 use super::block::{Block, Motion, PartArc};
-use super::decode::meant;
+use super::decode::meant as decode;
 use super::encode::encode;
 use super::entry::{Move, travel_of};
 use super::rules::Limits;
@@ -64,7 +64,7 @@ impl Item {
         Item {
             block: Some(*block),
             travel: travel_of(block),
-            way: meant(block, Point::origin()),
+            way: decode(block, Point::origin()),
             ..Item::default()
         }
     }
@@ -146,6 +146,8 @@ struct Lead {
     at: usize,
     kind: (Discriminant<Change>, Option<Discriminant<Motion>>),
     radius: f64,
+    /// The centre seen from the start, µm: a full circle leads nowhere, wherever it lies.
+    center: Vector,
     by: Move,
 }
 
@@ -307,6 +309,10 @@ impl Contour for Suspect<'_> {
             radius: meant
                 .filter(|block| !block.motion.is_line())
                 .map_or(0.0, |block| (block.x as f64).hypot(block.y as f64)),
+            center: meant
+                .and_then(|block| decode(block, Point::origin()))
+                .and_then(|way| way.as_arc().map(|arc| arc.center - arc.start))
+                .unwrap_or_default(),
             by,
         }
     }
@@ -317,6 +323,7 @@ impl Contour for Suspect<'_> {
             && one.kind == other.kind
             && one.by.minus(other.by).is_within(2.5)
             && (one.radius - other.radius).abs() <= 3.0
+            && (one.center - other.center).norm() <= 8.0
     }
 
     /// Two numbers of one block that may each be wrong.

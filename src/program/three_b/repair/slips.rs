@@ -144,8 +144,7 @@ pub(super) fn with(block: &Block, number: Number, value: i64) -> Block {
     }
 }
 
-/// Values of a number with which a block may lead to the intended end: those one digit from the written one first. A
-/// digit too many is a doubled one.
+/// Values of a number with which a block may lead to the intended end: those one digit from the written one first.
 fn values(
     block: &Block,
     number: Number,
@@ -155,12 +154,7 @@ fn values(
     let Some((value, within)) = solved(block, number, wanted) else {
         return Vec::new();
     };
-    // Of a circle only one key makes another: any of them counts.
-    let is_circle = wanted.is_turn() && !block.motion.is_line();
-    let is_likely = |key: &Key| match key {
-        Key::More => is_circle,
-        key => !matches!(key, Key::Sign | Key::Point),
-    };
+    let is_likely = |key: &Key| !matches!(key, Key::Sign | Key::Point);
     let mut slips: Vec<i64> = keys::meant(&digits[number as usize], None)
         .into_iter()
         .filter(|(_, key)| is_likely(key))
