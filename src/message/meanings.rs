@@ -10,7 +10,7 @@ pub(super) fn meaning(name: &str) -> Option<&'static str> {
 #[rustfmt::skip]
 const MEANINGS: &[(&str, &str)] = &[
     ("correction", "电极丝半径 + 放电间隙，mm。即丝中心离轮廓的距离。更高一级的设置给出它而没有给出 `passes.corrections` 时，只切一次。"),
-    ("wire-diameter", "电极丝直径，mm。没有设置 `correction` 时，它与 `gap` 一起得出补偿量：半径 + 间隙；两者只设一个时，另一个取默认值。已有 `correction` 或 `passes.corrections` 时，它说明丝的粗细，见 [`pass-order`](rules/pass-order.md)。更高一级的设置给出两者之一而没有给出 `correction` 时，补偿量重新计算，只切一次。"),
+    ("wire-diameter", "电极丝直径，mm。没有设置 `correction` 时，它与 `gap` 一起得出补偿量：半径 + 间隙；两者只设一个时，另一个取默认值。已有 `correction` 或 `passes.corrections` 时，它说明丝的粗细，见 [`pass-order`](rules/pass-order.md)。更高一级的设置给出两者之一而没有给出 `correction` 时，补偿量重新计算。"),
     ("gap", "放电间隙，mm。见 `wire-diameter`。"),
     ("side", "电极丝在哪一侧走，用于图元和图层都没有说明的轮廓。"),
     ("side = both", "轮廓从内侧切一次，从外侧切一次。"),

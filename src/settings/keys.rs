@@ -44,7 +44,7 @@ tables! {
         correction: f64 = 0.10 => number in Range::ABOVE_ZERO;
         /// Diameter of the wire, mm. With `gap` it gives the correction where no `correction` is set: half the diameter + gap; when one of the
         /// two is set the other has its default there. Together with `correction` or `passes.corrections` it says how thick the wire is, see
-        /// [`pass-order`](rules/pass-order.md). A later level that sets one of the two and no `correction` sets the correction again, and one pass.
+        /// [`pass-order`](rules/pass-order.md). A later level that sets one of the two and no `correction` sets the correction again.
         #[serde(alias = "wire-diameter")]
         wire_diameter: f64 = 0.18 => number in Range::ABOVE_ZERO;
         /// Spark gap, mm. See `wire-diameter`.

@@ -89,17 +89,16 @@ impl Settings {
 
     /// Lays `later` over `self`: `later` wins; tables are merged key by key.
     ///
-    /// A later level with a correction, or with a wire diameter or a gap, resets the earlier levels' other ways to say
-    /// it. One thread hole or one entry likewise resets those of single contours.
+    /// A later level with a correction resets the passes of earlier levels, and one with a wire diameter or a gap their
+    /// correction. One thread hole or one entry likewise resets those of single contours.
     pub(crate) fn overlaid(&self, later: &Settings) -> Settings {
         let mut laid = Overlay::overlaid(self, later);
-        let says_a_wire = later.wire_diameter.is_some() || later.gap.is_some();
-        if says_a_wire {
+        if later.wire_diameter.is_some() || later.gap.is_some() {
             laid.correction = later.correction;
         }
         if let (Some(laid), Some(earlier)) = (&mut laid.passes, &self.passes) {
             let own = later.passes.clone().unwrap_or_default();
-            laid.reset(earlier, &own, says_a_wire || later.correction.is_some());
+            laid.reset(earlier, &own, later.correction.is_some());
             if later.gap.is_some() {
                 laid.gaps = own.gaps;
             }

@@ -180,12 +180,18 @@ mod tests {
             (FILE, "correction = 0.3\n", &[0.3], None, None),
             (
                 FILE,
-                "wire-diameter = 0.3\ngap = 0.02\n",
-                &[0.17],
-                Some(0.02),
-                None,
+                "wire-diameter = 0.3\ngap = 0.03\n",
+                &[0.2, 0.15],
+                Some(0.03),
+                Some("D3"),
             ),
-            (FILE, "wire-diameter = 0.3\n", &[0.16], None, None),
+            (
+                FILE,
+                "wire-diameter = 0.3\n",
+                &[0.2, 0.15],
+                Some(0.02),
+                Some("D3"),
+            ),
             (
                 FILE,
                 "correction = 0.3\n[passes]\nregisters = [\"D7\"]\n",

@@ -385,7 +385,7 @@ export interface Settings {
    */
   correction?: number;
   /**
-   * Diameter of the wire, mm. With `gap` it gives the correction where no `correction` is set: half the diameter + gap; when one of the two is set the other has its default there. Together with `correction` or `passes.corrections` it says how thick the wire is, see `pass-order`. A later level that sets one of the two and no `correction` sets the correction again, and one pass.
+   * Diameter of the wire, mm. With `gap` it gives the correction where no `correction` is set: half the diameter + gap; when one of the two is set the other has its default there. Together with `correction` or `passes.corrections` it says how thick the wire is, see `pass-order`. A later level that sets one of the two and no `correction` sets the correction again.
    */
   wireDiameter?: number;
   /**
