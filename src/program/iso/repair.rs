@@ -50,6 +50,9 @@ const MOST_CUTS: usize = 3;
 /// One slip has at most this many consequences.
 const MOST_TROUBLES: usize = 6;
 
+/// By this much a cut without a fault must be less odd after a change.
+const SOUNDER: f64 = 1.5;
+
 /// Lines that are run for all of them.
 const MOST_RUNS: usize = 40_000;
 
@@ -246,7 +249,7 @@ impl Contour for Suspect<'_> {
         let (after, runs) = self.way.with(change.index(), change.replaced(), &lines);
         let cost = after.cost() + cost;
         let (was, is) = (self.total.faults(), after.faults());
-        let is_sounder = was == [0, 0] && cost + Self::CLEARLY < self.total.cost();
+        let is_sounder = was == [0, 0] && cost + SOUNDER < self.total.cost();
         let is_better = is < was || (after.hard == 0 && is_sounder);
         // A change that adds a way, or removes something that stands only once, is never sure.
         let is_a_slip = match change {
@@ -273,6 +276,7 @@ impl Contour for Suspect<'_> {
         // What is calculated comes behind what may have been written.
         let later = match change {
             Change::Replace { .. } if plainness == Plainness::Calculated => Self::CLEARLY,
+            Change::Insert { .. } => Self::CLEARLY,
             _ => 0.0,
         };
         let verdict = Verdict {

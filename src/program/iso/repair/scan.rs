@@ -382,8 +382,9 @@ impl Scan {
     ) {
         let turned = turn(before, start);
         let has_arc = made.is_arc() || last.is_arc();
-        // Two lines do so, an arc may.
-        if turned > BACK && has_arc {
+        // Two lines do so, an arc may, and a way in goes out and in.
+        let is_way_in = self.cut.as_ref().is_some_and(|cut| cut.moves == 1);
+        if turned > BACK && (has_arc || is_way_in) {
             self.against.back += 1;
             self.against.soft += 1.2;
             self.against.vague += 3.8;

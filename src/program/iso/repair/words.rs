@@ -339,7 +339,10 @@ impl Words<'_> {
             }
             // A number without its letter.
             WordFault::NoWord if number_of(&text).is_some() => {
-                for letter in ["X", "Y", "I", "J", "G"] {
+                let letters = ["X", "Y", "I", "J", "G"];
+                // No G word has so many digits.
+                let many = letters.len() - usize::from(text.contains('.') || text.len() > 3);
+                for letter in letters.into_iter().take(many) {
                     self.rewrite(range.clone(), &format!("{letter}{text}"), prior::LETTER);
                 }
             }

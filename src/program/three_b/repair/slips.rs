@@ -6,7 +6,7 @@ use super::super::encode::{counted, line_block};
 use super::super::entry::{Move, travel_of};
 use super::super::rules::{self, Counts, Limits};
 use super::loose::{Loose, Number};
-use super::{Piece, Suspect};
+use super::{Piece, STATED, Suspect};
 use crate::finding::Rule;
 use crate::geometry::{Arc, Point, Segment};
 use crate::program::grid::Node;
@@ -227,7 +227,9 @@ pub(super) fn solved(block: &Block, number: Number, wanted: &Wanted) -> Option<(
             if wanted.is_turn() {
                 return Some(((4.0 * arc.radius).round() as i64, 2));
             }
-            Some((counted(&about, block.axis).round() as i64, 4))
+            // Coordinates tell more exactly than a contour that closes.
+            let within = if wanted.near <= STATED { 2 } else { 4 };
+            Some((counted(&about, block.axis).round() as i64, within))
         }
     }
 }
