@@ -168,7 +168,7 @@ fn a_hole_that_has_no_room_is_said() {
         slot(),
         &[(
             warning,
-            "no start hole of Ø 2.200 mm has room in contour 2A",
+            "leaves 0.100 mm beside contour 2A, expected the correction",
         )],
     );
     check(two, slot(), &[]);
