@@ -187,7 +187,7 @@ impl Contour for Suspect<'_> {
     const CLEARLY: f64 = 2.1;
 
     fn finalists(&self) -> usize {
-        64
+        if self.is_searched_whole() { 64 } else { 16 }
     }
 
     fn is_searched_whole(&self) -> bool {
@@ -306,6 +306,9 @@ impl Contour for Suspect<'_> {
     }
 
     fn crosses(&self, change: Option<&Change>, left: &mut usize) -> Option<bool> {
+        if !self.is_searched_whole() {
+            return Some(false);
+        }
         let pieces = match change {
             Some(change) => {
                 let lines = self.lines_with(change);

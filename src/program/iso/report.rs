@@ -178,7 +178,7 @@ fn suspects(document: &Document, troubles: &[usize]) -> Vec<Finding> {
         Finding::of(fault, range).with(severity)
     };
     repairs
-        .filter(|repair| repair.explains && !is_said(repair.line))
+        .filter(|repair| repair.explains && !repair.closes_anywhere() && !is_said(repair.line))
         .map(suspect)
         .collect()
 }

@@ -22,5 +22,12 @@ pub(crate) struct Repair {
     pub(crate) explains: bool,
 }
 
+impl Repair {
+    /// True for a line that only closes the cut: it would do so at any place.
+    pub(crate) fn closes_anywhere(&self) -> bool {
+        self.closes && matches!(self.kind, FixKind::InsertBlock { .. })
+    }
+}
+
 /// Repairs by the lines of the cuts that they belong to.
 pub(crate) type Repairs = Vec<(Range<usize>, Vec<Repair>)>;
