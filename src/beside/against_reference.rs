@@ -4,6 +4,7 @@
 //! that has the same blocks except a few, somebody has changed those: each of them is named, however many they are, and
 //! nothing else. Other programs are not judged here.
 
+use super::begun::begun_elsewhere;
 use super::comparison::{Comparison, Difference, FEW};
 use super::drawn::Drawn;
 use super::reference::{Reference, Under};
@@ -14,12 +15,12 @@ use crate::geometry::{Arc, Segment, Vector};
 
 /// The largest deviation of a block, or of one of its numbers, from the rewritten one, µm; and that under settings that
 /// are not known to the last digit.
-const ALIKE: f64 = 2.0;
+pub(super) const ALIKE: f64 = 2.0;
 const ROUNDED: f64 = 1.5;
 /// Where the mean deviation of a program's blocks is below this, µm, it was written with just these settings.
 const SAME: f64 = 1e-2;
 /// A larger deviation of a way in or out, or between contours, is meant: its hole is elsewhere, µm.
-const SLIP: f64 = 50.0;
+pub(super) const SLIP: f64 = 50.0;
 /// For each differing block this many others must be as expected; with fewer, the settings are not known.
 const LIKE: usize = 4;
 /// The most blocks that may be lost or superfluous in one place.
@@ -481,32 +482,4 @@ fn named(block: &Block, segment: Option<(EntityId, usize)>, off: f64, kind: Kind
         off: off / 1e3,
         kind,
     }
-}
-
-/// The line in which an ISO program states its start, where that is a little off. All of the program is `from` the
-/// rewritten one: where it counts from its own start, which is zero, that is no change.
-fn begun_elsewhere(traced: &Traced, reference: &Traced, from: Vector) -> Option<Difference> {
-    if traced.counts {
-        return None;
-    }
-    let said = |of: &Traced| {
-        let first = of.blocks.first()?.line;
-        let lines = (0..first).map(|line| (line, of.text.line_range(line)));
-        let mut words = lines.map(|(line, range)| (line, range.clone(), of.said_in(range)));
-        words.find(|(_, _, said)| said.sets_place())
-    };
-    let ((line, range, own), (.., meant)) = (said(traced)?, said(reference)?);
-    if own.is_at_zero() && from != Vector::zeros() {
-        return None;
-    }
-    let off = own
-        .apart(&meant)
-        .filter(|off| (ALIKE..=SLIP).contains(off))?;
-    Some(Difference {
-        range,
-        line,
-        segment: None,
-        off: off / 1e3,
-        kind: Kind::Lead,
-    })
 }

@@ -11,6 +11,7 @@
 mod about_stops;
 mod against_reference;
 mod anchor;
+mod begun;
 mod cache;
 mod compare;
 mod comparison;
