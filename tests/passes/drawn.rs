@@ -26,8 +26,10 @@ fn passes_and_their_tabs_are_drawn_as_closed_contours() {
             (Format::Iso, "controller"),
         ][(number / 72 + number) % 3];
         let role = [Role::Punch, Role::Opening][pick(2)];
+        // A limit without a tab is a contradiction.
+        let limit = if tab == 0 { "" } else { "slug-limit = 1\n" };
         let text = format!(
-            "wire-diameter = 0.25\ngap = 0.015\n[job]\nthickness = 40\nslug-limit = 1\n[passes]\ncorrections = {corrections:?}\n\
+            "wire-diameter = 0.25\ngap = 0.015\n[job]\nthickness = 40\n{limit}[passes]\ncorrections = {corrections:?}\n\
              sequence = \"{sequence}\"\n[program]\ntab = {tab}\nclosing-overlap = {overlap:?}\nlead = \"{lead}\"\n\
              compensation = \"{compensation}\"\n"
         );

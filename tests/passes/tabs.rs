@@ -145,7 +145,7 @@ fn four_b_stops_before_its_tab_and_goes_on_in_one_contour() {
     let refused = Format::FourB
         .write(&paths(&drawing, &several), 1.0, &several, &mut |_, _| true)
         .expect_err("one contour for all passes");
-    assert!(refused.to_string().contains("one pass"), "{refused}");
+    assert!(refused.to_string().contains("a single pass"), "{refused}");
 }
 
 #[test]
