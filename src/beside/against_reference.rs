@@ -15,12 +15,12 @@ use crate::geometry::{Arc, Segment, Vector};
 
 /// The largest deviation of a block, or of one of its numbers, from the rewritten one, µm; and that under settings that
 /// are not known to the last digit.
-pub(super) const ALIKE: f64 = 2.0;
+const ALIKE: f64 = 2.0;
 const ROUNDED: f64 = 1.5;
 /// Where the mean deviation of a program's blocks is below this, µm, it was written with just these settings.
 const SAME: f64 = 1e-2;
 /// A larger deviation of a way in or out, or between contours, is meant: its hole is elsewhere, µm.
-pub(super) const SLIP: f64 = 50.0;
+const SLIP: f64 = 50.0;
 /// For each differing block this many others must be as expected; with fewer, the settings are not known.
 const LIKE: usize = 4;
 /// The most blocks that may be lost or superfluous in one place.
@@ -361,7 +361,12 @@ impl<'a> Pairs<'a> {
             };
             found.push(named(place, segment, length, kind));
         }
-        found.extend(begun_elsewhere(traced, &reference.traced, from));
+        found.extend(begun_elsewhere(
+            traced,
+            &reference.traced,
+            from,
+            ALIKE..=SLIP,
+        ));
         found.sort_by_key(|difference| difference.range.start);
         let contours = reference
             .traced

@@ -1,17 +1,18 @@
 //! Where an ISO program states its start, beside our own for its drawing.
 
-use super::against_reference::{ALIKE, SLIP};
 use super::comparison::Difference;
 use super::traced::Traced;
 use super::walk::Kind;
 use crate::geometry::Vector;
+use std::ops::RangeInclusive;
 
 /// The line in which an ISO program states its start, where that is a little off. All of the program is `from` the
-/// rewritten one: where it counts from its own start, which is zero, that is no change.
+/// rewritten one: where it counts from its own start, which is zero, that is no change. `slips`: how far off it counts, µm.
 pub(super) fn begun_elsewhere(
     traced: &Traced,
     reference: &Traced,
     from: Vector,
+    slips: RangeInclusive<f64>,
 ) -> Option<Difference> {
     if traced.counts {
         return None;
@@ -26,9 +27,7 @@ pub(super) fn begun_elsewhere(
     if own.is_at_zero() && from != Vector::zeros() {
         return None;
     }
-    let off = own
-        .apart(&meant)
-        .filter(|off| (ALIKE..=SLIP).contains(off))?;
+    let off = own.apart(&meant).filter(|off| slips.contains(off))?;
     Some(Difference {
         range,
         line,
