@@ -182,6 +182,12 @@ fn the_settings_in_force_say_where_the_correction_comes_from() {
     check(
         json!({ "passes": { "corrections": [0.3, 0.2] } }),
         Some("correction = 0.1"),
+        0.1,
+        "file",
+    );
+    check(
+        json!({ "passes": { "corrections": [0.3, 0.2] } }),
+        Some("wire-diameter = 0.25\ngap = 0.02"),
         0.3,
         "client",
     );

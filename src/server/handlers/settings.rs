@@ -20,7 +20,7 @@ pub(in crate::server) fn settings(state: &mut State, uri: &str) -> SettingsInFor
     }
 }
 
-/// Passes replace a single correction, whichever level they come from.
+/// Passes replace a single correction, but one of a later level, which replaces them.
 fn source(of_client: &Settings, of_file: Option<&Settings>) -> CorrectionSource {
     let has_passes = |settings: &Settings| {
         settings
@@ -41,7 +41,8 @@ fn source(of_client: &Settings, of_file: Option<&Settings>) -> CorrectionSource 
             .as_ref()
             .is_some_and(|milling| milling.is_said())
     };
-    if of_file.is_some_and(has_passes) {
+    let states_one = |settings: &Settings| settings.correction.is_some();
+    if of_file.is_some_and(|file| has_passes(file) || states_one(file)) {
         CorrectionSource::File
     } else if has_passes(of_client) {
         CorrectionSource::Client
