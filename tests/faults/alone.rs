@@ -199,7 +199,7 @@ fn iso(is_absolute: bool, decimals: usize, chance: &mut Chance) -> String {
         };
         let is_still = [to.x == from.x, to.y == from.y];
         let mut words = Vec::new();
-        if !(is_modal && is_still[0]) || (is_still[0] && is_still[1]) {
+        if !is_still[0] || !is_modal || is_still[1] {
             words.push(format!("X{}", number(x)));
         }
         if !(is_modal && is_still[1]) {

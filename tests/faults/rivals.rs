@@ -156,11 +156,9 @@ const ALIKE: &str = "G91\nG01 X-3000 Y500\nG01 X10000 Y-500\nG01 X5500 Y4100\nG0
 
 #[test]
 fn a_number_is_not_calculated_where_a_digit_was_lost() {
-    for program in [ALIKE] {
-        let faulty = format!("%\n{}", with(program, "X-6200", "X-620"));
-        let left = fixed(&faulty);
-        assert!(left == faulty || left == format!("%\n{program}"), "{left}");
-    }
+    let faulty = format!("%\n{}", with(ALIKE, "X-6200", "X-620"));
+    let left = fixed(&faulty);
+    assert!(left == faulty || left == format!("%\n{ALIKE}"), "{left}");
 }
 
 #[test]
