@@ -12,6 +12,7 @@ use super::traced::{Block, Motion, Traced};
 use super::walk::Kind;
 use crate::drawing::EntityId;
 use crate::geometry::{Arc, Segment, Vector};
+use std::cell::LazyCell;
 
 /// The largest deviation of a block, or of one of its numbers, from the rewritten one, µm; and that under settings that
 /// are not known to the last digit.
@@ -287,6 +288,7 @@ impl<'a> Pairs<'a> {
         let most = FEW.min(traced.blocks.len() / 3);
         let (mut found, mut stated) = (Vec::new(), Vec::new());
         let (mut elsewhere, mut ways, mut unlike, mut strays) = (0, 0, 0, false);
+        let is_located = LazyCell::new(|| self.has_placed_contour(from));
         // Of the last that is named: its number, whether the program is elsewhere since, and whether it is a way to another
         // hole.
         let mut run: Option<(usize, bool, bool)> = None;
@@ -332,7 +334,9 @@ impl<'a> Pairs<'a> {
             }
             let (segment, kind) = match source {
                 Some(segment) => (Some(segment), Kind::Block),
-                None if *off <= SLIP || self.leads_astray(number, from) => (None, Kind::Lead),
+                None if *off <= SLIP || *is_located && self.leads_astray(number, from) => {
+                    (None, Kind::Lead)
+                }
                 // The hole is elsewhere, and so is how the wire comes from it.
                 None => {
                     (run, elsewhere) = (None, elsewhere + 1);
@@ -417,16 +421,21 @@ impl<'a> Pairs<'a> {
         ends.is_none_or(|away| (away - off).abs() <= ROUNDED)
     }
 
+    /// Whether a contour lies where it should: a program that says no place lies where its contours lie.
+    fn has_placed_contour(&self, from: Vector) -> bool {
+        let mut all = self.pairs.iter().enumerate();
+        all.any(|(at, pair)| self.is_placed(at, from) && self.is_of_contour(pair))
+    }
+
+    fn is_of_contour(&self, pair: &Pair) -> bool {
+        self.reference.source_of(&pair.meant.motion).is_some()
+    }
+
     /// Whether the next contour begins elsewhere than where it should, and not on its way either: no other hole does that.
     fn leads_astray(&self, number: usize, from: Vector) -> bool {
-        let is_of_contour = |pair: &&Pair| self.reference.source_of(&pair.meant.motion).is_some();
-        // A program that says no place lies where its contours lie.
-        let mut all = self.pairs.iter().enumerate();
-        if !all.any(|(at, pair)| is_of_contour(&pair) && self.is_placed(at, from)) {
-            return false;
-        }
         let mut behind = self.pairs.iter().skip(number + 1);
-        let begins = behind.find(is_of_contour).and_then(|pair| {
+        let next = behind.find(|pair| self.is_of_contour(pair));
+        let begins = next.and_then(|pair| {
             let ([start, _], [meant, _]) = (pair.own.motion.ends()?, pair.meant.motion.ends()?);
             Some((start - from, meant))
         });

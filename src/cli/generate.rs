@@ -44,7 +44,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let path = &arguments.path;
     let last = arguments.common.settings_with(&arguments.program);
     let target = arguments.output.as_deref();
-    let (opened, snapshot) = files::drawing_to_use(path, target, &arguments.common, &last)?;
+    let (mut opened, snapshot) = files::drawing_to_use(path, target, &arguments.common, &last)?;
     let document = &opened.document;
     let wanted = Wanted {
         format: arguments.format,
@@ -55,7 +55,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let findings = document.all_findings().to_vec();
     let made = match job::generate(&snapshot, findings, &wanted, &()) {
         Ok(made) => made,
-        Err(refusal) => return report::refuse_programs(path, document, &refusal),
+        Err(refusal) => return report::refuse_programs(path, &mut opened.document, &refusal),
     };
     output::write(arguments.output.as_deref(), made.program.text.as_bytes())?;
     // `wedm check` reports the drawing's findings; these are the program's.

@@ -41,7 +41,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let last = arguments
         .pairing
         .beside(&arguments.common.settings_with(&arguments.program));
-    let (opened, snapshot) = files::drawing_to_use(path, None, &arguments.common, &last)?;
+    let (mut opened, snapshot) = files::drawing_to_use(path, None, &arguments.common, &last)?;
     let document = &opened.document;
     let wanted = Wanted {
         format: arguments.format,
@@ -55,7 +55,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     report::say(path, document, &alone);
     let made = match job::pair(&snapshot, &findings, &wanted, &()) {
         Ok(made) => made,
-        Err(refusal) => return report::refuse_programs(path, document, &refusal),
+        Err(refusal) => return report::refuse_programs(path, &mut opened.document, &refusal),
     };
     let folder = match (&arguments.output, path.parent()) {
         (Some(folder), _) => folder.clone(),

@@ -156,11 +156,11 @@ pub(crate) fn refuse(
 /// Why no program is made of a drawing.
 pub(crate) fn refuse_programs(
     path: &Path,
-    document: &Document,
+    document: &mut Document,
     refusal: &Refusal,
 ) -> Result<Verdict, Failure> {
     let word = output::word(path);
-    let can_be_fixed = document.fix_all().is_some();
+    let can_be_fixed = document.can_be_fixed(None);
     let advice = |errors| match can_be_fixed {
         true => say!(no_program_of_a_drawing_with, path.display(), errors, word),
         false => say!(

@@ -261,12 +261,12 @@ impl<'a> Surroundings<'a> {
 
     /// The wall that a lead should come across, where it comes from the part.
     fn comes_through_the_part(&self, pieces: &[Segment], landing: &Landing) -> Option<Obstacle> {
-        let comes_from_the_part = self.comes_across
-            && pieces
-                .last()
-                .is_some_and(|last| landing.is_reached_from_the_part(last.end_tangent()));
+        let last = pieces.last().filter(|_| self.comes_across)?;
+        if !landing.is_reached_from_the_part(last.end_tangent()) {
+            return None;
+        }
         let (_, wall) = self.own.nearest_to(landing.at, self.clearance)?;
-        comes_from_the_part.then_some(Obstacle::Own(wall))
+        Some(Obstacle::Own(wall))
     }
 
     /// Where an obstacle stands in the drawing, and what a lead does there.
