@@ -110,6 +110,12 @@ pub(crate) fn head<T>(all: &[T], most: usize) -> &[T] {
     all.get(..most).unwrap_or(all)
 }
 
+/// True where some bytes hold a letter or a digit of any writing, not signs alone.
+pub(crate) fn says_anything(bytes: &[u8]) -> bool {
+    let says = |byte: &u8| byte.is_ascii_alphanumeric() || !byte.is_ascii();
+    bytes.iter().any(says)
+}
+
 /// The first characters of some bytes, for a sentence about them.
 pub(crate) fn shown(bytes: &[u8]) -> String {
     let near = String::from_utf8_lossy(head(bytes, 48));

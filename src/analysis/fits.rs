@@ -116,7 +116,7 @@ impl Analysis {
         let outlines = &paired.outlines;
         match partners {
             Partners::CutTwice(_) => {
-                let twice = (0..keys.len()).filter(|&index| fit::is_cut_twice(&outlines[index]));
+                let twice = fit::all_cut_twice(outlines);
                 paired.pairs = twice.map(|index| [(keys[index], index); 2]).collect();
             }
             Partners::Drawn => {
@@ -171,7 +171,7 @@ impl Analysis {
         let keys = self.in_machining_order(drawing);
         let (pairs, alone) = match self.asked_partners()? {
             Partners::CutTwice(_) => {
-                let twice = (0..outlines.len()).filter(|&at| fit::is_cut_twice(&outlines[at]));
+                let twice = fit::all_cut_twice(outlines);
                 (twice.map(|at| [at; 2]).collect(), Vec::new())
             }
             Partners::Drawn => {

@@ -2,7 +2,7 @@
 
 use super::held::Held;
 use super::{
-    Fit, Pair, Spot, cut_twice, cut_twice_parts, drawn_pair, drawn_part, is_cut_twice, limits,
+    Fit, Pair, Spot, all_cut_twice, cut_twice, cut_twice_parts, drawn_pair, drawn_part, limits,
     name_of, partners, walls_of,
 };
 use crate::drawing::{Drawing, Outline, Role};
@@ -49,10 +49,8 @@ impl Laid {
         let mut laid = Laid::default();
         match asked_of(settings)?.0 {
             Partners::CutTwice(_) => {
-                for (index, outline) in outlines.iter().enumerate() {
-                    if !is_cut_twice(outline) {
-                        continue;
-                    }
+                for index in all_cut_twice(outlines) {
+                    let outline = &outlines[index];
                     let parts = cut_twice_parts(drawing, outline, settings, None, [None; 2])?;
                     if !goes_on() {
                         return Err(Refusal::Cancelled);

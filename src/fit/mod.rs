@@ -105,11 +105,18 @@ pub fn fit(
 }
 
 /// True for a contour that is cut once from inside and once from outside.
-pub(crate) fn is_cut_twice(outline: &Outline) -> bool {
+fn is_cut_twice(outline: &Outline) -> bool {
     outline.contour.closed
         && outline.role == Role::Both
         && outline.twice_area != 0.0
         && outline.contour.double_of.is_none()
+}
+
+/// Of all contours those that are cut twice, by their places.
+pub(crate) fn all_cut_twice(outlines: &[Outline]) -> impl Iterator<Item = usize> {
+    let all = outlines.iter().enumerate();
+    all.filter(|(_, outline)| is_cut_twice(outline))
+        .map(|(index, _)| index)
 }
 
 /// The punch and the plate that are cut along one contour, made at once; `walls` are its own, where they are known, and `before` are the same

@@ -32,38 +32,24 @@ impl Dropped {
     pub(crate) fn sentences(&self) -> Vec<String> {
         let mut sentences = Vec::new();
         if !self.words.is_empty() {
-            let named = self.words.iter().take(NAMED);
-            let named: Vec<String> = named
-                .map(|(line, word)| say!(a_word_in_its_line, word, line + 1))
-                .collect();
-            let more = if self.words.len() > NAMED {
-                ", …"
-            } else {
-                ""
-            };
-            sentences.push(say!(
-                not_written_words_of_the_machine,
-                named.join(", "),
-                more
-            ));
+            let word = |(line, word): &(usize, String)| say!(a_word_in_its_line, word, line + 1);
+            let (named, more) = named(&self.words, word);
+            sentences.push(say!(not_written_words_of_the_machine, named, more));
         }
         if !self.optional.is_empty() {
-            let lines = self.optional.iter().take(NAMED);
-            let lines: Vec<String> = lines.map(|line| (line + 1).to_string()).collect();
-            let more = if self.optional.len() > NAMED {
-                ", …"
-            } else {
-                ""
-            };
-            sentences.push(say!(
-                not_written_that_a_block_may_be_skipped,
-                lines.join(", "),
-                more
-            ));
+            let (lines, more) = named(&self.optional, |line| (line + 1).to_string());
+            sentences.push(say!(not_written_that_a_block_may_be_skipped, lines, more));
         }
         if self.comments {
             sentences.push(say!(not_written_the_comments).to_owned());
         }
         sentences
     }
+}
+
+/// The first of some in a row, and what stands for the others.
+fn named<T>(all: &[T], one: impl Fn(&T) -> String) -> (String, &'static str) {
+    let first: Vec<String> = all.iter().take(NAMED).map(one).collect();
+    let more = if all.len() > NAMED { ", …" } else { "" };
+    (first.join(", "), more)
 }

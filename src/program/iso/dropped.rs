@@ -4,7 +4,7 @@ use super::block::{Block, Note, read_line};
 use super::document::Document;
 use super::plain::words;
 use super::word::Token;
-use crate::text::shown;
+use crate::text::{says_anything, shown};
 use std::collections::BTreeSet;
 
 /// What stands in a program beside its moves.
@@ -38,11 +38,7 @@ pub(in crate::program) fn dropped(document: &Document, taper: bool) -> Dropped {
             let text = bytes.get(range.start - 1..range.end - 1);
             let text = shown(text.unwrap_or_default().trim_ascii()).to_ascii_uppercase();
             match token {
-                Token::Comment => {
-                    found.comments |= text
-                        .bytes()
-                        .any(|byte| byte.is_ascii_alphanumeric() || !byte.is_ascii())
-                }
+                Token::Comment => found.comments |= says_anything(text.as_bytes()),
                 Token::Skip if !block.empty => found.optional.push(line),
                 Token::Skip => {}
                 _ if of_machine.contains(&range.start) || is_of_process(&token) => {

@@ -219,12 +219,6 @@ impl<'a> Way<'a> {
     /// All moves with a length, with other lines in place of `count` ones, each relative to its centre or with its
     /// radius: equal ways are equal here.
     pub(crate) fn moves_with(&self, index: usize, count: usize, lines: &[Line]) -> Vec<Move> {
-        let mut machine = self.before[0].machine;
-        let all = self.lines[..index]
-            .iter()
-            .chain(lines)
-            .chain(&self.lines[(index + count).min(self.lines.len())..]);
-        let moves = all.filter_map(|line| machine.run(&line.block, self.reading));
         let alike = |made: Move| Move {
             bend: match made.center(self.reading.rule(made.incremental)) {
                 Some(absolute) => Bend::Center {
@@ -241,28 +235,36 @@ impl<'a> Way<'a> {
             ..made
         };
         let leads = |made: &Move| made.from != made.to || made.is_arc();
+        let moves = self.run_with(index, count, lines);
         moves.filter(leads).map(alike).collect()
     }
-}
 
-impl Way<'_> {
     /// The pieces that are cut, with other lines in place of `count` ones, µm. An arc that cannot be is left out.
     pub(crate) fn pieces_with(&self, index: usize, count: usize, lines: &[Line]) -> Vec<Segment> {
-        let mut machine = self.before[0].machine;
-        let all = self.lines[..index]
-            .iter()
-            .chain(lines)
-            .chain(&self.lines[(index + count).min(self.lines.len())..]);
-        let moves = all.filter_map(|line| machine.run(&line.block, self.reading));
         let piece = |made: Move| match made.course(self.reading) {
             Course::Line => Some(Segment::line(micrometres(made.from), micrometres(made.to))),
             Course::Arc(arc) => Some(Segment::Arc(arc)),
             Course::OffRadius { .. } | Course::NoRadius => None,
         };
-        moves
+        self.run_with(index, count, lines)
             .filter(|made| made.is_cut() && made.goes_anywhere())
             .filter_map(piece)
             .collect()
+    }
+
+    /// All moves, with other lines in place of `count` ones.
+    fn run_with<'b>(
+        &'b self,
+        index: usize,
+        count: usize,
+        lines: &'b [Line],
+    ) -> impl Iterator<Item = Move> + use<'a, 'b> {
+        let mut machine = self.before[0].machine;
+        let all = self.lines[..index]
+            .iter()
+            .chain(lines)
+            .chain(&self.lines[(index + count).min(self.lines.len())..]);
+        all.filter_map(move |line| machine.run(&line.block, self.reading))
     }
 }
 

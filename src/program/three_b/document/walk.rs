@@ -9,7 +9,7 @@ use super::{At, Document};
 use crate::geometry::{Point, Vector};
 use crate::program::path::{Kind, Step, Trace, Writing};
 use crate::program::steps::{self, Program, Sum};
-use crate::text::SourceText;
+use crate::text::{SourceText, says_anything};
 use rustc_hash::FxHashMap;
 use std::ops::Range;
 
@@ -49,8 +49,7 @@ impl Document {
             let all = pieces(bytes, &words);
             all.iter().any(|piece| {
                 let own = bytes.get(piece.range.clone()).unwrap_or_default();
-                let says = |byte: &u8| byte.is_ascii_alphanumeric() || !byte.is_ascii();
-                piece.field == Field::Comment && own.iter().any(says)
+                piece.field == Field::Comment && says_anything(own)
             })
         })
     }
