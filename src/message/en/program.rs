@@ -98,6 +98,7 @@ declare! {
     rotate_by_90_counter_clockwise => "Rotate by 90° counter-clockwise";
     rotate_by_90_clockwise => "Rotate by 90° clockwise";
     rotate_by_180 => "Rotate by 180°";
+    semicolon_hides_a_block(column) => "column {column}: the block after this semicolon is read as a comment and not cut: to some controls a semicolon ends a block, then each block needs a line of its own";
     this_comment_holds_a_block_which_is_not_cut(column) => "column {column}: this comment holds a block, which is not cut";
     no_block_is_found => "no block is found, expected B X B Y B J G Z";
     the_coordinates_have_decimal_commas => "the coordinates have decimal commas and are not read, expected decimal points";

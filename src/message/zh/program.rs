@@ -98,6 +98,7 @@ translate! {
     rotate_by_90_counter_clockwise => "逆时针转 90°";
     rotate_by_90_clockwise => "顺时针转 90°";
     rotate_by_180 => "转 180°";
+    semicolon_hides_a_block(column) => "第 {column} 列：分号之后的程序段按注释读取，不会切割；有些控制器以分号结束程序段，此时每个程序段须各占一行";
     this_comment_holds_a_block_which_is_not_cut(column) => "第 {column} 列：此注释中有一个程序段，不会切割";
     no_block_is_found => "没有找到程序段，应为 B X B Y B J G Z";
     the_coordinates_have_decimal_commas => "坐标用了逗号小数点，读不出，应为小数点";

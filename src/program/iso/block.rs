@@ -115,7 +115,7 @@ pub struct Block {
     pub(crate) repeat: Option<u32>,
     /// M99.
     pub(crate) returns: bool,
-    /// A word that takes the coordinates for something else than a move, such as G04 or G28.
+    /// A word that takes the coordinates for something else than a move, such as G04, G28 or G68.
     pub(crate) takes_coordinates: bool,
     /// A word of the line could not be read, so its coordinates are unknown.
     pub(crate) broken: bool,
@@ -426,6 +426,8 @@ impl Block {
     /// Takes a G word; false where its meaning depends on the machine.
     fn prepare(&mut self, number: Number) -> bool {
         if number.decimals > 0 {
+            // The axes of a mirror, with G51.1 and G50.1.
+            self.takes_coordinates |= matches!((number.mantissa, number.decimals), (501 | 511, 1));
             // G90.1 and G91.1 tell the meaning of I and J, which the arcs themselves show.
             return matches!((number.mantissa, number.decimals), (901 | 911, 1));
         }
@@ -441,7 +443,8 @@ impl Block {
             91 => self.incremental = Some(true),
             92 => self.sets_position = true,
             17 => {}
-            10 | 27..=31 | 65..=67 => {
+            // G68 has the centre and the angle of a rotation.
+            10 | 26..=31 | 65..=68 => {
                 self.takes_coordinates = true;
                 return false;
             }

@@ -1,6 +1,9 @@
 //! Reads a line word by word.
 
+mod names;
+
 use super::word::{Number, Term, Token, Value, WordFault};
+use names::holds_block;
 use std::ops::Range;
 
 /// The digits that a number may have before its decimal point, and those that are read after it; more than any control
@@ -81,6 +84,14 @@ impl Cursor<'_> {
             b'(' => self.comment(start),
             b';' => {
                 self.at = self.line.len();
+                let is_first = self.line[..start].iter().all(u8::is_ascii_whitespace);
+                if !is_first && holds_block(&self.line[start + 1..]) {
+                    self.fault = Some((WordFault::CommentedBlock, self.range(start)));
+                }
+                Token::Comment
+            }
+            b'<' if self.is_name(start) => {
+                self.at = self.line.len();
                 Token::Comment
             }
             b'%' => Token::Tape,
@@ -128,10 +139,15 @@ impl Cursor<'_> {
             return self.stray();
         }
         self.skip(|byte| !matches!(byte, b'(' | b';' | b'%'));
+        self.leave_space(start);
+        Token::Foreign
+    }
+
+    /// Goes back over the spaces at the end of what begins at `start`.
+    fn leave_space(&mut self, start: usize) {
         while self.at > start && matches!(self.line[self.at - 1], b' ' | b'\t') {
             self.at -= 1;
         }
-        Token::Foreign
     }
 
     /// `,R2.` after its comma.
@@ -192,50 +208,6 @@ impl Cursor<'_> {
             Ok(None) => self.without_number(letter, start),
             Err(fault) => Token::Fault(fault),
         }
-    }
-
-    /// A letter without a number: the name of something, an expression, or a fault.
-    fn without_number(&mut self, letter: u8, start: usize) -> Token {
-        match self.peek() {
-            Some(b'#' | b'[' | b'=') => {
-                self.skip_to_space();
-                return match leads(letter) {
-                    true => Token::Fault(WordFault::Expression { letter }),
-                    false => Token::Foreign,
-                };
-            }
-            _ => self.at = start + 1,
-        }
-        let letters = self.line[start..]
-            .iter()
-            .take_while(|byte| byte.is_ascii_alphabetic())
-            .count();
-        // `TP0.0`: a name of two letters that no word of the path begins with.
-        if letters == 2
-            && matches!(
-                letter,
-                b'A' | b'B' | b'C' | b'E' | b'Q' | b'S' | b'T' | b'U' | b'V' | b'W' | b'Z'
-            )
-        {
-            self.at = start + 2;
-            if matches!(self.number(letter), Ok(Some(_))) {
-                return Token::Foreign;
-            }
-            self.at = start + 1;
-        }
-        if letters >= 3 {
-            self.at = start;
-            self.skip(|byte| {
-                byte.is_ascii_alphanumeric()
-                    || matches!(byte, b'_' | b',' | b'.' | b'-' | b'+' | b'=')
-            });
-            return match letter {
-                // `XABC5`: it may well be a coordinate.
-                b'X' | b'Y' => Token::Fault(WordFault::NoNumber { letter }),
-                _ => Token::Foreign,
-            };
-        }
-        Token::Fault(WordFault::NoNumber { letter })
     }
 
     fn is_definition(&mut self) -> bool {

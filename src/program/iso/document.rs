@@ -3,7 +3,7 @@
 use super::block::{Block, Offset};
 use super::control::{Control, lines_from};
 use super::cut::JoinedCut;
-use super::evidence::Evidence;
+use super::evidence::{Evidence, UsualDecimals};
 use super::layout::{LOOKED_AT, is_parted};
 use super::limits::Limits;
 use super::machine::Machine;
@@ -164,9 +164,9 @@ impl Document {
         Block::of(self.line_bytes(line))
     }
 
-    /// The number of decimals of nearly all numbers, and how many numbers have others.
-    pub(super) fn usual_places(&self) -> Option<(u8, u32)> {
-        self.evidence.usual_places()
+    /// The decimals of nearly all numbers.
+    pub(super) fn usual_decimals(&self) -> Option<UsualDecimals> {
+        self.evidence.usual_decimals()
     }
 
     /// Whether lengths have a decimal point, where nearly all are written alike.

@@ -5,6 +5,7 @@
 
 use super::block::{Block, Motion};
 use super::moves::{CenterRule, MICROMETRE, Move, Place, Reading, apart, distance};
+use super::word::Number;
 
 /// The distances of an arc's ends from its centre differ by at most this many steps of the finest number: each of the
 /// three points may be off by half a step on both axes.
@@ -60,6 +61,28 @@ pub(crate) struct Arcs {
     /// How many arcs of a few micrometres have, under each rule, a centre so far away that they would be lines: both
     /// ends of such an arc fit nearly any centre.
     pub(crate) far: [u32; 3],
+}
+
+/// How many decimals the numbers with a point have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct UsualDecimals {
+    /// Of nearly all of them.
+    pub(crate) usual: u8,
+    /// How many numbers have others.
+    pub(crate) others: u32,
+    /// A writer that leaves zeros at the end out has numbers with fewer: only as many as some number that ends in a 0
+    /// are not too few.
+    least: u8,
+    /// The usual ones, where some number is filled up with zeros to them, or where they are the finest steps of a control;
+    /// otherwise any number may have more: `X7.5` among `X20.`
+    most: u8,
+}
+
+impl UsualDecimals {
+    /// True of a number to which a digit was added, or from which one was taken.
+    pub(crate) fn is_odd(&self, number: Number) -> bool {
+        number.point && !(self.least..=self.most).contains(&number.decimals)
+    }
 }
 
 const RULES: [CenterRule; 3] = [
@@ -162,13 +185,6 @@ impl Evidence {
             .unwrap_or(0) as u8
     }
 
-    /// The fewest decimals that a number may have whose writer leaves zeros at its end out: as many as any number that
-    /// ends in one.
-    pub(super) fn least_places(&self) -> u8 {
-        let kept = self.ending_in_zero.iter().rposition(|count| *count > 0);
-        kept.unwrap_or(0) as u8
-    }
-
     /// Counts a line's numbers.
     pub(crate) fn numbers(&mut self, block: &Block) {
         for number in [block.x, block.y, block.i, block.j, block.r]
@@ -256,10 +272,9 @@ impl Evidence {
 
     /// The decimals that numbers are rounded to: one with more may be a slip.
     fn finest_places(&self) -> u8 {
-        let usual = self.usual_places().map(|(places, _)| places);
-        usual
-            .filter(|places| *places > 1)
-            .unwrap_or(self.decimals())
+        let told = self.usual_decimals();
+        told.filter(|decimals| decimals.usual > 1 && decimals.most == decimals.usual)
+            .map_or(self.decimals(), |decimals| decimals.usual)
     }
 
     /// Whole numbers are the finest steps where no number has a point, or where each that has one stands among at least
@@ -268,15 +283,30 @@ impl Evidence {
         self.with_point == 0 || self.with_point.saturating_mul(4) <= self.long
     }
 
-    /// How many decimals the numbers have, where all but one or two have as many; and how many those exceptions are.
-    pub(crate) fn usual_places(&self) -> Option<(u8, u32)> {
+    /// The decimals of the numbers, where all but one or two have as many.
+    pub(crate) fn usual_decimals(&self) -> Option<UsualDecimals> {
         let all: u32 = self.places.iter().sum();
-        let (places, count) = self
+        let (usual, count) = self
             .places
             .iter()
             .enumerate()
             .max_by_key(|(_, count)| **count)?;
-        (*count >= ENOUGH && all - count <= SLIPS).then_some((places as u8, all - count))
+        if *count < ENOUGH || all - count > SLIPS {
+            return None;
+        }
+        let usual = usual as u8;
+        let padded = self.ending_in_zero.iter().rposition(|count| *count > 0);
+        let padded = padded.unwrap_or(0) as u8;
+        let finest = if self.inches > 0 { 4 } else { 3 };
+        Some(UsualDecimals {
+            usual,
+            others: all - count,
+            least: padded.min(usual),
+            most: match padded >= usual.max(1) || usual >= finest {
+                true => usual,
+                false => u8::MAX,
+            },
+        })
     }
 
     /// Whether lengths have a decimal point, where nearly all are written alike.

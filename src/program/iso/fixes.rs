@@ -122,7 +122,13 @@ fn plain_fix(document: &Document, fault: &Fault, range: &Range<usize>) -> Option
             let block = "M99".into();
             (FixKind::InsertLine { block }, true, behind("M99"))
         }
-        Fault::MissingEnd { word } => (FixKind::AddEnd { word: word.clone() }, true, behind(word)),
+        Fault::MissingEnd { word } => {
+            let edit = match document.block(line).returns {
+                true => end_before_subprograms(document, line, word)?,
+                false => behind(word),
+            };
+            (FixKind::AddEnd { word: word.clone() }, true, edit)
+        }
         // The rapid on which the correction would go on is cut instead.
         Fault::Switch {
             on: true,
@@ -138,6 +144,18 @@ fn plain_fix(document: &Document, fault: &Fault, range: &Range<usize>) -> Option
         _ => return None,
     };
     Some(TextFix::text(kind, is_safe, edit))
+}
+
+/// The end of a program that runs on into its subprograms, up to the return in `last`: before the first of them that is called.
+fn end_before_subprograms(document: &Document, last: usize, word: &str) -> Option<TextEdit> {
+    let order = document.order()?;
+    let called = order.called.iter();
+    let first = called.filter_map(|number| order.labels.get(number)).min()?;
+    let start = document.text().line_start(*first);
+    (0 < *first && *first <= last).then(|| {
+        let line_end = document.text().line_end_before(start);
+        TextEdit::new(start..start, format!("{word}{line_end}"))
+    })
 }
 
 /// Characters that only look like those of a control.

@@ -72,8 +72,7 @@ impl Document {
 
 /// Searches the faulty cuts.
 fn repairs(document: &Document, troubles: &[usize]) -> Repairs {
-    let mut found: Repairs = Vec::new();
-    let mut too_long: Vec<Range<usize>> = Vec::new();
+    let (mut found, mut too_long) = (Repairs::new(), Vec::<Range<usize>>::new());
     let mut left = MOST_RUNS;
     let text = document.text();
     for &trouble in troubles {
@@ -106,10 +105,11 @@ fn repairs(document: &Document, troubles: &[usize]) -> Repairs {
         }
         let suspect = Suspect::new(document, lines.clone(), before, &own);
         left = left.saturating_sub(lines.len());
-        let repairs = search(&suspect, &mut left).into_iter();
-        let repairs = repairs
-            .filter_map(|repair| suspect.repair(repair))
-            .collect();
+        let mut repairs = Vec::new();
+        if !suspect.way.tells_too_little() {
+            let some = search(&suspect, &mut left).into_iter();
+            repairs.extend(some.filter_map(|repair| suspect.repair(repair)));
+        }
         found.push((lines, repairs));
     }
     found

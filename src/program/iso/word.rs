@@ -99,6 +99,8 @@ pub enum WordFault {
     },
     /// `(` without `)`.
     OpenComment,
+    /// `G90; G92 X5. Y5.`: to other controls the semicolon ends a block.
+    CommentedBlock,
     /// A character that begins no word.
     NoWord,
 }
@@ -127,13 +129,14 @@ impl WordFault {
             ),
             WordFault::TooManyDigits { digits } => say!(number_of_too_many_digits, column, digits),
             WordFault::OpenComment => say!(comment_is_not_closed, column),
+            WordFault::CommentedBlock => say!(semicolon_hides_a_block, column),
             WordFault::LetterO => say!(letter_o_in_a_number, column),
             WordFault::DecimalComma => say!(comma_in_a_number, column),
             WordFault::Lookalike => say!(only_looks_like_ascii, column, shown),
             WordFault::NoWord => say!(no_word, column, shown),
         };
         let severity = match self {
-            WordFault::OpenComment => Severity::Warning,
+            WordFault::OpenComment | WordFault::CommentedBlock => Severity::Warning,
             _ => Rule::Syntax.default_severity(),
         };
         let rule = match self {
@@ -150,6 +153,7 @@ impl WordFault {
         matches!(
             self,
             WordFault::OpenComment
+                | WordFault::CommentedBlock
                 | WordFault::LetterO
                 | WordFault::DecimalComma
                 | WordFault::Lookalike

@@ -79,7 +79,10 @@ impl Typed {
         let end = start + before.len();
         let last = last.filter(|(_, range)| range.end - by == end);
         let (letter, number, begun) = match last {
-            Some((Token::Comment | Token::Fault(WordFault::OpenComment), _)) => return None,
+            Some((
+                Token::Comment | Token::Fault(WordFault::OpenComment | WordFault::CommentedBlock),
+                _,
+            )) => return None,
             Some((Token::Word { letter, number }, range)) => {
                 (Some(letter), Some(number), range.start - by)
             }

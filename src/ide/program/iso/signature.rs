@@ -48,7 +48,9 @@ fn word_before(bytes: &[u8], cursor: usize) -> Option<(u8, bool)> {
         Token::Word { letter, .. } | Token::Fault(WordFault::NoNumber { letter }) => {
             last = Some((letter, range.end > cursor))
         }
-        Token::Comment | Token::Fault(WordFault::OpenComment) => is_comment = range.end > cursor,
+        Token::Comment | Token::Fault(WordFault::OpenComment | WordFault::CommentedBlock) => {
+            is_comment = range.end > cursor
+        }
         _ => {}
     });
     last.filter(|_| !is_comment)

@@ -32,12 +32,12 @@ impl Line {
             }
             _ => {}
         });
-        if let Some((usual, _)) = document.usual_places() {
+        if let Some(decimals) = document.usual_decimals() {
             let lengths = [block.x, block.y, block.i, block.j, block.r];
             faults += lengths
                 .into_iter()
                 .flatten()
-                .filter(|number| number.point && number.decimals != usual)
+                .filter(|number| decimals.is_odd(*number))
                 .count() as u32;
         }
         Line { block, faults }
@@ -237,6 +237,16 @@ impl<'a> Way<'a> {
         let leads = |made: &Move| made.from != made.to || made.is_arc();
         let moves = self.run_with(index, count, lines);
         moves.filter(leads).map(alike).collect()
+    }
+
+    /// Nothing but that so few straight cuts do not close, which is as well a part that is parted off: nearly any change would close
+    /// them.
+    pub(crate) fn tells_too_little(&self) -> bool {
+        const FEWEST: usize = 4;
+        let cuts = self.run_with(0, 0, &[]).filter(Move::is_cut);
+        let cuts: Vec<Move> = cuts.take(FEWEST).collect();
+        let total = self.total();
+        cuts.len() < FEWEST && !cuts.iter().any(Move::is_arc) && total.hard == total.open
     }
 
     /// The pieces that are cut, with other lines in place of `count` ones, µm. An arc that cannot be is left out.

@@ -1,12 +1,13 @@
 //! Findings about the words and numbers of a program as a whole.
 
 use super::super::block::Stop;
-use super::super::document::Table;
+use super::super::document::{Document, Table};
 use super::super::evidence::FEW_BARE;
 use super::super::moves::micrometres;
 use super::super::numbers::number_word;
 use super::super::order::MOST_CALLS;
 use super::super::plain::{word_at, words_at};
+use super::super::stretch::Placed;
 use super::super::table::value;
 use super::{Report, SWITCH_REACH, at};
 use crate::finding::{Detail, Fault, NotJudged, Rule, Severity};
@@ -26,6 +27,16 @@ const LARGE_PART: f64 = 40.0;
 
 /// The correction of the thinnest wire there is, with its spark gap, is larger, nm.
 const THINNEST: i64 = 14_000;
+
+/// Subprograms stand where they stand, not where they are called, and once.
+fn in_order_of_the_text(document: &Document) -> Vec<Placed<'_>> {
+    let mut all: Vec<Placed<'_>> = document.placed().collect();
+    if document.order().is_some() {
+        all.sort_by_key(|placed| placed.offset);
+        all.dedup_by_key(|placed| placed.offset);
+    }
+    all
+}
 
 impl Report<'_> {
     pub(super) fn foreign_words(&mut self) {
@@ -55,7 +66,7 @@ impl Report<'_> {
         let (mut blocks, mut numbers) = (0_usize, 0_usize);
         let mut last = None;
         let mut rising = true;
-        for placed in self.document.placed() {
+        for placed in in_order_of_the_text(self.document) {
             blocks += placed.stretch.blocks as usize;
             numbers += placed.stretch.numbers.len();
             let ends = (
@@ -77,7 +88,7 @@ impl Report<'_> {
     }
 
     fn lacking_numbers(&mut self) {
-        for placed in self.document.placed() {
+        for placed in in_order_of_the_text(self.document) {
             if (placed.stretch.numbers.len() as u32) < placed.stretch.blocks {
                 for (line, expected) in self.document.lacking_numbers(&placed) {
                     let words = self.document.words_of(line);
@@ -89,7 +100,7 @@ impl Report<'_> {
 
     fn doubled_numbers(&mut self) {
         let mut seen: FxHashMap<u32, usize> = FxHashMap::default();
-        for placed in self.document.placed() {
+        for placed in in_order_of_the_text(self.document) {
             let mut programs = placed.stretch.programs.iter().peekable();
             for (index, &(number, place)) in placed.stretch.numbers.iter().enumerate() {
                 // Another program has its own numbers.
@@ -210,11 +221,10 @@ impl Report<'_> {
 
     /// The one or two numbers that have other decimals than all the others.
     pub(super) fn odd_places(&mut self) {
-        let Some((usual, odd)) = self.document.usual_places().filter(|(_, odd)| *odd > 0) else {
+        let Some(decimals) = self.document.usual_decimals().filter(|it| it.others > 0) else {
             return;
         };
-        // Where no longer number ends in a 0, a shorter one is one that would.
-        let least = self.document.evidence().least_places().min(usual);
+        let usual = decimals.usual;
         let mut found = Vec::new();
         for placed in self.document.placed() {
             let own = &placed.stretch.evidence.places;
@@ -227,8 +237,7 @@ impl Report<'_> {
                 words_at(self.text, line, |letter, number, word| {
                     let own = b"XYIJR".iter().position(|of| *of == letter);
                     if let Some(own) = own.and_then(|own| lengths.get_mut(own)) {
-                        let is_odd = number.decimals > usual || number.decimals < least;
-                        *own = (number.point && is_odd).then_some(word);
+                        *own = decimals.is_odd(number).then_some(word);
                     }
                 });
                 found.extend(lengths.into_iter().flatten());
@@ -236,7 +245,7 @@ impl Report<'_> {
         }
         found.sort_by_key(|word| word.start);
         found.dedup();
-        for range in found.into_iter().take(odd as usize) {
+        for range in found.into_iter().take(decimals.others as usize) {
             let word = self.shown(&range);
             self.add(range, Fault::Places { word, usual });
         }

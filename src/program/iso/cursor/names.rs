@@ -1,0 +1,93 @@
+//! What has no number: names, conditions of macros, a block after a semicolon.
+
+use super::super::word::{Token, WordFault};
+use super::{Cursor, leads, scan};
+
+/// Names with which the lines of macros begin that hold conditions and jumps.
+const OF_MACROS: [&str; 10] = [
+    "DO", "ELSE", "END", "ENDIF", "GOTO", "IF", "REPEAT", "RETURN", "THEN", "WHILE",
+];
+
+/// Whether what stands after a semicolon is a block: only words, and one of them for the way. To some controls the semicolon ends
+/// a block.
+pub(super) fn holds_block(text: &[u8]) -> bool {
+    let (mut is_block, mut is_way) = (true, false);
+    scan(text, 0, false, |token, _| match token {
+        Token::Word { letter, .. } => is_way |= leads(letter),
+        Token::Comment => {}
+        _ => is_block = false,
+    });
+    is_block && is_way
+}
+
+impl Cursor<'_> {
+    /// Whether `<` at `start` begins the name of a program, `<PLATE-1>`, alone in its line.
+    pub(super) fn is_name(&self, start: usize) -> bool {
+        let behind = self.line[start..].trim_ascii_end();
+        self.line[..start].iter().all(u8::is_ascii_whitespace)
+            && behind.len() > 2
+            && behind.iter().position(|byte| *byte == b'>') == Some(behind.len() - 1)
+    }
+
+    /// A letter without a number: the name of something, an expression, or a fault.
+    pub(super) fn without_number(&mut self, letter: u8, start: usize) -> Token {
+        match self.peek() {
+            Some(b'#' | b'[' | b'=') => {
+                self.skip_to_space();
+                return match leads(letter) {
+                    true => Token::Fault(WordFault::Expression { letter }),
+                    false => Token::Foreign,
+                };
+            }
+            _ => self.at = start + 1,
+        }
+        let letters = self.line[start..]
+            .iter()
+            .take_while(|byte| byte.is_ascii_alphabetic())
+            .count();
+        let name = &self.line[start..start + letters];
+        if OF_MACROS
+            .iter()
+            .any(|own| name.eq_ignore_ascii_case(own.as_bytes()))
+        {
+            self.at = start + letters;
+            self.skip(|byte| !matches!(byte, b'(' | b';' | b'%'));
+            self.leave_space(start);
+            return Token::Foreign;
+        }
+        // `RA90.` turns what follows.
+        if letters == 2 && name.eq_ignore_ascii_case(b"RA") {
+            self.at = start + 2;
+            if matches!(self.number(letter), Ok(Some(_))) {
+                return Token::Foreign;
+            }
+            self.at = start + 1;
+        }
+        // `TP0.0`: a name of two letters that no word of the path begins with.
+        if letters == 2
+            && matches!(
+                letter,
+                b'A' | b'B' | b'C' | b'E' | b'Q' | b'S' | b'T' | b'U' | b'V' | b'W' | b'Z'
+            )
+        {
+            self.at = start + 2;
+            if matches!(self.number(letter), Ok(Some(_))) {
+                return Token::Foreign;
+            }
+            self.at = start + 1;
+        }
+        if letters >= 3 {
+            self.at = start;
+            self.skip(|byte| {
+                byte.is_ascii_alphanumeric()
+                    || matches!(byte, b'_' | b',' | b'.' | b'-' | b'+' | b'=')
+            });
+            return match letter {
+                // `XABC5`: it may well be a coordinate.
+                b'X' | b'Y' => Token::Fault(WordFault::NoNumber { letter }),
+                _ => Token::Foreign,
+            };
+        }
+        Token::Fault(WordFault::NoNumber { letter })
+    }
+}
