@@ -2,7 +2,7 @@
 
 use super::Analysis;
 use crate::drawing::{Drawing, DrawingEdit};
-use crate::finding::{Finding, Fix, FixKind, Place, Side};
+use crate::finding::{Detail, Finding, Fix, FixKind, Place, Side};
 use crate::fit::{Fitted, Held, SegmentOf, Spot};
 use crate::geometry::Point;
 use crate::rules::small_radius::{self, Travel};
@@ -18,7 +18,7 @@ impl Analysis {
         };
         let (_, clearance) = self.settings.fit().ok()?;
         let before = self.pair_at(drawing, (entity, segment))?;
-        let spot = spot_at(&before, (entity, segment)).filter(|spot| spot.turn > 0.0)?;
+        let spot = spot_of(&before, finding, (entity, segment)).filter(|spot| spot.turn > 0.0)?;
         let corner = Corner {
             before: &before.held,
             spot: &spot,
@@ -219,9 +219,13 @@ impl Corner<'_> {
     }
 }
 
-/// The place of a finding about a pair.
-fn spot_at(pair: &Fitted, at: SegmentOf) -> Option<Spot> {
+/// The spot that a finding tells of: both corners of a segment may bind.
+fn spot_of(pair: &Fitted, finding: &Finding, at: SegmentOf) -> Option<Spot> {
+    let Detail::DoesNotFit(misfit) = &finding.detail else {
+        return None;
+    };
     let is_there = |spot: &Spot| spot.segment == at || spot.other == at;
+    let apart = |spot: &Spot| (spot.at - misfit.at).norm();
     let there = pair.spots().filter(is_there);
-    there.min_by(|a, b| a.clearance.total_cmp(&b.clearance))
+    there.min_by(|a, b| apart(a).total_cmp(&apart(b)))
 }

@@ -185,14 +185,22 @@ fn spot(
     };
     let edge = &one.edges[verdict.edge as usize];
     let turn = edge.turned_about.and(edge.geometry.as_arc());
+    let segment = one.segment_at(verdict.edge as usize, verdict.at)?;
+    let nearest = verdict.other as usize;
+    let mut partner_segment = other.segment_at(nearest, verdict.at_other)?;
+    // Two segments meet in a corner of a contour that is cut twice; before its first one comes the last.
+    if partner_segment == segment && turn.is_some() {
+        let before = nearest.checked_sub(1).unwrap_or(other.edges.len() - 1);
+        partner_segment = other.segment_at(before, verdict.at_other)?;
+    }
     Some(Spot {
         at: verdict.at,
         turn: turn.map_or(0.0, |arc| arc.sweep.abs()),
         clearance: verdict.clearance,
         is_of_plate,
-        segment: one.segment_at(verdict.edge as usize, verdict.at)?,
+        segment,
         of: of.clone(),
-        other: other.segment_at(verdict.other as usize, verdict.at_other)?,
+        other: partner_segment,
         partner: partner.clone(),
     })
 }

@@ -1,9 +1,10 @@
 //! The fix of a contour that does not fit.
 
-use super::{corner, drawing, findings, fit_of, notch, pair, polyline};
+use super::{Vertex, corner, drawing, findings, fit_of, notch, pair, polyline};
 use std::sync::Arc;
 use wedm::analysis::Analysis;
-use wedm::finding::{Rule, Severity};
+use wedm::finding::{Detail, Finding, Rule, Severity};
+use wedm::geometry::Point;
 
 /// One drawn contour: one finding, at it; its fix makes it fit.
 #[test]
@@ -61,6 +62,52 @@ fn one_contour_that_does_not_fit_has_one_finding_and_a_fix_that_makes_it_fit() {
                     .all(|finding| finding.severity != Severity::Error),
                 "{label}: {errors:?}"
             );
+        }
+    }
+}
+
+/// Each finding names the two segments that meet in its corner, and its fix is of that corner, of several that bind alike.
+#[test]
+fn each_corner_of_several_has_the_fix_of_its_own() {
+    let vertices = |corners: &[(f64, f64)]| -> Vec<Vertex> {
+        let sharp = |&(x, y): &(f64, f64)| Vertex {
+            point: Point::new(x, y),
+            bulge: 0.0,
+        };
+        corners.iter().map(sharp).collect()
+    };
+    let rectangle = [(0.0, 0.0), (20.0, 0.0), (20.0, 10.0), (0.0, 10.0)];
+    let angle = [
+        (0.0, 0.0),
+        (20.0, 0.0),
+        (20.0, 8.0),
+        (8.0, 8.0),
+        (8.0, 20.0),
+        (0.0, 20.0),
+    ];
+    for corners in [&rectangle[..], &angle[..], &rectangle[..3]] {
+        for drawn_as in ["punch", "plate"] {
+            let own = pair(drawn_as, 0.1, 0.01);
+            let drawing = drawing(vec![polyline("0", "2A", vertices(corners))]);
+            let found = findings(&drawing, &own, Rule::DoesNotFit);
+            assert!(found.len() >= 3, "{drawn_as}: {found:?}");
+            let place = |finding: &Finding| match &finding.detail {
+                Detail::DoesNotFit(misfit) => misfit.at,
+                other => panic!("{other:?}"),
+            };
+            for finding in &found {
+                assert_ne!(finding.place, finding.related[0], "{finding:?}");
+                let analysis = Analysis::new(&drawing, Arc::new(own.clone()));
+                let fixes = analysis.fixes(&drawing, finding);
+                let mut fixed = drawing.clone();
+                fixed
+                    .apply(&fixes[0].edit)
+                    .expect("an edit that can be made");
+                let left = findings(&fixed, &own, Rule::DoesNotFit);
+                assert_eq!(left.len(), found.len() - 1, "{drawn_as}: {finding:?}");
+                let stays = |other: &&Finding| (place(other) - place(finding)).norm() < 0.1;
+                assert_eq!(left.iter().find(stays), None, "{drawn_as}: {finding:?}");
+            }
         }
     }
 }
