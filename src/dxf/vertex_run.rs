@@ -11,7 +11,7 @@ use super::entity::VertexLines;
 use super::lines::Lines;
 use super::reader::range_key;
 use super::table::{Became, NO_ITEM, Named};
-use crate::drawing::{Appearance, Delta, Entity, EntityId, Geometry, Touched, Vertex};
+use crate::drawing::{Appearance, Delta, Entity, EntityId, Geometry, Touched, Vertex, Visibility};
 use crate::finding::Finding;
 use std::ops::Range;
 use std::sync::Arc;
@@ -170,7 +170,9 @@ impl Document {
     /// again, too.
     fn suspend(&mut self, item: usize, id: EntityId) -> Option<Box<Suspended>> {
         let is_named = self.table.items.get(item)?.named == Named::ByText;
-        if !is_named || self.table.named_anew > 0 || !self.drawing.is_editable(id) {
+        // What is hidden is counted.
+        let is_shown = self.drawing.visibility(id) == Visibility::Shown;
+        if !is_named || !is_shown || self.table.named_anew > 0 || !self.drawing.is_editable(id) {
             return None;
         }
         let appearance = self.drawing.appearance(id);

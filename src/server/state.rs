@@ -148,7 +148,10 @@ impl State {
     fn run(mut self, inbox: &Receiver<Message>) {
         loop {
             let first = match self.client.next_deadline() {
-                _ if !self.unsettled.is_empty() => inbox.recv_timeout(Duration::ZERO),
+                // New settings of a document may have changed what lies beside it.
+                _ if !(self.dirty.is_empty() && self.unsettled.is_empty()) => {
+                    inbox.recv_timeout(Duration::ZERO)
+                }
                 None => inbox.recv().map_err(|_| RecvTimeoutError::Disconnected),
                 Some(deadline) => {
                     inbox.recv_timeout(deadline.saturating_duration_since(Instant::now()))

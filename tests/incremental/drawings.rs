@@ -111,7 +111,8 @@ proptest! {
     }
 }
 
-/// Polylines that come near themselves and each other, and a line. Those without their bit in `closed` are open.
+/// Polylines that come near themselves and each other, and a line. Those without their bit in `closed` are open; the last one lies on a
+/// frozen layer.
 fn typed_text(closed: u8) -> String {
     let outlines: [&[(f64, f64)]; 4] = [
         &[
@@ -128,12 +129,15 @@ fn typed_text(closed: u8) -> String {
         &[(2.0, 9.0), (4.0, 9.0), (4.0, 12.0), (2.0, 9.001)],
         &[(20.0, 0.0), (21.0, 0.0), (20.5, 0.9)],
     ];
-    let mut text = String::from("0\nSECTION\n2\nENTITIES\n");
+    let mut text = String::from(
+        "0\nSECTION\n2\nTABLES\n0\nTABLE\n2\nLAYER\n0\nLAYER\n2\nOFF\n70\n1\n0\nENDTAB\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n",
+    );
     for (number, outline) in outlines.iter().enumerate() {
         let _ = write!(
             text,
-            "0\nLWPOLYLINE\n5\n{:X}\n8\nDIE\n90\n{}\n70\n{}\n",
+            "0\nLWPOLYLINE\n5\n{:X}\n8\n{}\n90\n{}\n70\n{}\n",
             number + 1,
+            if number == 3 { "OFF" } else { "DIE" },
             outline.len(),
             closed >> number & 1
         );

@@ -180,3 +180,20 @@ fn nothing_alike_is_one_information() {
     unlike(&mut client, &drawing, 1);
     client.shut_down();
 }
+
+#[test]
+fn a_drawing_that_the_settings_name_at_last_is_compared_at_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    let mut client = start(folder.path());
+    std::fs::write(path("other.dxf"), plate(0.05)).unwrap();
+    let program = uri_of(&path("plate.3b"));
+    open(&mut client, &program, "3b", PROGRAM);
+    unlike(&mut client, &program, 0);
+    let settings = uri_of(&path("wedm.toml"));
+    open(&mut client, &settings, "toml", "side = \"opening\"\n");
+    let named = "side = \"opening\"\n[program]\ndrawing = \"other.dxf\"\n";
+    change(&mut client, &settings, 2, named);
+    unlike(&mut client, &program, 2);
+    client.shut_down();
+}
