@@ -3,6 +3,7 @@
 use super::Document;
 use super::lexer::{Lexer, Tag};
 use super::lines::Lines;
+use super::number::{Number, number};
 use super::place::own_tags;
 use super::record::{self, DECIMALS, Style};
 use crate::geometry::Point;
@@ -31,6 +32,44 @@ struct Frame {
     layer: Option<usize>,
     entity: Option<usize>,
     is_layer_there: bool,
+    /// What lies on the layer.
+    there: Vec<There>,
+}
+
+/// A circle or a text on the layer, from when the same was added before.
+#[derive(Clone, Copy, Default)]
+struct There {
+    x: f64,
+    y: f64,
+    /// The radius of a circle, the height of a text.
+    size: f64,
+    is_circle: bool,
+    is_on_layer: bool,
+}
+
+impl There {
+    fn take(&mut self, code: i16, value: &[u8], layer: &str) {
+        let number = match number(value) {
+            Number::Exact(number) | Number::Blemished(number, _) => number,
+            Number::Bad => f64::NAN,
+        };
+        match code {
+            8 => self.is_on_layer = value.eq_ignore_ascii_case(layer.as_bytes()),
+            10 => self.x = number,
+            20 => self.y = number,
+            40 => self.size = number,
+            _ => {}
+        }
+    }
+
+    fn is_at(&self, place: Point) -> bool {
+        is_same(self.x, place.x) && is_same(self.y, place.y)
+    }
+}
+
+/// Numbers of a drawing that mean one place.
+fn is_same(one: f64, other: f64) -> bool {
+    (one - other).abs() <= 1e-6
 }
 
 /// Tags of a layer's record that a new one takes over: owner, line weight, plot style, material.
@@ -43,6 +82,7 @@ impl Frame {
         let mut lexer = Lexer::new(lines, 0);
         let mut before = None;
         let (mut record, mut is_seed): (&[u8], bool) = (b"", false);
+        let mut there: Option<There> = None;
         while let Some(Tag { code, line }) = lexer.next() {
             let value = lines.trimmed(line + 1);
             match (code, value, record) {
@@ -77,8 +117,23 @@ impl Frame {
                 }
                 _ => {}
             }
-            if code == 0 {
-                (record, is_seed) = (value, false);
+            match code {
+                0 => {
+                    frame.there.extend(there.take().filter(|it| it.is_on_layer));
+                    let is_circle = value == b"CIRCLE";
+                    if section == b"ENTITIES" && (is_circle || value == b"TEXT") {
+                        there = Some(There {
+                            is_circle,
+                            ..There::default()
+                        });
+                    }
+                    (record, is_seed) = (value, false);
+                }
+                _ => {
+                    if let Some(there) = &mut there {
+                        there.take(code, value, layer);
+                    }
+                }
             }
         }
         frame
@@ -86,7 +141,7 @@ impl Frame {
 }
 
 impl Document {
-    /// The text with what is added: the layer, where it is not there, and the entities, with handles that are free. Every other byte stays, except
+    /// The text with what is added and not there yet: the layer, and the entities, with handles that are free. Every other byte stays, except
     /// of the next free handle. `None` for a binary file, and for a text in which the end of its entities is not found.
     pub(crate) fn with_added(&self, added: &Added) -> Option<Vec<u8>> {
         if self.is_binary {
@@ -157,10 +212,21 @@ impl Document {
                     style.number(code, value, DECIMALS, into);
                 }
             };
-            if let Some(radius) = added.radius {
+            let is_there = |size: Option<f64>| {
+                let is_it = |there: &There| {
+                    there.is_circle == size.is_some()
+                        && size.is_none_or(|size| is_same(size, there.size))
+                        && there.is_at(*place)
+                };
+                frame.there.iter().any(is_it)
+            };
+            if let Some(radius) = added.radius.filter(|radius| !is_there(Some(*radius))) {
                 begin(b"CIRCLE", b"AcDbCircle", &mut records);
                 point(&mut records);
                 style.number(40, radius, DECIMALS, &mut records);
+            }
+            if is_there(None) {
+                continue;
             }
             begin(b"TEXT", b"AcDbText", &mut records);
             point(&mut records);
@@ -170,11 +236,12 @@ impl Document {
                 style.tag(100, b"AcDbText", &mut records);
             }
         }
+        let is_any = !records.is_empty();
         edits.push(TextEdit::new(
             at..at,
             style.inserted(&self.text, at, records),
         ));
-        if let Some(line) = frame.seed.filter(|_| has_handles) {
+        if let Some(line) = frame.seed.filter(|_| has_handles && is_any) {
             let range = lines.trimmed_range(line);
             edits.push(TextEdit::new(range, format!("{free:X}")));
         }
