@@ -354,7 +354,10 @@ impl Document {
                 self.analysis.has_fix_that(text.drawing(), found, &can)
             }
             Source::Cad(drawing) => self.analysis.has_fix_that(drawing, found, &|_| true),
-            Source::Program(_) => self.fix_all().is_some(),
+            Source::Program(program) => match found {
+                Some(found) => program.can_be_fixed(found),
+                None => program.can_be_fixed(&program.findings(self.settings(), usize::MAX).0),
+            },
         }
     }
 

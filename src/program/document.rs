@@ -11,6 +11,7 @@ use super::{iso, three_b};
 use crate::finding::{Fault, Finding, Rule, Severity, TextFix};
 use crate::settings::Effective;
 use crate::text::{SourceText, TextEdit, is_utf_16};
+use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use std::ops::Range;
 
 /// The languages of programs.
@@ -176,16 +177,30 @@ impl Document {
     /// The safe fixes of all findings that are not switched off, as one sorted list of disjoint edits; `None` where
     /// there is none.
     pub(crate) fn fix_all(&self, settings: &Effective) -> Option<Vec<TextEdit>> {
-        let (mut findings, _) = self.findings(settings, usize::MAX);
-        findings.retain(|finding| finding.severity <= Severity::Information);
-        let safe = |finding: &Finding| {
-            let fix = self
-                .offered(finding)
-                .into_iter()
-                .find(|fix| fix.preferred && fix.in_fix_all)?;
-            Some((finding.rule, fix))
-        };
-        let fixes = findings.iter().filter_map(safe).collect();
+        let (findings, _) = self.findings(settings, usize::MAX);
+        let fixes = findings.par_iter().filter_map(|it| self.safe_fix(it));
+        self.together(fixes.collect())
+    }
+
+    /// Whether [`Document::fix_all`] would change anything, by the first finding of all `found` for which it would. Where none of very many
+    /// can be repaired the others are not looked at.
+    pub(crate) fn can_be_fixed(&self, found: &[Finding]) -> bool {
+        const MOST_LOOKED_AT: usize = 1_000;
+        let some = found.iter().take(MOST_LOOKED_AT);
+        let mut fixes = some.filter_map(|finding| self.safe_fix(finding));
+        fixes.any(|fix| self.together(vec![fix]).is_some())
+    }
+
+    /// The fix of a finding that is safe to make with others.
+    fn safe_fix(&self, finding: &Finding) -> Option<(Rule, TextFix)> {
+        let mut fixes = (finding.severity <= Severity::Information)
+            .then(|| self.offered(finding))?
+            .into_iter();
+        let fix = fixes.find(|fix| fix.preferred && fix.in_fix_all)?;
+        Some((finding.rule, fix))
+    }
+
+    fn together(&self, fixes: Vec<(Rule, TextFix)>) -> Option<Vec<TextEdit>> {
         let edits = match self {
             Document::ThreeB(document) => gate::together(document, fixes),
             Document::Iso(document) => gate::together(&**document, fixes),

@@ -154,17 +154,31 @@ fn values(
     let Some((value, within)) = solved(block, number, wanted) else {
         return Vec::new();
     };
-    let is_likely = |key: &Key| !matches!(key, Key::Sign | Key::Point);
-    let mut slips: Vec<i64> = keys::meant(&digits[number as usize], None)
-        .into_iter()
-        .filter(|(_, key)| is_likely(key))
-        .filter_map(|(text, _)| text.parse().ok())
-        .filter(|slip: &i64| slip.abs_diff(value) <= within as u64)
-        .collect();
+    let mut slips = slips_near(&digits[number as usize], value, within);
     slips.sort_unstable_by_key(|slip| (slip.abs_diff(value), *slip));
     slips.dedup();
     let slips = slips.into_iter().map(|slip| (slip, Digits::One));
     slips.chain([(value, Digits::Any)]).collect()
+}
+
+/// The numbers one key from a written one that lie `within` so much of a value.
+fn slips_near(digits: &str, value: i64, within: i64) -> Vec<i64> {
+    let is_plain = digits.bytes().all(|byte| byte.is_ascii_digit())
+        && !digits.is_empty()
+        && (digits == "0" || !digits.starts_with('0'));
+    // Nobody writes a zero in front: of such a number they are few, each looked at.
+    if is_plain {
+        let near = value.saturating_sub(within).max(0)..=value.saturating_add(within);
+        let is_one = |slip: &i64| keys::is_slip(digits.as_bytes(), slip.to_string().as_bytes());
+        return near.filter(is_one).collect();
+    }
+    let is_likely = |key: &Key| !matches!(key, Key::Sign | Key::Point);
+    keys::meant(digits, None)
+        .into_iter()
+        .filter(|(_, key)| is_likely(key))
+        .filter_map(|(text, _)| text.parse().ok())
+        .filter(|slip: &i64| slip.abs_diff(value) <= within as u64)
+        .collect()
 }
 
 /// How far from a solved value the nearly written one is searched for, µm.
@@ -327,4 +341,24 @@ fn restored(block: &Block, keys: usize) -> f64 {
     let is_like_a_line = block.j == block.x.max(block.y) || (block.x, block.y) == (0, 0);
     let is_odd = is_like_a_line != block.motion.is_line();
     0.4 * keys as f64 + if is_odd { 0.8 } else { 0.0 } + if is_usual(block) { 0.0 } else { UNUSUAL }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    proptest::proptest! {
+        /// Both ways to find them agree.
+        #[test]
+        fn the_numbers_one_key_away_are_those_that_keys_make(digits in "0|[1-9][0-9]{0,7}", by in -200i64..200, scale in 0u32..7, within in 0i64..ROUND) {
+            let written: i64 = digits.parse().unwrap();
+            let value = (written + by * 10i64.pow(scale)).max(0);
+            let all = keys::meant(&digits, None).into_iter().filter(|(_, key)| !matches!(key, Key::Sign | Key::Point));
+            let near = all.filter_map(|(text, _)| text.parse().ok()).filter(|slip: &i64| slip.abs_diff(value) <= within as u64);
+            let mut expected: Vec<i64> = near.collect();
+            expected.sort_unstable();
+            expected.dedup();
+            proptest::prop_assert_eq!(slips_near(&digits, value, within), expected);
+        }
+    }
 }
