@@ -77,10 +77,23 @@ pub(crate) struct Program {
     /// What the program comes to on the machine.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) work: Option<Work>,
+    /// The corrections to enter at the control, one for each pass, where it offsets the contour.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(crate) offsets: Vec<ControlOffset>,
     /// Of all cuts, as in `work`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) minutes: Option<f64>,
     pub(crate) warnings: Vec<Diagnostic>,
+}
+
+/// What the control has to hold for a program whose contour it offsets.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub(crate) struct ControlOffset {
+    /// The word that says where the control finds it, such as `D1`; absent in 4B, and where the profile names none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) register: Option<String>,
+    /// mm.
+    pub(crate) correction: f64,
 }
 
 /// The largest deviations of the part that all passes leave from its drawing.
@@ -117,6 +130,14 @@ impl Program {
                 .milled
                 .as_ref()
                 .map(|milled| Milling::new(snapshot, milled)),
+            offsets: proved
+                .offsets
+                .into_iter()
+                .map(|(register, correction)| ControlOffset {
+                    register: Some(register).filter(|word| !word.is_empty()),
+                    correction,
+                })
+                .collect(),
             minutes: work.minutes,
             work: Some(Work::new(drawing, outlines, work)),
             program: proved.text,

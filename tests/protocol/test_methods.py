@@ -167,6 +167,18 @@ CASES = [
     Case("wedm/locate", DXF, {"handle": "2A", "segment": 1, "range": {"start": {"line": BULGE}}}, {"handle": "2A", "segment": 1}),
     Case("wedm/rulePage", DXF, {"text": anything}, {"rule": "small-radius"}),
     Case("wedm/settings", DXF, {"correction": near(0.1), "correctionFrom": "default", "side": "both"}),
+    Case(
+        "wedm/generate",
+        "cad:clean",
+        {"program": text("D3", "D4"), "offsets": [{"register": "D3", "correction": 0.15}, {"register": "D4", "correction": 0.1}]},
+        {
+            "format": "iso",
+            "options": {
+                "passes": {"corrections": [0.15, 0.1], "registers": ["D3", "D4"]},
+                "program": {"compensation": "controller"},
+            },
+        },
+    ),
     Case("wedm/generate", "cad:clean", {"program": text("B", "DD"), "blocks": anything, "warnings": some({"code": "sharp-corner"})}, {"format": "3b"}),
     Case("wedm/fit", DXF, {"fits": False, "clearance": near(0.01), "places": some({"handle": "2A", "of": "plate"}), "svg": text("<svg")}, {"options": PAIR}),
     Case("wedm/pair", DXF, {"programs": [{"part": "punch", "corrections": [near(0.1)]}, {"part": "plate", "program": text("DD")}]}, {"format": "3b", "force": True, "options": PAIR}),

@@ -1195,6 +1195,10 @@ export interface PairProgram {
    */
   work?: Work;
   /**
+   * The corrections to enter at the control, one for each pass, where it offsets the contour.
+   */
+  offsets?: ControlOffset[];
+  /**
    * Of all cuts, as in `work`.
    */
   minutes?: number;
@@ -1304,6 +1308,19 @@ export interface MilledContour {
 export interface Floor {
   least: number;
   most: number;
+}
+/**
+ * What the control has to hold for a program whose contour it offsets.
+ */
+export interface ControlOffset {
+  /**
+   * The word that says where the control finds it, such as `D1`; absent in 4B, and where the profile names none.
+   */
+  register?: string;
+  /**
+   * mm.
+   */
+  correction: number;
 }
 /**
  * One finding. In a drawing's diagnostics the line is the segment's index within its entity.
@@ -1652,6 +1669,10 @@ export interface Program {
    * What the program comes to on the machine.
    */
   work?: Work;
+  /**
+   * The corrections to enter at the control, one for each pass, where it offsets the contour.
+   */
+  offsets?: ControlOffset[];
   /**
    * Of all cuts, as in `work`.
    */

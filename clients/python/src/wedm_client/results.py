@@ -367,6 +367,15 @@ class Closure(Value):
 
 
 @dataclass(frozen=True)
+class ControlOffset(Value):
+    """The correction of one pass, mm, to be entered at the control that offsets the contour; ``register`` is the word of the program
+    that says where the control finds it, such as ``D1``."""
+
+    correction: float
+    register: str | None = None
+
+
+@dataclass(frozen=True)
 class FinishedPart(Value):
     """What all passes leave along a drawing's contours: how much material stays at most, mm, and where, and how much is cut too deep, mm."""
 
@@ -431,6 +440,8 @@ class Program(Value):
     minutes: float | None = None
     holes: list[StartHole] = field(default_factory=list)
     work: Work | None = None
+    #: What the control has to hold, one for each pass, where it offsets the contour.
+    offsets: list[ControlOffset] = field(default_factory=list)
     warnings: list[Diagnostic] = field(default_factory=list)
 
     def save(self, path: str | os.PathLike[str]) -> None:
