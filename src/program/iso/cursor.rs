@@ -1,9 +1,10 @@
 //! Reads a line word by word.
 
 mod names;
+mod semicolon;
 
 use super::word::{Number, Term, Token, Value, WordFault};
-use names::holds_block;
+use semicolon::{Behind, behind};
 use std::ops::Range;
 
 /// The digits that a number may have before its decimal point, and those that are read after it; more than any control
@@ -83,10 +84,14 @@ impl Cursor<'_> {
         let token = match byte {
             b'(' => self.comment(start),
             b';' => {
-                self.at = self.line.len();
-                let is_first = self.line[..start].iter().all(u8::is_ascii_whitespace);
-                if !is_first && holds_block(&self.line[start + 1..]) {
-                    self.fault = Some((WordFault::CommentedBlock, self.range(start)));
+                match behind(self.line, start) {
+                    Behind::Words => {}
+                    Behind::Dwell { end } => self.at = end,
+                    Behind::Comment => self.at = self.line.len(),
+                    Behind::Block => {
+                        self.at = self.line.len();
+                        self.fault = Some((WordFault::CommentedBlock, self.range(start)));
+                    }
                 }
                 Token::Comment
             }

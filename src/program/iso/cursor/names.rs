@@ -1,24 +1,12 @@
-//! What has no number: names, conditions of macros, a block after a semicolon.
+//! What has no number: names, and conditions of macros.
 
 use super::super::word::{Token, WordFault};
-use super::{Cursor, leads, scan};
+use super::{Cursor, leads};
 
 /// Names with which the lines of macros begin that hold conditions and jumps.
 const OF_MACROS: [&str; 10] = [
     "DO", "ELSE", "END", "ENDIF", "GOTO", "IF", "REPEAT", "RETURN", "THEN", "WHILE",
 ];
-
-/// Whether what stands after a semicolon is a block: only words, and one of them for the way. To some controls the semicolon ends
-/// a block.
-pub(super) fn holds_block(text: &[u8]) -> bool {
-    let (mut is_block, mut is_way) = (true, false);
-    scan(text, 0, false, |token, _| match token {
-        Token::Word { letter, .. } => is_way |= leads(letter),
-        Token::Comment => {}
-        _ => is_block = false,
-    });
-    is_block && is_way
-}
 
 impl Cursor<'_> {
     /// Whether `<` at `start` begins the name of a program, `<PLATE-1>`, alone in its line.
