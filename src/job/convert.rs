@@ -98,15 +98,15 @@ pub(crate) fn convert(
         return Err(Refusal::Sentence(say!(it_is_milled).into()));
     }
     let mut cuts = convert::cuts(program);
-    if cuts.cuts.is_empty() {
-        return Err(Refusal::Sentence(say!(it_cuts_nothing).into()));
-    }
     if let Some(taper) = cuts.taper.as_ref().filter(|_| cuts.leans && !force) {
         return Err(Refusal::Sentence(say!(no_conversion_of_a_taper, taper)));
     }
     let dropped = Dropped::of(program);
     if let Some(reason) = dropped.refusal().filter(|_| !force) {
         return Err(Refusal::Sentence(say!(no_conversion_of_such_a_way, reason)));
+    }
+    if cuts.cuts.is_empty() {
+        return Err(Refusal::Sentence(say!(it_cuts_nothing).into()));
     }
     let format = match target {
         Target::Drawing => {

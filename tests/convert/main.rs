@@ -2,6 +2,7 @@
 
 mod drawn;
 mod losses;
+mod unfollowed;
 mod ways;
 use proptest::prelude::*;
 use std::f64::consts::TAU;

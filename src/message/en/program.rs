@@ -13,7 +13,15 @@ declare! {
     not_written_that_a_block_may_be_skipped(lines, more) => "not written: the / that lets the operator skip a block, in lines {lines}{more}: the new program always cuts them";
     not_written_the_comments => "not written: the comments";
     a_word_moves_the_wire_unfollowed(word) => "{word} moves the wire, and where to is not known";
-    no_conversion_of_such_a_way(reason) => "{reason}; a conversion leaves that way out: with --force it is written without it";
+    a_word_moves_what_follows(word) => "{word} mirrors, turns or shifts what follows, and is not followed";
+    a_word_counts_from_another_zero(word) => "{word} counts from another zero than the blocks before it, and where that lies is not known";
+    a_word_calls_what_is_missing(word) => "{word} calls a subprogram that is not in the text";
+    a_word_calls_what_is_not_followed(word) => "{word} calls other blocks, and is not followed";
+    a_word_repeats_unfollowed(word) => "{word} may run more than once, and how often is not followed";
+    a_word_goes_on_in_another_block(word) => "{word} goes on in another block, and is not followed";
+    a_word_says_an_unknown_correction(word) => "{word} says which correction holds by a value that only the control knows";
+    written_as_if_words_were_not_there(words, more) => "the way is written as if these words were not there: {words}{more}";
+    no_conversion_of_such_a_way(reason) => "{reason}: with --force the program is written as if that were not there";
     the_ends_of_its_arc_lie_on_two_circles(uneven) => "one end of its arc is {uneven:.3} µm farther from the centre than the other, and no arc through both can be written";
     not_written_the_taper(taper) => "not written: the taper; {taper}";
     not_written_the_stop_before_a_tab(line) => "not written: the stop in line {line}, which holds the part while its tab is cut";

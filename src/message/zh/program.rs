@@ -13,7 +13,15 @@ translate! {
     not_written_that_a_block_may_be_skipped(lines, more) => "未写入：让操作者可以跳过程序段的 /，第 {lines}{more} 行：新程序总是切这些段";
     not_written_the_comments => "未写入：注释";
     a_word_moves_the_wire_unfollowed(word) => "{word} 移动电极丝，去向不明";
-    no_conversion_of_such_a_way(reason) => "{reason}；变换会略去这段路：加 --force 就不带它写出";
+    a_word_moves_what_follows(word) => "{word} 使后面的程序段镜像、旋转或平移，未被执行";
+    a_word_counts_from_another_zero(word) => "{word} 换了坐标零点，其位置不明";
+    a_word_calls_what_is_missing(word) => "{word} 调用的子程序不在文本中";
+    a_word_calls_what_is_not_followed(word) => "{word} 调用其他程序段，未被执行";
+    a_word_repeats_unfollowed(word) => "{word} 可能执行多次，次数不明";
+    a_word_goes_on_in_another_block(word) => "{word} 跳到另一程序段，未被执行";
+    a_word_says_an_unknown_correction(word) => "{word} 指定的补偿由变量给出，只有控制器知道";
+    written_as_if_words_were_not_there(words, more) => "写出的轨迹不含这些字的作用：{words}{more}";
+    no_conversion_of_such_a_way(reason) => "{reason}：加 --force 则不带它写出";
     the_ends_of_its_arc_lie_on_two_circles(uneven) => "圆弧一端到圆心的距离比另一端大 {uneven:.3} µm，写不出通过两端的圆弧";
     not_written_the_taper(taper) => "未写出：锥度；{taper}";
     not_written_the_stop_before_a_tab(line) => "未写出：第 {line} 行的暂停，切暂留段时用它固定工件";

@@ -38,6 +38,7 @@ pub(in crate::program) mod taper;
 #[cfg(test)]
 mod tests;
 mod tilt;
+mod unfollowed;
 pub(crate) mod word;
 mod write;
 
@@ -51,6 +52,7 @@ pub(in crate::program) use taper::{Words as TaperWords, refuse_anywhere as refus
 
 pub(crate) use plain::words;
 pub(in crate::program) use tilt::Unknown;
+pub(crate) use unfollowed::{Unfollowed, UnfollowedWord};
 pub(crate) use word::Token;
 pub use write::write;
 pub(crate) use write::write_with;
