@@ -150,7 +150,8 @@ fn summarise(arguments: &Arguments, target: Target, made: &Converted) {
         }
     }
     let way = made.dropped.way();
-    let losses = way.into_iter().chain(cuts.losses());
+    let corrections = made.corrections.iter().cloned();
+    let losses = way.into_iter().chain(corrections).chain(cuts.losses());
     losses.for_each(|loss| output::say(&loss));
     // A drawing has none of it.
     if target != Target::Drawing {

@@ -47,6 +47,8 @@ pub(crate) struct Converted {
     /// Blocks of the new program.
     pub(crate) blocks: Option<usize>,
     pub(crate) cuts: Cuts,
+    /// Where the control finds its corrections otherwise than in the program, in sentences.
+    pub(crate) corrections: Vec<String>,
     /// What stands beside the moves, of which a program that is written anew has nothing.
     pub(crate) dropped: Dropped,
 }
@@ -116,6 +118,7 @@ pub(crate) fn convert(
                 bytes,
                 blocks: None,
                 cuts,
+                corrections: Vec::new(),
                 dropped,
             });
         }
@@ -125,9 +128,18 @@ pub(crate) fn convert(
     if let Some(reason) = cuts.refusal(format, settings) {
         return Err(Refusal::Sentence(reason));
     }
-    // µm are the unit of the cuts.
-    let written = format.write(&cuts.paths(), 1e-3, settings, &mut |_, _| true);
-    let written = written.map_err(|error| {
+    let lost = cuts.lost_correction(format, settings);
+    if let Some(reason) = lost.as_ref().filter(|_| !force) {
+        return Err(Refusal::Sentence(say!(
+            no_conversion_of_such_a_correction,
+            reason
+        )));
+    }
+    let mut corrections = Vec::from_iter(lost.map(|reason| say!(not_kept_the_corrections, reason)));
+    if format == Format::Iso {
+        corrections.extend(cuts.renamed_corrections(settings));
+    }
+    let written = cuts.write(format, settings).map_err(|error| {
         let reason = cuts.reason_of_mismatch();
         if let (ProofError::Mismatch(_), Some(reason)) = (&error, reason) {
             return Refusal::Sentence(reason);
@@ -139,6 +151,7 @@ pub(crate) fn convert(
         bytes: written.text.into_bytes(),
         blocks: Some(written.blocks),
         cuts,
+        corrections,
         dropped,
     })
 }

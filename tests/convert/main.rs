@@ -1,5 +1,6 @@
 //! Programs turned into drawings and into other languages, and back: the geometry stays.
 
+mod corrections;
 mod drawn;
 mod losses;
 mod unfollowed;

@@ -21,6 +21,14 @@ declare! {
     a_word_goes_on_in_another_block(word) => "{word} goes on in another block, and is not followed";
     a_word_says_an_unknown_correction(word) => "{word} says which correction holds by a value that only the control knows";
     written_as_if_words_were_not_there(words, more) => "the way is written as if these words were not there: {words}{more}";
+    another_correction_within_a_contour(first, other) => "{other} takes the place of {first} within a contour, and a new program has one correction for it";
+    one_correction_for_all_contours(corrections) => "4B has one correction for all contours, and the program has those of {corrections}";
+    one_place_of_several_corrections(corrections) => "{corrections} would be one place of the control's table";
+    no_conversion_of_such_a_correction(reason) => "{reason}; with --force it is written all the same";
+    not_kept_the_corrections(reason) => "not written: which correction the control takes; {reason}";
+    a_correction_under_another_name(from, to) => "{from} as {to}";
+    the_corrections_have_other_names(names) => "places of the corrections are named as the profile names them: {names}";
+    the_program_names_no_correction(register) => "the program does not name the place of a correction: {register} of the profile is written";
     no_conversion_of_such_a_way(reason) => "{reason}: with --force the program is written as if that were not there";
     the_ends_of_its_arc_lie_on_two_circles(uneven) => "one end of its arc is {uneven:.3} µm farther from the centre than the other, and no arc through both can be written";
     not_written_the_taper(taper) => "not written: the taper; {taper}";
@@ -58,6 +66,7 @@ declare! {
     a_taper_would_not_be_kept => "a taper (G51, G52, G140 to G142) would not be kept";
     the_planes_of_a_taper_would_not_be_kept => "the planes of a taper (TP, TN) would not be kept";
     its_begin_does_not_say_where_the_wire_stands => "its begin does not say that the wire stands at the start: expected G92 X{x} Y{y}";
+    its_contour_begin_names_no_register(number) => "its contour-begin does not name the place {number} of the correction: expected a line with {{register}}, and a register that ends in a number";
     its_contour_begin_does_not_switch_the_correction_on => "its contour-begin does not switch the correction on: expected a line with {side}";
     no_moves_within_tolerance_lead_from_to(from, to) => "no moves within tolerance lead from {from} to {to}";
     the_cut_begins_at_and_ends_at(first, last) => "the cut begins at {first} and ends at {last}";

@@ -21,6 +21,14 @@ translate! {
     a_word_goes_on_in_another_block(word) => "{word} 跳到另一程序段，未被执行";
     a_word_says_an_unknown_correction(word) => "{word} 指定的补偿由变量给出，只有控制器知道";
     written_as_if_words_were_not_there(words, more) => "写出的轨迹不含这些字的作用：{words}{more}";
+    another_correction_within_a_contour(first, other) => "轮廓中途由 {first} 换为 {other}，新程序的一个轮廓只有一个补偿";
+    one_correction_for_all_contours(corrections) => "4B 的所有轮廓共用一个补偿量，而程序用了 {corrections}";
+    one_place_of_several_corrections(corrections) => "{corrections} 会变成补偿表中的同一个号";
+    no_conversion_of_such_a_correction(reason) => "{reason}；加 --force 则照样写出";
+    not_kept_the_corrections(reason) => "未写出：控制器取哪个补偿；{reason}";
+    a_correction_under_another_name(from, to) => "{from} 写为 {to}";
+    the_corrections_have_other_names(names) => "补偿号按 profile 的写法写出：{names}";
+    the_program_names_no_correction(register) => "程序没有写补偿号：写出 profile 的 {register}";
     no_conversion_of_such_a_way(reason) => "{reason}：加 --force 则不带它写出";
     the_ends_of_its_arc_lie_on_two_circles(uneven) => "圆弧一端到圆心的距离比另一端大 {uneven:.3} µm，写不出通过两端的圆弧";
     not_written_the_taper(taper) => "未写出：锥度；{taper}";
@@ -58,6 +66,7 @@ translate! {
     a_taper_would_not_be_kept => "锥度（G51、G52、G140 到 G142）无法保留";
     the_planes_of_a_taper_would_not_be_kept => "锥度的平面（TP、TN）无法保留";
     its_begin_does_not_say_where_the_wire_stands => "begin 没有说明丝在起点：应有 G92 X{x} Y{y}";
+    its_contour_begin_names_no_register(number) => "contour-begin 写不出补偿号 {number}：应有一行含 {{register}}，且 register 以数字结尾";
     its_contour_begin_does_not_switch_the_correction_on => "contour-begin 没有建立补偿：应有一行含 {side}";
     no_moves_within_tolerance_lead_from_to(from, to) => "从 {from} 到 {to} 没有符合公差的移动";
     the_cut_begins_at_and_ends_at(first, last) => "切割从 {first} 开始，到 {last} 结束";

@@ -42,6 +42,7 @@ mod unfollowed;
 pub(crate) mod word;
 mod write;
 
+pub(crate) use block::Offset;
 pub use block::read_line;
 pub use document::Document;
 pub(crate) use dropped::Dropped;
@@ -55,4 +56,4 @@ pub(in crate::program) use tilt::Unknown;
 pub(crate) use unfollowed::{Unfollowed, UnfollowedWord};
 pub(crate) use word::Token;
 pub use write::write;
-pub(crate) use write::write_with;
+pub(crate) use write::{Kept, read_of_profile, write_keeping, write_with};
