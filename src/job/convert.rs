@@ -99,7 +99,8 @@ pub(crate) fn convert(
     if program.mills() {
         return Err(Refusal::Sentence(say!(it_is_milled).into()));
     }
-    let mut cuts = convert::cuts(program);
+    let is_iso = target == Target::Program(Format::Iso);
+    let mut cuts = convert::cuts_to_write(program, is_iso);
     if let Some(taper) = cuts.taper.as_ref().filter(|_| cuts.leans && !force) {
         return Err(Refusal::Sentence(say!(no_conversion_of_a_taper, taper)));
     }

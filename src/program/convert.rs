@@ -5,15 +5,17 @@ mod dropped;
 mod fitted;
 mod registers;
 mod rings;
+mod switches;
 
 pub(crate) use dropped::Dropped;
 
 use self::fitted::{ROUND, between, unevenness};
+use self::switches::Parted;
 
 use super::document::Document;
 use super::format::Format;
 use super::iso::{self, Offset};
-use super::path::{self, Follower, Kind, tolerance};
+use super::path::{Follower, Kind, tolerance};
 use super::three_b::StatedPoint;
 use crate::drawing::EntityId;
 use crate::finding::Side;
@@ -101,9 +103,20 @@ pub struct Cuts {
 /// The cuts of a program, in the order of the machine, one for each of its contours.
 ///
 /// Where a 3B program has coordinates after its blocks, the nodes are those; else they are where the machine stops.
+///
+/// Of passes without a stop between them each closed one is a cut.
 pub fn cuts(document: &Document) -> Cuts {
+    cuts_to_write(document, false)
+}
+
+/// The same for a program that is to be written; of one that keeps the `switches` of the correction, open passes are
+/// cuts of their own, too.
+pub(crate) fn cuts_to_write(document: &Document, switches: bool) -> Cuts {
     let trace = document.trace();
-    let spans = path::cuts(&trace);
+    let Parted {
+        cuts: spans,
+        going_on,
+    } = switches::parted(&trace, switches);
     let leans = !trace.upper.iter().all(Vec::is_empty) || trace.upper_unknown.is_some();
     let trace = trace.into_meant();
     let stated = stated_ends(document);
@@ -131,6 +144,7 @@ pub fn cuts(document: &Document) -> Cuts {
         while spans.next_if(|span| span.steps.end <= index).is_some() {
             cuts.close(std::mem::take(&mut open));
         }
+        open.goes_on |= going_on.binary_search(&index).is_ok();
         let node = follower.begin(step);
         if !step.moves() {
             let is_within = spans.peek().is_some_and(|span| span.steps.contains(&index));

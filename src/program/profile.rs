@@ -1,6 +1,6 @@
 //! Rewrite an ISO program by a profile.
 
-use super::convert::{Cuts, Dropped, cuts};
+use super::convert::{Cuts, Dropped, cuts_to_write};
 use super::document::Document;
 use super::format::Format;
 use super::iso::taper::{Words, refuse_anywhere};
@@ -60,7 +60,7 @@ fn sound_cuts(document: &Document, settings: &Effective) -> Result<Cuts, String>
         let reason = say!(the_program_is_not_followed_as_a_whole);
         return Err(say!(line_by_number, line + 1, reason));
     }
-    let cuts = cuts(document);
+    let cuts = cuts_to_write(document, true);
     if let Some(line) = cuts.lost.first() {
         return Err(say!(the_arc_of_a_line_leads_nowhere, line + 1));
     }

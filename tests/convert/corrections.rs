@@ -131,3 +131,100 @@ fn a_header_names_the_corrections_of_the_program() {
         );
     }
 }
+
+/// Blocks of cuts in the profile `generic`, by the places that they lead to.
+fn blocks(places: &str) -> String {
+    let line = |word: &str| match word.split_once(',') {
+        Some((x, y)) => format!("G01 X{x}.000 Y{y}.000\n"),
+        None => format!("{}\n", word.replace('_', " ")),
+    };
+    let lines: String = places.split_whitespace().map(line).collect();
+    format!("%\nG21\nG90\nG92 X0.000 Y0.000\n{lines}M02\n%\n")
+}
+
+/// A program in the words of the profile becomes itself: each pass has its side and its place, and no stop is put
+/// between them.
+#[test]
+fn passes_stay_as_they_are() {
+    let folder = tempfile::tempdir().unwrap();
+    for places in [
+        // To and fro, without a stop.
+        "G41_D1 5,0 5,5 -5,5 -5,-5 5,-5 5,0 G40 0,0 G42_D2 5,0 5,-5 -5,-5 -5,5 5,5 5,0 G40 0,0",
+        // One way, the last two with one correction; then another contour.
+        "G41_D1 5,0 5,5 -5,5 -5,-5 5,-5 5,0 G40 0,0 G41_D3 5,0 5,5 -5,5 -5,-5 5,-5 5,0 G40 0,0 \
+         G41_D3 5,0 5,5 -5,5 -5,-5 5,-5 5,0 G40 0,0 M00 G00_X20.000_Y0.000 M00 \
+         G42_D11 25,0 25,-5 15,-5 15,5 25,5 25,0 G40 20,0",
+        // Up to a tab, back from there, and up to it; then the tab in three passes.
+        "G41_D1 5,0 5,5 -5,5 -5,-5 5,-5 5,-2 G40 6,-2 M00 G42_D2 5,-2 5,-5 -5,-5 -5,5 5,5 5,0 G40 8,0 \
+         G41_D3 5,0 5,5 -5,5 -5,-5 5,-5 5,-2 G40 6,-2 M00 G41_D1 5,-2 5,0 G40 8,0 G42_D2 5,0 5,-2 G40 6,-2 \
+         G41_D3 5,-2 5,0 G40 8,0",
+        // Up to a tab, and back to the thread hole, twice.
+        "G41_D1 5,0 5,5 -5,5 -5,-5 5,-5 5,-2 G40 0,0 G41_D2 5,0 5,5 -5,5 -5,-5 5,-5 5,-2 G40 0,0 M00 \
+         G41_D1 5,-2 5,0 G40 0,0",
+        // Off at once on a way of several blocks.
+        "G42_D1 5,0 5,-5 -5,-5 -5,5 5,5 5,0 G40 3,1 1,1 0,0 G41_D2 5,0 5,5 -5,5 -5,-5 5,-5 5,0 G40 0,0",
+    ] {
+        let text = blocks(places);
+        std::fs::write(folder.path().join("in.iso"), &text).unwrap();
+        let (code, made, told) = wedm(folder.path(), "convert in.iso --format iso");
+        assert_eq!((code, made), (0, text), "{told}");
+    }
+}
+
+/// Passes without a stop between them are passes in a drawing, and contours of 4B where they have one correction.
+#[test]
+fn passes_without_a_stop_are_told_apart() {
+    let folder = tempfile::tempdir().unwrap();
+    for (skim, four_b) in [("D1", Ok("2 contours")), ("D2", Err("those of D1, D2"))] {
+        let text = blocks(&format!(
+            "G41_D1 5,0 5,5 -5,5 -5,-5 5,-5 5,0 G40 0,0 G42_{skim} 5,0 5,-5 -5,-5 -5,5 5,5 5,0 G40 0,0"
+        ));
+        std::fs::write(folder.path().join("in.iso"), &text).unwrap();
+        let (code, _, told) = wedm(folder.path(), "convert in.iso -o out.dxf");
+        assert_eq!(code, 0, "{told}");
+        let made = dxf::Document::read(std::fs::read(folder.path().join("out.dxf")).unwrap());
+        let closed = |(_, entity): (EntityId, &wedm::drawing::Entity)| match &entity.geometry {
+            Geometry::Polyline {
+                closed: true,
+                vertices,
+            } => Some((entity.layer.to_string(), vertices.len())),
+            _ => None,
+        };
+        let closed: Vec<_> = made.drawing().entities().filter_map(closed).collect();
+        assert_eq!(closed, [("PASS1".to_owned(), 5), ("CUT".to_owned(), 5)]);
+        let (code, _, told) = wedm(folder.path(), "convert in.iso --format 4b");
+        let (Ok(said) | Err(said)) = four_b;
+        assert!(
+            code == i32::from(four_b.is_err()) && told.contains(said),
+            "{told}"
+        );
+        // 3B is refused for what it is.
+        let (code, _, told) = wedm(folder.path(), "convert in.iso --format 3b");
+        assert!(
+            code == 1 && told.contains("which no 3B controller does"),
+            "{told}"
+        );
+    }
+}
+
+/// The first block of a way in may come before the correction, and the way out lead elsewhere.
+#[test]
+fn a_way_in_without_a_correction_belongs_to_no_contour() {
+    let folder = tempfile::tempdir().unwrap();
+    for places in [
+        "3,1 G41_D4 5,0 5,5 -5,5 -5,-5 5,-5 5,0 G40 0,0",
+        "1,1 2,1 G41_D4 5,0 5,5 -5,5 -5,-5 5,-5 5,0 G40 0,0",
+        "3,1 G41_D4 5,0 5,5 -5,5 -5,-5 5,-5 5,0 G40 9,9",
+        "3,1 G41_D4 5,0 5,5 -5,5 -5,-5 G40 9,9",
+    ] {
+        std::fs::write(folder.path().join("in.iso"), blocks(places)).unwrap();
+        let (code, made, told) = wedm(folder.path(), "convert in.iso --format iso");
+        assert_eq!(code, 0, "{places}: {told}");
+        let moves = |text: &str| {
+            let moves = text.lines().filter(|line| line.starts_with("G01"));
+            moves.map(str::to_owned).collect::<Vec<_>>()
+        };
+        assert_eq!(moves(&made), moves(&blocks(places)), "{places}: {told}");
+        assert_eq!(switches(&made), ["G41 D4"], "{places}");
+    }
+}

@@ -189,7 +189,11 @@ impl Writer for Lines<'_> {
     }
 
     fn end_open(&mut self, last: Node, for_good: bool, stops: usize) -> Proved {
-        let stops = if for_good { stops } else { 0 };
+        let stops = if for_good && !self.own.goes_on {
+            stops
+        } else {
+            0
+        };
         (0..stops).try_for_each(|_| self.stop(last, None))
     }
 
