@@ -149,7 +149,10 @@ fn summarise(arguments: &Arguments, target: Target, made: &Converted) {
             None => output::say(say!(the_correction_is_not_in_the_contours)),
         }
     }
-    cuts.losses().iter().for_each(|loss| output::say(loss));
+    let way = made.dropped.way();
+    let corrections = made.corrections.iter().cloned();
+    let losses = way.into_iter().chain(corrections).chain(cuts.losses());
+    losses.for_each(|loss| output::say(&loss));
     // A drawing has none of it.
     if target != Target::Drawing {
         made.dropped

@@ -47,6 +47,8 @@ pub(crate) struct Converted {
     /// Blocks of the new program.
     pub(crate) blocks: Option<usize>,
     pub(crate) cuts: Cuts,
+    /// Where the control finds its corrections otherwise than in the program, in sentences.
+    pub(crate) corrections: Vec<String>,
     /// What stands beside the moves, of which a program that is written anew has nothing.
     pub(crate) dropped: Dropped,
 }
@@ -97,16 +99,17 @@ pub(crate) fn convert(
     if program.mills() {
         return Err(Refusal::Sentence(say!(it_is_milled).into()));
     }
-    let mut cuts = convert::cuts(program);
-    if cuts.cuts.is_empty() {
-        return Err(Refusal::Sentence(say!(it_cuts_nothing).into()));
-    }
+    let is_iso = target == Target::Program(Format::Iso);
+    let mut cuts = convert::cuts_to_write(program, is_iso);
     if let Some(taper) = cuts.taper.as_ref().filter(|_| cuts.leans && !force) {
         return Err(Refusal::Sentence(say!(no_conversion_of_a_taper, taper)));
     }
     let dropped = Dropped::of(program);
     if let Some(reason) = dropped.refusal().filter(|_| !force) {
         return Err(Refusal::Sentence(say!(no_conversion_of_such_a_way, reason)));
+    }
+    if cuts.cuts.is_empty() {
+        return Err(Refusal::Sentence(say!(it_cuts_nothing).into()));
     }
     let format = match target {
         Target::Drawing => {
@@ -116,6 +119,7 @@ pub(crate) fn convert(
                 bytes,
                 blocks: None,
                 cuts,
+                corrections: Vec::new(),
                 dropped,
             });
         }
@@ -125,9 +129,18 @@ pub(crate) fn convert(
     if let Some(reason) = cuts.refusal(format, settings) {
         return Err(Refusal::Sentence(reason));
     }
-    // µm are the unit of the cuts.
-    let written = format.write(&cuts.paths(), 1e-3, settings, &mut |_, _| true);
-    let written = written.map_err(|error| {
+    let lost = cuts.lost_correction(format, settings);
+    if let Some(reason) = lost.as_ref().filter(|_| !force) {
+        return Err(Refusal::Sentence(say!(
+            no_conversion_of_such_a_correction,
+            reason
+        )));
+    }
+    let mut corrections = Vec::from_iter(lost.map(|reason| say!(not_kept_the_corrections, reason)));
+    if format == Format::Iso {
+        corrections.extend(cuts.renamed_corrections(settings));
+    }
+    let written = cuts.write(format, settings).map_err(|error| {
         let reason = cuts.reason_of_mismatch();
         if let (ProofError::Mismatch(_), Some(reason)) = (&error, reason) {
             return Refusal::Sentence(reason);
@@ -139,6 +152,7 @@ pub(crate) fn convert(
         bytes: written.text.into_bytes(),
         blocks: Some(written.blocks),
         cuts,
+        corrections,
         dropped,
     })
 }

@@ -1,30 +1,29 @@
 //! A program as its cuts, each from one stop or rapid to the next: joined, to be drawn or written in another language.
 
+mod drawn;
 mod dropped;
 mod fitted;
+mod registers;
 mod rings;
+mod switches;
 
 pub(crate) use dropped::Dropped;
 
 use self::fitted::{ROUND, between, unevenness};
+use self::switches::Parted;
 
 use super::document::Document;
 use super::format::Format;
-use super::iso;
-use super::path::{self, Follower, Kind, tolerance};
+use super::iso::{self, Offset};
+use super::path::{Follower, Kind, tolerance};
 use super::three_b::StatedPoint;
-use crate::drawing::{Drawing, Entity, EntityId, Geometry, Unit, Vertex};
+use crate::drawing::EntityId;
 use crate::finding::Side;
 use crate::geometry::{Arc, Point, Segment, left_normal};
 use crate::settings::Effective;
 use crate::toolpath::{PathSegment, Source, WirePath};
 use rustc_hash::FxHashMap;
 use std::f64::consts::{PI, TAU};
-
-/// Layers of a drawing made from a program.
-const CUT: &str = "CUT";
-const LEAD: &str = "LEAD";
-const WAY: &str = "WAY";
 
 /// A bulge does not hold arcs well that turn by more than this, nearly full circles, rad.
 const MOST_BY_BULGE: f64 = TAU * 0.75;
@@ -49,6 +48,12 @@ pub struct CutPath {
     pub(crate) side: Option<Side>,
     /// The line in which that changes within the contour, from 0.
     pub(crate) switched: Option<usize>,
+    /// Where the control finds the correction by which it does.
+    offset: Option<Offset>,
+    /// The line in which another place is named before the correction is switched off, from 0, and that place.
+    renamed: Option<(usize, Offset)>,
+    /// It begins where the one before it ends, and nothing stops the machine there.
+    goes_on: bool,
     /// The side of travel on which the wire runs beside a contour of 4B, where an arc of it says that.
     part_side: Option<Side>,
 }
@@ -98,9 +103,20 @@ pub struct Cuts {
 /// The cuts of a program, in the order of the machine, one for each of its contours.
 ///
 /// Where a 3B program has coordinates after its blocks, the nodes are those; else they are where the machine stops.
+///
+/// Of passes without a stop between them each closed one is a cut.
 pub fn cuts(document: &Document) -> Cuts {
+    cuts_to_write(document, false)
+}
+
+/// The same for a program that is to be written; of one that keeps the `switches` of the correction, open passes are
+/// cuts of their own, too.
+pub(crate) fn cuts_to_write(document: &Document, switches: bool) -> Cuts {
     let trace = document.trace();
-    let spans = path::cuts(&trace);
+    let Parted {
+        cuts: spans,
+        going_on,
+    } = switches::parted(&trace, switches);
     let leans = !trace.upper.iter().all(Vec::is_empty) || trace.upper_unknown.is_some();
     let trace = trace.into_meant();
     let stated = stated_ends(document);
@@ -119,6 +135,7 @@ pub fn cuts(document: &Document) -> Cuts {
             cuts.taper = iso::refuse_taper(program, iso::TaperWords::All).err();
         }
     }
+    let mut offsets = offsets(document).into_iter();
     let mut open = CutPath::default();
     let mut spans = spans.iter().peekable();
     let mut follower = Follower::from(trace.start);
@@ -127,6 +144,7 @@ pub fn cuts(document: &Document) -> Cuts {
         while spans.next_if(|span| span.steps.end <= index).is_some() {
             cuts.close(std::mem::take(&mut open));
         }
+        open.goes_on |= going_on.binary_search(&index).is_ok();
         let node = follower.begin(step);
         if !step.moves() {
             let is_within = spans.peek().is_some_and(|span| span.steps.contains(&index));
@@ -134,6 +152,7 @@ pub fn cuts(document: &Document) -> Cuts {
             open.stops.extend(is_within.then_some(open.segments.len()));
             continue;
         }
+        let offset = offsets.next().flatten();
         let Some(ideal) = step.ideal else {
             cuts.lost.push(step.line);
             follower.at += step.end - step.start;
@@ -149,6 +168,7 @@ pub fn cuts(document: &Document) -> Cuts {
         if step.kind == Kind::Rapid {
             cuts.ways.push([node, end]);
         } else if end != node || is_full(&ideal) {
+            open.name(step, offset);
             let pieces = between(&ideal, step, node, end);
             let uneven = unevenness(&ideal, step, node, end);
             if cuts.uneven.is_none_or(|(_, most)| uneven > most) {
@@ -188,6 +208,15 @@ pub fn cuts(document: &Document) -> Cuts {
     }
     cuts.close(open);
     cuts
+}
+
+/// The place of the correction at each move, as the program names it.
+fn offsets(document: &Document) -> Vec<Option<Offset>> {
+    let mut offsets = Vec::new();
+    if let Document::Iso(program) = document {
+        program.moves(&mut |_, made, _| offsets.push(made.offset));
+    }
+    offsets
 }
 
 fn is_full(segment: &Segment) -> bool {
@@ -352,43 +381,6 @@ impl Cuts {
         };
     }
 
-    /// The program as a drawing in mm: contours as polylines with bulges, ways in and out and moves without the wire as
-    /// lines. Of several passes the last is the contour; the earlier ones lie on layers of their own.
-    pub fn drawing(&self) -> Drawing {
-        let mut drawing = Drawing::new(Some(Unit::MILLIMETRE));
-        let mut cuts = &self.cuts[..];
-        while let Some((cut, behind)) = cuts.split_first() {
-            if let Some((passes, count)) = rings::passes(cuts) {
-                let last = passes.len();
-                for (ring, number) in passes.iter().zip(1..) {
-                    let layer = if number == last {
-                        CUT.into()
-                    } else {
-                        format!("PASS{number}")
-                    };
-                    let leads = if number == last { &ring.leads[..] } else { &[] };
-                    leads.iter().for_each(|lead| push_lead(&mut drawing, lead));
-                    push_contour(&mut drawing, &layer, &ring.segments, true);
-                }
-                cuts = cuts.get(count..).unwrap_or_default();
-                continue;
-            }
-            let way_out = cut.segments.len().saturating_sub(cut.lead_out);
-            cut.segments[..cut.lead_in.min(way_out)]
-                .iter()
-                .for_each(|lead| push_lead(&mut drawing, lead));
-            push_contour(&mut drawing, CUT, cut.contour(), cut.closed);
-            cut.segments[way_out..]
-                .iter()
-                .for_each(|lead| push_lead(&mut drawing, lead));
-            cuts = behind;
-        }
-        for &ends in &self.ways {
-            push_line(&mut drawing, WAY, ends);
-        }
-        drawing
-    }
-
     /// The cuts as paths of the wire in µm, to be written in another language.
     pub fn paths(&self) -> Vec<WirePath> {
         let source = |cut: &CutPath, index: usize| match index {
@@ -423,55 +415,6 @@ impl Cuts {
         });
         paths.collect()
     }
-}
-
-fn push_contour(drawing: &mut Drawing, layer: &str, segments: &[Segment], closed: bool) {
-    if let Some(geometry) = polyline(segments, closed) {
-        drawing.push(Entity::new(layer, layer, geometry));
-    }
-}
-
-fn push_lead(drawing: &mut Drawing, lead: &Segment) {
-    if lead.as_arc().is_none() {
-        return push_line(drawing, LEAD, [lead.start(), lead.end()]);
-    }
-    if let Some(geometry) = polyline(&[*lead], false) {
-        drawing.push(Entity::new(LEAD, LEAD, geometry));
-    }
-}
-
-fn push_line(drawing: &mut Drawing, layer: &str, [start, end]: [Point; 2]) {
-    let geometry = Geometry::Line {
-        start: start / 1e3,
-        end: end / 1e3,
-    };
-    drawing.push(Entity::new(layer, layer, geometry));
-}
-
-/// The segments as a polyline in mm; arcs near a full turn, which a bulge does not hold well, in two halves.
-fn polyline(segments: &[Segment], closed: bool) -> Option<Geometry> {
-    let last = segments.last()?;
-    let mut vertices = Vec::with_capacity(segments.len() + 1);
-    let mut push = |at: Point, bulge: f64| {
-        vertices.push(Vertex {
-            point: at / 1e3,
-            bulge,
-        })
-    };
-    for segment in segments {
-        match segment {
-            Segment::Arc(arc) if arc.sweep.abs() > MOST_BY_BULGE => {
-                let bulge = (arc.sweep / 8.0).tan();
-                push(arc.start, bulge);
-                push(arc.point_at(0.5), bulge);
-            }
-            segment => push(segment.start(), segment.bulge()),
-        }
-    }
-    if !closed {
-        push(last.end(), 0.0);
-    }
-    (vertices.len() >= 2).then_some(Geometry::Polyline { closed, vertices })
 }
 
 /// The coordinates after the blocks of a 3B program, µm, by the byte at which the block begins.

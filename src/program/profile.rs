@@ -1,9 +1,8 @@
 //! Rewrite an ISO program by a profile.
 
-use super::convert::{Dropped, cuts};
+use super::convert::{Cuts, Dropped, cuts_to_write};
 use super::document::Document;
 use super::format::Format;
-use super::iso;
 use super::iso::taper::{Words, refuse_anywhere};
 use super::refactor::Proposal;
 use crate::settings::{Effective, Profile, shipped_profiles};
@@ -25,16 +24,18 @@ pub(super) fn proposals(document: &Document, settings: &Effective) -> Vec<Propos
     let mut known = None;
     let mut found = Vec::new();
     for profile in shipped.chain(own) {
-        let paths = known
-            .get_or_insert_with(|| paths(document, settings))
-            .clone();
+        let cuts = known.get_or_insert_with(|| sound_cuts(document, settings));
         let title = say!(write_anew_as_profile, profile.name);
-        let edits = paths.and_then(|paths| {
+        let edits = cuts.as_ref().map_err(String::clone).and_then(|cuts| {
             let settings = Effective {
                 profile: Ok(profile),
                 ..settings.clone()
             };
-            let written = iso::write(&paths, 1e-3, &settings).map_err(|error| error.to_string())?;
+            if let Some(reason) = cuts.lost_correction(Format::Iso, &settings) {
+                return Err(reason);
+            }
+            let written = cuts.write(Format::Iso, &settings);
+            let written = written.map_err(|error| error.to_string())?;
             let whole = 0..document.text().len();
             let same = document.text().bytes() == written.text.as_bytes();
             Ok(if same {
@@ -54,15 +55,12 @@ pub(super) fn proposals(document: &Document, settings: &Effective) -> Vec<Propos
     found
 }
 
-fn paths(
-    document: &Document,
-    settings: &Effective,
-) -> Result<Vec<crate::toolpath::WirePath>, String> {
+fn sound_cuts(document: &Document, settings: &Effective) -> Result<Cuts, String> {
     if let Some(line) = document.unfollowed_line() {
         let reason = say!(the_program_is_not_followed_as_a_whole);
         return Err(say!(line_by_number, line + 1, reason));
     }
-    let cuts = cuts(document);
+    let cuts = cuts_to_write(document, true);
     if let Some(line) = cuts.lost.first() {
         return Err(say!(the_arc_of_a_line_leads_nowhere, line + 1));
     }
@@ -81,5 +79,5 @@ fn paths(
     if cuts.cuts.is_empty() {
         return Err(say!(the_program_cuts_nothing).into());
     }
-    Ok(cuts.paths())
+    Ok(cuts)
 }

@@ -1,7 +1,9 @@
 //! Programs turned into drawings and into other languages, and back: the geometry stays.
 
+mod corrections;
 mod drawn;
 mod losses;
+mod unfollowed;
 mod ways;
 use proptest::prelude::*;
 use std::f64::consts::TAU;

@@ -3,6 +3,7 @@
 use crate::program::document::Document;
 use crate::program::iso;
 pub(crate) use crate::program::iso::Dropped;
+use crate::program::iso::{Unfollowed, UnfollowedWord};
 
 /// Words that are named one by one.
 const NAMED: usize = 8;
@@ -24,9 +25,25 @@ impl Dropped {
 
     /// Why the way of the wire would not be that of the program: in lower case without a full stop.
     pub(crate) fn refusal(&self) -> Option<String> {
-        let (line, word) = self.moving.as_ref()?;
-        let reason = say!(a_word_moves_the_wire_unfollowed, word);
+        let UnfollowedWord { line, word, what } = self.unfollowed.first()?;
+        let reason = match what {
+            Unfollowed::Way => say!(a_word_moves_the_wire_unfollowed, word),
+            Unfollowed::Frame => say!(a_word_moves_what_follows, word),
+            Unfollowed::Zero => say!(a_word_counts_from_another_zero, word),
+            Unfollowed::Missing => say!(a_word_calls_what_is_missing, word),
+            Unfollowed::Call => say!(a_word_calls_what_is_not_followed, word),
+            Unfollowed::Repeat => say!(a_word_repeats_unfollowed, word),
+            Unfollowed::Jump => say!(a_word_goes_on_in_another_block, word),
+            Unfollowed::Correction => say!(a_word_says_an_unknown_correction, word),
+        };
         Some(say!(line_by_number, line + 1, reason))
+    }
+
+    /// What the way of the wire lacks in whatever is made of the program, in a sentence.
+    pub(crate) fn way(&self) -> Option<String> {
+        let word = |own: &UnfollowedWord| say!(a_word_in_its_line, own.word, own.line + 1);
+        let (named, more) = named(&self.unfollowed, word);
+        (!self.unfollowed.is_empty()).then(|| say!(written_as_if_words_were_not_there, named, more))
     }
 
     pub(crate) fn sentences(&self) -> Vec<String> {

@@ -1,8 +1,9 @@
 //! What no program that is written anew takes over: words of the machine, comments, the choice to skip a block.
 
-use super::block::{Block, Note, read_line};
+use super::block::{Note, read_line};
 use super::document::Document;
 use super::plain::words;
+use super::unfollowed::{UnfollowedWord, unfollowed};
 use super::word::Token;
 use crate::text::{says_anything, shown};
 use std::collections::BTreeSet;
@@ -12,8 +13,8 @@ use std::collections::BTreeSet;
 pub(crate) struct Dropped {
     /// Words of the machine, each once, with their lines from 0.
     pub(crate) words: Vec<(usize, String)>,
-    /// The first of them that moves the wire.
-    pub(crate) moving: Option<(usize, String)>,
+    /// What changes the way of the wire, and is not followed.
+    pub(crate) unfollowed: Vec<UnfollowedWord>,
     /// Lines that the operator may skip, from 0.
     pub(crate) optional: Vec<usize>,
     pub(crate) comments: bool,
@@ -22,7 +23,10 @@ pub(crate) struct Dropped {
 /// What stands in the program beside its moves. Without `taper` the words that tilt the wire are left out: they are
 /// told of elsewhere.
 pub(in crate::program) fn dropped(document: &Document, taper: bool) -> Dropped {
-    let mut found = Dropped::default();
+    let mut found = Dropped {
+        unfollowed: unfollowed(document),
+        ..Dropped::default()
+    };
     let mut seen = BTreeSet::new();
     for line in 0..document.text().line_count() {
         let bytes = document.line_bytes(line);
@@ -42,9 +46,6 @@ pub(in crate::program) fn dropped(document: &Document, taper: bool) -> Dropped {
                 Token::Skip if !block.empty => found.optional.push(line),
                 Token::Skip => {}
                 _ if of_machine.contains(&range.start) || is_of_process(&token) => {
-                    if moves(&token, &block) && found.moving.is_none() {
-                        found.moving = Some((line, text.clone()));
-                    }
                     let key = match &token {
                         Token::Word { letter: b'F', .. } => "F".to_owned(),
                         _ => text.clone(),
@@ -68,20 +69,6 @@ fn is_of_process(token: &Token) -> bool {
             b'G' => number.whole() == Some(4),
             _ => false,
         },
-        _ => false,
-    }
-}
-
-/// G28 to G31 and G53, which go to places of the machine, and G65 to G67, which call what may go anywhere.
-fn moves(token: &Token, block: &Block) -> bool {
-    match token {
-        Token::Word {
-            letter: b'G',
-            number,
-        } => {
-            let code = number.whole().unwrap_or_default();
-            matches!(code, 28..=31 | 65..=67) || code == 53 && block.has_coordinates()
-        }
         _ => false,
     }
 }

@@ -38,9 +38,11 @@ pub(in crate::program) mod taper;
 #[cfg(test)]
 mod tests;
 mod tilt;
+mod unfollowed;
 pub(crate) mod word;
 mod write;
 
+pub(crate) use block::Offset;
 pub use block::read_line;
 pub use document::Document;
 pub(crate) use dropped::Dropped;
@@ -51,6 +53,7 @@ pub(in crate::program) use taper::{Words as TaperWords, refuse_anywhere as refus
 
 pub(crate) use plain::words;
 pub(in crate::program) use tilt::Unknown;
+pub(crate) use unfollowed::{Unfollowed, UnfollowedWord};
 pub(crate) use word::Token;
 pub use write::write;
-pub(crate) use write::write_with;
+pub(crate) use write::{Kept, read_of_profile, write_keeping, write_with};

@@ -33,7 +33,7 @@ pub(super) struct Ran<'a> {
     pub(super) line: usize,
     /// Its words, bytes of the text.
     words: Range<usize>,
-    block: &'a Block,
+    pub(super) block: &'a Block,
     /// Its move, and the corner that the control makes at its end.
     made: [Option<Move>; 2],
     /// The state after it.

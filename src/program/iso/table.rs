@@ -6,9 +6,16 @@ use super::moves::Reading;
 use super::stretch::Definition;
 use super::word::Value;
 use std::collections::BTreeMap;
+use std::fmt;
 
 /// Lines that are searched for the places of the table that a program uses.
 const LOOKED_AT: usize = 2_000;
+
+impl fmt::Display for Offset {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}{}", self.letter as char, self.index)
+    }
+}
 
 impl Document {
     /// The values that the program puts into the table.
@@ -56,12 +63,7 @@ impl Document {
         places.sort_by_key(|(offset, _)| (offset.letter, offset.index));
         places
             .into_iter()
-            .map(|(offset, nm)| {
-                (
-                    format!("{}{}", offset.letter as char, offset.index),
-                    nm as f64 / 1e6,
-                )
-            })
+            .map(|(offset, nm)| (offset.to_string(), nm as f64 / 1e6))
             .collect()
     }
 

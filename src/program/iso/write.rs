@@ -3,6 +3,8 @@
 mod offsets;
 mod proof;
 
+pub(crate) use offsets::{Kept, read_of_profile};
+
 use super::block::{Block, Motion, Note, Stop, read_line};
 use super::encode::{Encoded, Moves};
 use super::machine::Machine;
@@ -28,6 +30,21 @@ const AT_A_TIME: usize = 128;
 /// whose lines do not do what they should, is a refusal.
 pub fn write(paths: &[WirePath], unit_mm: f64, settings: &Effective) -> Proved<ProvedProgram> {
     write_with(paths, unit_mm, settings, None, &mut |_, _| true)
+}
+
+/// As [`write()`], with what the paths keep of the program that they come from.
+pub(crate) fn write_keeping(
+    paths: &[WirePath],
+    kept: &[Kept],
+    unit_mm: f64,
+    settings: &Effective,
+) -> Proved<ProvedProgram> {
+    let mut lines = Lines::of(settings)?;
+    lines.room = room(paths, false);
+    lines.kept = kept;
+    let (steps, step_um) = (unit_mm * lines.per_mm(), lines.step_um());
+    walk(paths, steps, step_um, &mut |_, _| true, &mut lines)?;
+    lines.finish(cuts(paths))
 }
 
 /// As [`write()`]; `go_on` gets the progress every few thousand segments, and ends the work with `false`. `notes` are
@@ -60,6 +77,10 @@ pub(super) struct Lines<'a> {
     settings: &'a Effective,
     /// 1-based number of the pass.
     pass: usize,
+    /// What the paths keep of another program.
+    kept: &'a [Kept],
+    /// That of the path that is written.
+    own: Kept,
     /// nm in one step of the grid.
     pub(super) step: i64,
     pub(super) reading: Reading,
@@ -85,6 +106,9 @@ pub(super) struct Lines<'a> {
 impl Writer for Lines<'_> {
     fn begin(&mut self, from: Option<Node>, first: Node, path: &WirePath) -> Proved {
         self.pass = path.pass;
+        let (own, behind) = self.kept.split_first().unwrap_or((&Kept::NOTHING, &[]));
+        let kept = std::mem::replace(&mut self.kept, behind);
+        self.own = *own;
         match from {
             None => {
                 if self.profile.zero == Zero::Start {
@@ -98,9 +122,10 @@ impl Writer for Lines<'_> {
                     return Err(self.refused(say!(its_begin_does_not_say_where_the_wire_stands)));
                 }
                 if path.side.is_some() {
-                    self.say_offsets(first)?;
+                    self.say_offsets(kept, first)?;
                 }
             }
+            Some(from) if own.goes_on && from == first => {}
             Some(from) => self.go_over(from, first, path, self.settings)?,
         }
         if std::mem::take(&mut self.goes_on) {
@@ -113,6 +138,12 @@ impl Writer for Lines<'_> {
         }
         if path.side.is_some() && self.machine.side != path.side {
             return Err(self.refused(say!(its_contour_begin_does_not_switch_the_correction_on)));
+        }
+        let named = self.machine.offset.map(|offset| offset.index);
+        if let Some(register) = self.own.register.filter(|_| path.side.is_some())
+            && named != Some(register)
+        {
+            return Err(self.refused(&say!(its_contour_begin_names_no_register, register)));
         }
         Ok(())
     }
@@ -158,7 +189,11 @@ impl Writer for Lines<'_> {
     }
 
     fn end_open(&mut self, last: Node, for_good: bool, stops: usize) -> Proved {
-        let stops = if for_good { stops } else { 0 };
+        let stops = if for_good && !self.own.goes_on {
+            stops
+        } else {
+            0
+        };
         (0..stops).try_for_each(|_| self.stop(last, None))
     }
 
@@ -212,6 +247,8 @@ impl<'a> Lines<'a> {
             profile,
             settings,
             pass: 1,
+            kept: &[],
+            own: Kept::default(),
             step: 1_000_000 / per_mm,
             reading,
             machine: Machine::default(),

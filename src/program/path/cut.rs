@@ -59,7 +59,8 @@ pub(crate) fn cuts(trace: &Trace) -> Vec<Cut> {
     found
 }
 
-fn cut_in(trace: &Trace, steps: Range<usize>) -> Cut {
+/// The division of some steps of a trace, all of which move except the pauses before tabs.
+pub(crate) fn cut_in(trace: &Trace, steps: Range<usize>) -> Cut {
     let own = trace.steps.get(steps.clone()).unwrap_or_default();
     let places: Vec<usize> = own
         .iter()

@@ -24,7 +24,7 @@ pub(in crate::program) use contour::{Ends, closing, not_closed};
 pub(in crate::program) use crossing::crossings as crossings_of;
 pub(in crate::program) use crossings::{Found, Known};
 pub(crate) use cut::Cut;
-pub(crate) use cut::{cut_of, cuts};
+pub(crate) use cut::{cut_in, cut_of, cuts};
 pub(in crate::program) use has_cuts::{FEWEST_CROSSING, HasCuts};
 pub(in crate::program) use joint::{BACK, CLEAR, Heading, ROUNDING, TANGENT};
 pub(in crate::program) use joint::{joint, may_be_odd, odd_joint, turn};

@@ -1,0 +1,98 @@
+//! A program as a drawing: contours, the ways to them, and the ways between them on layers of their own.
+
+use super::{Cuts, MOST_BY_BULGE, rings};
+use crate::drawing::{Drawing, Entity, Geometry, Unit, Vertex};
+use crate::geometry::{Point, Segment};
+
+/// Layers of a drawing made from a program.
+const CUT: &str = "CUT";
+const LEAD: &str = "LEAD";
+const WAY: &str = "WAY";
+
+impl Cuts {
+    /// The program as a drawing in mm: contours as polylines with bulges, ways in and out and moves without the wire as
+    /// lines. Of several passes the last is the contour; the earlier ones lie on layers of their own.
+    pub fn drawing(&self) -> Drawing {
+        let mut drawing = Drawing::new(Some(Unit::MILLIMETRE));
+        let mut cuts = &self.cuts[..];
+        while let Some((cut, behind)) = cuts.split_first() {
+            if let Some((passes, count)) = rings::passes(cuts) {
+                let last = passes.len();
+                for (ring, number) in passes.iter().zip(1..) {
+                    let layer = if number == last {
+                        CUT.into()
+                    } else {
+                        format!("PASS{number}")
+                    };
+                    let leads = if number == last { &ring.leads[..] } else { &[] };
+                    leads.iter().for_each(|lead| push_lead(&mut drawing, lead));
+                    push_contour(&mut drawing, &layer, &ring.segments, true);
+                }
+                cuts = cuts.get(count..).unwrap_or_default();
+                continue;
+            }
+            let way_out = cut.segments.len().saturating_sub(cut.lead_out);
+            cut.segments[..cut.lead_in.min(way_out)]
+                .iter()
+                .for_each(|lead| push_lead(&mut drawing, lead));
+            push_contour(&mut drawing, CUT, cut.contour(), cut.closed);
+            cut.segments[way_out..]
+                .iter()
+                .for_each(|lead| push_lead(&mut drawing, lead));
+            cuts = behind;
+        }
+        for &ends in &self.ways {
+            push_line(&mut drawing, WAY, ends);
+        }
+        drawing
+    }
+}
+
+fn push_contour(drawing: &mut Drawing, layer: &str, segments: &[Segment], closed: bool) {
+    if let Some(geometry) = polyline(segments, closed) {
+        drawing.push(Entity::new(layer, layer, geometry));
+    }
+}
+
+fn push_lead(drawing: &mut Drawing, lead: &Segment) {
+    if lead.as_arc().is_none() {
+        return push_line(drawing, LEAD, [lead.start(), lead.end()]);
+    }
+    if let Some(geometry) = polyline(&[*lead], false) {
+        drawing.push(Entity::new(LEAD, LEAD, geometry));
+    }
+}
+
+fn push_line(drawing: &mut Drawing, layer: &str, [start, end]: [Point; 2]) {
+    let geometry = Geometry::Line {
+        start: start / 1e3,
+        end: end / 1e3,
+    };
+    drawing.push(Entity::new(layer, layer, geometry));
+}
+
+/// The segments as a polyline in mm; arcs near a full turn, which a bulge does not hold well, in two halves.
+fn polyline(segments: &[Segment], closed: bool) -> Option<Geometry> {
+    let last = segments.last()?;
+    let mut vertices = Vec::with_capacity(segments.len() + 1);
+    let mut push = |at: Point, bulge: f64| {
+        vertices.push(Vertex {
+            point: at / 1e3,
+            bulge,
+        })
+    };
+    for segment in segments {
+        match segment {
+            Segment::Arc(arc) if arc.sweep.abs() > MOST_BY_BULGE => {
+                let bulge = (arc.sweep / 8.0).tan();
+                push(arc.start, bulge);
+                push(arc.point_at(0.5), bulge);
+            }
+            segment => push(segment.start(), segment.bulge()),
+        }
+    }
+    if !closed {
+        push(last.end(), 0.0);
+    }
+    (vertices.len() >= 2).then_some(Geometry::Polyline { closed, vertices })
+}
