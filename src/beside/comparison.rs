@@ -2,14 +2,15 @@
 
 use super::anchor::{anchor, others};
 use super::drawn::Drawn;
+use super::foreign::{foreign, segments};
 use super::infer;
 use super::members::Members;
 use super::placement::Placement;
 use super::rounds::{Course, Rounds};
 use super::single::single;
-use super::traced::{Block, Traced};
+use super::traced::Traced;
 use super::walk::{Kind, Unlike, Walk, Walked};
-use super::{BETWEEN, TOLERANCE};
+use super::{REACH, TOLERANCE};
 use crate::drawing::EntityId;
 use crate::geometry::Segment;
 use crate::settings::{Compensation, Corner, Effective, LengthSetting};
@@ -254,46 +255,6 @@ fn followed_or_named(unlike: &mut Vec<Unlike>, foreign: &[Range<usize>]) {
     unlike.sort_by_key(|unlike| unlike.block);
 }
 
-/// Blocks of contours, and of passes, that follow nothing of the drawing.
-fn foreign(traced: &Traced, walked: &Walked) -> Vec<Range<usize>> {
-    let mut found = Vec::new();
-    for [all, contour] in &traced.cuts {
-        let runs = |range: Range<usize>| walked.runs[range].iter().any(|runs| *runs);
-        if !runs(all.clone()) {
-            found.extend((!contour.is_empty() && closes(traced, contour)).then(|| contour.clone()));
-            continue;
-        }
-        let mut from = all.start;
-        for index in all.clone().chain([all.end]) {
-            let is_end = index == all.end || walked.runs[index];
-            if is_end {
-                let is_named = walked.unlike.iter().any(|unlike| {
-                    (from..index).contains(&unlike.block) || unlike.block + 1 == from
-                });
-                if index - from > BETWEEN + 2 && !is_named {
-                    found.push(from..index);
-                }
-                from = index + 1;
-            }
-        }
-    }
-    found
-}
-
-/// A way from one place to another is no contour.
-fn closes(traced: &Traced, contour: &Range<usize>) -> bool {
-    let mut own = segments(&traced.blocks[contour.clone()]);
-    let Some(first) = own.next() else {
-        return false;
-    };
-    let (count, last) = own.fold((1, first), |(count, _), segment| (count + 1, segment));
-    count > 2 || first.as_arc().is_some() || last.as_arc().is_some()
-}
-
-fn segments(blocks: &[Block]) -> impl Iterator<Item = Segment> {
-    blocks.iter().filter_map(|block| block.segment().copied())
-}
-
 pub(super) fn longest_cut(traced: &Traced) -> Vec<Segment> {
     let longest = traced
         .cuts
@@ -404,9 +365,18 @@ impl Tried {
             return self;
         }
         let mut placements = std::iter::once(placement).chain(others(traced, &rounds, &placement));
-        if let Some(only) =
-            placements.find_map(|placement| single(traced, &rounds, placement, &self.unlike, &miss))
-        {
+        let only = placements
+            .find_map(|placement| single(traced, &rounds, placement, &self.unlike, &miss));
+        // What is named needs no larger change elsewhere to explain it.
+        let is_larger = |only: &Unlike| {
+            let named = self.unlike.iter();
+            !self.unlike.is_empty()
+                && named
+                    .clone()
+                    .all(|named| named.kind == Kind::Block && named.block != only.block)
+                && only.off > named.map(|named| named.off).sum::<f64>() + REACH
+        };
+        if let Some(only) = only.filter(|only| !is_larger(only)) {
             self.unlike = vec![only];
         }
         self

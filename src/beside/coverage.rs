@@ -1,31 +1,54 @@
-//! The parts of each round that a program cuts from stop to stop, and whether nothing is left between.
+//! The parts of each round that a program cuts run by run, and whether nothing is left between.
 
 use super::COVERED;
 use super::rounds::Rounds;
+use rustc_hash::FxHashMap;
 use std::ops::Range;
 
 /// The largest share of a round that may be cut twice where consecutive stretches overlap.
 const TWICE: f64 = 0.35;
 
-/// What has been cut from stop to stop.
+/// The largest share of a round that is cut from stop to stop beside the longest run: without a stop no piece of a
+/// contour is left for later.
+const BESIDE: f64 = 0.1;
+
+/// What has been cut, from stop to stop.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Coverage {
-    done: Vec<Go>,
-    open: Vec<Go>,
+    runs: Vec<Cut>,
+    stops: usize,
+    /// The last run goes on.
+    is_open: bool,
 }
 
-/// The stretches of one round that are cut without a stop.
+/// The stretches of one round that are cut in one run.
 #[derive(Clone, Debug)]
-struct Go {
+struct Cut {
     round: usize,
+    /// Stops before it.
+    stops: usize,
     parts: Vec<Range<f64>>,
+}
+
+impl Cut {
+    /// Nothing of its round is left.
+    fn is_whole(&self, rounds: &Rounds) -> bool {
+        uncut(&self.parts, rounds.rounds[self.round].length) <= COVERED
+    }
 }
 
 impl Coverage {
     pub(super) fn cut(&mut self, round: usize, part: Range<f64>) {
-        let Some(own) = self.open.iter_mut().find(|go| go.round == round) else {
-            self.open.push(Go {
+        let stops = self.stops;
+        let open = self
+            .runs
+            .last_mut()
+            .filter(|run| self.is_open && run.round == round);
+        self.is_open = true;
+        let Some(own) = open else {
+            self.runs.push(Cut {
                 round,
+                stops,
                 parts: vec![part],
             });
             return;
@@ -37,38 +60,56 @@ impl Coverage {
         }
     }
 
-    /// The wire stops, or is taken out.
-    pub(super) fn end(&mut self) {
-        self.done.append(&mut self.open);
+    /// The wire leaves the round.
+    pub(super) fn end_run(&mut self) {
+        self.is_open = false;
     }
 
-    /// Whether the stretches of each round cover all of it, alone or together: a tab is cut by itself.
-    pub(crate) fn are_whole(mut self, rounds: &Rounds) -> bool {
-        self.end();
-        let mut partial: Vec<Go> = Vec::new();
-        for go in self.done {
-            let length = rounds.rounds[go.round].length;
-            let counts = counts(&go.parts, length);
-            if !counts
-                .iter()
-                .any(|(count, length)| *count == 0 && *length > COVERED)
-            {
-                continue;
-            }
-            match partial.iter_mut().find(|other| other.round == go.round) {
-                Some(other) => other.parts.extend(go.parts),
-                None => partial.push(go),
-            }
+    /// The wire stops, or is taken out.
+    pub(super) fn stop(&mut self) {
+        self.is_open = false;
+        self.stops += 1;
+    }
+
+    /// Whether each run covers all of its round, or those from stop to stop do together: a tab is cut by itself.
+    pub(crate) fn are_whole(self, rounds: &Rounds) -> bool {
+        let partial = self.runs.into_iter().filter(|run| !run.is_whole(rounds));
+        let mut by_round: FxHashMap<usize, Vec<Cut>> = FxHashMap::default();
+        for run in partial {
+            by_round.entry(run.round).or_default().push(run);
         }
-        partial.iter().all(|go| {
-            let length = rounds.rounds[go.round].length;
-            let mut counts = counts(&go.parts, length);
-            counts.retain(|(_, length)| *length > COVERED);
-            let least = counts.iter().map(|(count, _)| *count).min().unwrap_or(0);
-            let more = |(count, length): &(i32, f64)| f64::from(count - least) * length;
-            least > 0 && counts.iter().map(more).sum::<f64>() <= TWICE * length
+        by_round.iter().all(|(round, runs)| {
+            let length = rounds.rounds[*round].length;
+            is_tiled(runs, length)
+                && runs
+                    .chunk_by(|a, b| a.stops == b.stops)
+                    .all(|go| is_one(go, length))
         })
     }
+}
+
+/// Whether runs of a round leave nothing of it, and cut hardly anything more often than the rest.
+fn is_tiled(runs: &[Cut], length: f64) -> bool {
+    let parts: Vec<Range<f64>> = runs.iter().flat_map(|run| run.parts.clone()).collect();
+    let mut counts = counts(&parts, length);
+    counts.retain(|(_, length)| *length > COVERED);
+    let least = counts.iter().map(|(count, _)| *count).min().unwrap_or(0);
+    let more = |(count, length): &(i32, f64)| f64::from(count - least) * length;
+    least > 0 && counts.iter().map(more).sum::<f64>() <= TWICE * length
+}
+
+/// Whether one of these runs cuts all that they cut together, up to an overlap.
+fn is_one(runs: &[Cut], length: f64) -> bool {
+    let all: Vec<Range<f64>> = runs.iter().flat_map(|run| run.parts.clone()).collect();
+    let left = runs.iter().map(|run| uncut(&run.parts, length));
+    left.fold(f64::INFINITY, f64::min) - uncut(&all, length) <= BESIDE * length
+}
+
+/// The uncut length of a round, without gaps up to [`COVERED`].
+fn uncut(parts: &[Range<f64>], length: f64) -> f64 {
+    let counts = counts(parts, length).into_iter();
+    let left = counts.filter(|(count, length)| *count == 0 && *length > COVERED);
+    left.map(|(_, length)| length).sum()
 }
 
 /// How often a round of a length is cut, stretch by stretch.

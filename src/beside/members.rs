@@ -9,7 +9,7 @@ use super::placement::Placement;
 use super::rounds::{Rounds, Spot};
 use super::traced::{Motion, Traced};
 use super::walk::Walked;
-use super::{BETWEEN, REACH};
+use super::{BETWEEN, COVERED, LEADS, REACH};
 use crate::geometry::{Segment, Vector};
 
 /// The state of a program up to one of its blocks.
@@ -33,6 +33,21 @@ pub(super) struct Members {
     left: Option<Spot>,
     is_broken: bool,
     miss: f64,
+    stretch: Stretch,
+}
+
+/// The blocks since the correction was switched on or off.
+#[derive(Clone, Copy, Default)]
+struct Stretch {
+    cut: usize,
+    follow: usize,
+}
+
+impl Stretch {
+    /// More than a way there and back follows nothing of the drawing.
+    fn is_foreign(self) -> bool {
+        self.follow == 0 && self.cut > LEADS
+    }
 }
 
 impl Members {
@@ -51,24 +66,34 @@ impl Members {
             left: None,
             is_broken: false,
             miss: 0.0,
+            stretch: Stretch::default(),
         }
     }
 
     /// Takes one block after the other; sets `is_broken` at the first one that shows a difference.
     pub(super) fn take(&mut self, traced: &Traced, rounds: &Rounds, index: usize) {
-        let segment = match &traced.blocks[index].motion {
+        let block = &traced.blocks[index];
+        let before = index.checked_sub(1).map(|before| &traced.blocks[before]);
+        if let Some(before) = before
+            && before.stretch != block.stretch
+        {
+            self.is_broken |= before.is_offset && self.stretch.is_foreign();
+            self.stretch = Stretch::default();
+        }
+        let segment = match &block.motion {
             Motion::Cut(segment) => segment,
             Motion::Stop => {
                 self.left = None;
-                self.coverage.end();
+                self.coverage.stop();
                 return;
             }
             Motion::Way(..) => {
-                self.coverage.end();
+                self.coverage.stop();
                 (self.spot, self.entry, self.left, self.away) = (None, None, None, 0);
                 return;
             }
         };
+        self.stretch.cut += 1;
         let goes_on = self.spot.zip(self.entry);
         let found = goes_on
             .and_then(|(spot, entry)| follow(self.placement, traced, rounds, index, (spot, entry)));
@@ -104,8 +129,16 @@ impl Members {
         {
             self.is_broken |= self.goes_on_behind(rounds, &left, &from);
         }
+        let goes_on = self.spot.is_some_and(|spot| {
+            (spot.round, spot.back) == (from.round, from.back)
+                && (spot.at - from.at).norm() <= COVERED
+        });
+        if !goes_on {
+            self.coverage.end_run();
+        }
         (self.placement, self.spot, self.entry) = (placement, to, Some(entry));
         (self.left, self.away) = (None, 0);
+        self.stretch.follow += 1;
         self.runs[index] = true;
         self.follows.extend(whole.then_some(index));
         self.miss += miss;

@@ -18,6 +18,7 @@ mod comparison;
 mod coverage;
 mod drawn;
 mod findings;
+mod foreign;
 mod guess;
 mod infer;
 mod matching;
@@ -51,5 +52,7 @@ pub(crate) const TOLERANCE: f64 = 2.0;
 const REACH: f64 = 2.5;
 /// The most blocks that lead from one pass to the next.
 const BETWEEN: usize = 6;
+/// The most blocks of a way in and one out together that are taken for nothing else.
+const LEADS: usize = 2;
 /// A shorter stretch of the drawing counts as cut, µm.
 const COVERED: f64 = 5.0;

@@ -6,7 +6,7 @@
 use super::members::Members;
 use super::placement::{Placement, stretch};
 use super::rounds::{Rounds, Spot};
-use super::traced::{Motion, Traced};
+use super::traced::{Block, Motion, Traced};
 use super::walk::{Kind, Unlike};
 use super::{REACH, TOLERANCE};
 use crate::geometry::{Arc, Point, Segment, Vector};
@@ -186,10 +186,12 @@ enum How {
     /// Where it was; an arc about the place that is counted from its start, or about where it was.
     AbsoluteFrom,
     Absolute,
+    /// The same where each coordinate holds until another one is said.
+    Held,
 }
 
 impl How {
-    const ALL: [How; 3] = [How::Relative, How::AbsoluteFrom, How::Absolute];
+    const ALL: [How; 4] = [How::Relative, How::AbsoluteFrom, How::Absolute, How::Held];
 }
 
 fn repaired(traced: &Traced, index: usize, meant: Segment, by: Vector, how: How) -> Traced {
@@ -206,6 +208,10 @@ fn repaired(traced: &Traced, index: usize, meant: Segment, by: Vector, how: How)
         }
         return repaired;
     }
+    if how == How::Held {
+        hold(behind, by);
+        return repaired;
+    }
     let next = behind.find_map(|block| match &mut block.motion {
         Motion::Cut(segment) => Some(segment),
         _ => None,
@@ -215,6 +221,34 @@ fn repaired(traced: &Traced, index: usize, meant: Segment, by: Vector, how: How)
         *next = begun_at(next, next.start() + by, end, by, how);
     }
     repaired
+}
+
+/// Moves the blocks after a changed end that name no other place in the direction of the change.
+fn hold<'a>(behind: impl Iterator<Item = &'a mut Block>, mut by: Vector) {
+    for block in behind {
+        let Some([start, end]) = block.motion.ends() else {
+            continue;
+        };
+        let kept = by.zip_map(&(end - start), |by, way| if way == 0.0 { by } else { 0.0 });
+        match &mut block.motion {
+            Motion::Cut(Segment::Line(_)) => {
+                block.motion = Motion::Cut(Segment::line(start + by, end + kept));
+            }
+            Motion::Cut(Segment::Arc(arc)) => {
+                let center = arc.center + by;
+                *arc = Arc::about(center, start + by, end + kept, arc.sweep > 0.0);
+            }
+            Motion::Way(start, way) => {
+                *start += by;
+                *way += kept - by;
+            }
+            Motion::Stop => {}
+        }
+        by = kept;
+        if by == Vector::zeros() {
+            return;
+        }
+    }
 }
 
 fn begun_at(segment: &Segment, start: Point, end: Point, by: Vector, how: How) -> Segment {

@@ -3,7 +3,7 @@
 use super::BETWEEN;
 use crate::geometry::{Point, Segment, Vector};
 use crate::program::block_words::BlockWords;
-use crate::program::path::{self, Kind, Trace};
+use crate::program::path::{self, Kind, Step, Trace};
 use crate::program::{Document, Format, Language};
 use crate::text::SourceText;
 use std::ops::Range;
@@ -49,6 +49,9 @@ pub(super) struct Block {
     pub(crate) motion: Motion,
     /// The control offsets it.
     pub(crate) is_offset: bool,
+    /// The stretch of blocks between which the correction is neither switched on nor off: where the text itself ends a
+    /// pass.
+    pub(crate) stretch: usize,
     /// An invalid arc, taken as its chord.
     pub(crate) is_lost: bool,
 }
@@ -149,7 +152,15 @@ impl Traced {
             Language::Iso => (true, false),
         };
         let trace = trace.into_meant();
+        let (mut stretch, mut side) = (0, None);
+        let mut stretch_of = |step: &Step| {
+            if step.moves() && step.side != side {
+                (stretch, side) = (stretch + 1, step.side);
+            }
+            stretch
+        };
         let blocks = trace.steps.into_iter().map(|step| Block {
+            stretch: stretch_of(&step),
             line: step.line,
             motion: match (step.kind, step.ideal) {
                 (Kind::Line | Kind::Arc, Some(segment)) => Motion::Cut(segment),

@@ -10,6 +10,7 @@ mod enter;
 mod resume;
 mod settle;
 
+use super::COVERED;
 use super::placement::{Placement, Reached};
 use super::rounds::{Rounds, Spot};
 use super::traced::{Motion, Traced};
@@ -97,6 +98,8 @@ pub(super) struct Walk<'a> {
     loose: Vec<Loose>,
     /// Runs that reached the end of an open contour.
     ended: Vec<Run>,
+    /// Of each run that has completed its round alone, the round and the first block.
+    complete: Vec<(usize, usize)>,
     /// Runs that begin beside their place in the drawing.
     moved: Vec<Run>,
     walked: Walked,
@@ -112,6 +115,7 @@ impl<'a> Walk<'a> {
             cuts: vec![Vec::new(); rounds.rounds.len()],
             loose: Vec::new(),
             ended: Vec::new(),
+            complete: Vec::new(),
             moved: Vec::new(),
             walked: Walked {
                 runs: vec![false; traced.blocks.len()],
@@ -150,12 +154,16 @@ impl<'a> Walk<'a> {
                     index = tried + 1;
                     continue;
                 }
-                match self.resume(open, index) {
-                    Some(behind) => {
-                        index = behind;
-                        continue;
+                if self.is_switched(open.first, index) {
+                    self.leave(run.take(), index, false);
+                } else {
+                    match self.resume(open, index) {
+                        Some(behind) => {
+                            index = behind;
+                            continue;
+                        }
+                        None => self.leave(run.take(), index, true),
                     }
-                    None => self.leave(run.take(), index, true),
                 }
             }
             tried = index;
@@ -173,6 +181,12 @@ impl<'a> Walk<'a> {
         self.settle(tabs);
         self.walked.unlike.sort_by_key(|unlike| unlike.block);
         self.walked
+    }
+
+    /// Whether the correction is switched on or off between two blocks: they belong to different passes.
+    fn is_switched(&self, one: usize, other: usize) -> bool {
+        let stretch = |index: usize| self.traced.blocks.get(index).map(|block| block.stretch);
+        stretch(one) != stretch(other)
     }
 
     /// Lets a run go on by one block; false where that does not follow.
@@ -248,7 +262,11 @@ impl<'a> Walk<'a> {
             .contours
             .push(self.rounds.rounds[run.spot.round].contour);
         if run.complete {
-            if self.rounds.rounds[run.spot.round].from_end {
+            let round = &self.rounds.rounds[run.spot.round];
+            if run.travelled >= round.length - COVERED {
+                self.complete.push((run.spot.round, run.first));
+            }
+            if round.from_end {
                 self.ended.push(run.clone());
             }
             self.moved.extend(run.moved.is_some().then_some(run));

@@ -9,6 +9,7 @@ mod numbers;
 mod passes;
 mod published;
 mod shapes;
+mod switched;
 mod unchanged;
 mod unknown;
 mod written;

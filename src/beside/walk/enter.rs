@@ -68,7 +68,7 @@ impl Walk<'_> {
                 let Some(own) = self.traced.blocks[before].segment() else {
                     break;
                 };
-                if self.walked.runs[before] {
+                if self.walked.runs[before] || self.is_switched(before, index) {
                     break;
                 }
                 let near = self.rounds.near(placement.place(own.start()), REACH);
@@ -174,9 +174,14 @@ impl Walk<'_> {
         (count, true)
     }
 
-    /// Whether a block and one more at most are the last before a stop.
+    /// Whether a block and one more at most are the last before a stop, or before the correction is switched on or
+    /// off, or the first after that.
     pub(super) fn leads_out(&self, index: usize) -> bool {
+        if index > 0 && self.is_switched(index - 1, index) {
+            return true;
+        }
         let behind = self.traced.blocks[index..].iter();
-        behind.take_while(|block| block.segment().is_some()).count() <= 2
+        let is_cut = |block: &&Block| block.segment().is_some();
+        behind.take_while(is_cut).count() <= 2
     }
 }

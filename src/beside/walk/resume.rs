@@ -11,6 +11,17 @@ const PASSED: usize = 8;
 /// Blocks that are read to find the end of a piece that several of them share.
 const SPLIT: usize = 400;
 
+/// How a run goes on after a block that does not follow.
+struct Resumed {
+    /// Of the blocks and the pieces that are skipped the more.
+    size: usize,
+    blocks: usize,
+    pieces: usize,
+    spot: Spot,
+    placement: Placement,
+    off: f64,
+}
+
 impl Walk<'_> {
     /// Continues a run after a block that does not follow, and names it. Returns the block to go on with; `None` where
     /// nothing follows.
@@ -33,9 +44,15 @@ impl Walk<'_> {
                 .and_then(|block| block.segment())
         };
         let cuts = (index..index + PASSED)
-            .take_while(|nth| cut(nth).is_some())
+            .take_while(|nth| cut(nth).is_some() && !self.is_switched(index, *nth))
             .count();
+        // All that is left of a pass, taken to be moved as a whole.
+        let mut moved: Option<Resumed> = None;
         for (blocks, pieces) in choices(cuts, ways.len(), run.passed != Some(index)) {
+            let size = blocks.max(pieces);
+            if moved.as_ref().is_some_and(|moved| size > moved.size + 1) {
+                break;
+            }
             let last = index + blocks;
             let end = match blocks.checked_sub(1) {
                 Some(before) => cut(&(index + before))?.end(),
@@ -55,6 +72,7 @@ impl Walk<'_> {
                 let placement = match is_back {
                     true if miss.norm() > REACH => continue,
                     true => self.placement,
+                    false if moved.is_some() => continue,
                     false => self.placement.moved(miss),
                 };
                 let (count, ends) = self.verify(placement, spot, run.entry, last, SURE);
@@ -72,15 +90,41 @@ impl Walk<'_> {
                     1 => miss.norm(),
                     _ => self.off(&self.placement, run, index),
                 };
-                self.name(run, index, off, Kind::Block);
-                (index..last).for_each(|block| self.walked.runs[block] = true);
-                self.pass(run, &ways[1..=pieces], spot);
-                self.placement = placement;
-                run.passed = (blocks == 0).then_some(index);
-                return Some(last);
+                let resumed = Resumed {
+                    size,
+                    blocks,
+                    pieces,
+                    spot,
+                    placement,
+                    off,
+                };
+                if count < SURE && !is_back && self.switches(last) {
+                    moved = Some(resumed);
+                    continue;
+                }
+                return Some(self.go_on(run, index, &ways, resumed));
             }
         }
-        None
+        moved.map(|moved| self.go_on(run, index, &ways, moved))
+    }
+
+    /// Whether the correction is switched soon after a block, before any stop.
+    fn switches(&self, index: usize) -> bool {
+        let blocks = self.traced.blocks.iter().skip(index).take(SURE + 1);
+        let mut blocks = blocks.take_while(|block| block.segment().is_some());
+        let first = blocks.next();
+        blocks.any(|block| first.is_some_and(|first| first.stretch != block.stretch))
+    }
+
+    /// Names the block at which a run is interrupted. Returns the block to go on with.
+    fn go_on(&mut self, run: &mut Run, index: usize, ways: &[Spot], resumed: Resumed) -> usize {
+        let last = index + resumed.blocks;
+        self.name(run, index, resumed.off, Kind::Block);
+        (index..last).for_each(|block| self.walked.runs[block] = true);
+        self.pass(run, &ways[1..=resumed.pieces], resumed.spot);
+        self.placement = resumed.placement;
+        run.passed = (resumed.blocks == 0).then_some(index);
+        last
     }
 
     /// Takes the way of a run over the beginnings of these pieces to a spot on the last of them.
@@ -137,6 +181,9 @@ impl Walk<'_> {
             }
             let followed = placement.follow(self.rounds, self.traced, next, &spot, &run.entry);
             let Some(further) = followed else {
+                if self.is_switched(index, next) {
+                    return Some(next);
+                }
                 return self.turns(&placement, &spot, next).then_some(next);
             };
             length += further.length;
@@ -152,6 +199,9 @@ impl Walk<'_> {
     pub(super) fn turns(&self, placement: &Placement, spot: &Spot, index: usize) -> bool {
         for next in index..self.traced.blocks.len().min(index + BETWEEN + 1) {
             let block = &self.traced.blocks[next];
+            if self.is_switched(index, next) {
+                return false;
+            }
             let Motion::Cut(segment) = &block.motion else {
                 if matches!(block.motion, Motion::Stop) {
                     continue;
@@ -197,6 +247,7 @@ impl Walk<'_> {
             .map_while(|back| run.first.checked_sub(back))
             .take_while(|&before| self.traced.blocks[before].segment().is_some())
             .take_while(|&before| !self.walked.runs[before])
+            .take_while(|&before| !self.is_switched(before, run.first))
     }
 }
 

@@ -16,14 +16,20 @@ impl Walk<'_> {
                 is_behind,
                 placement,
             } = loose;
-            let gap = self.uncut_from(&run.spot);
+            let is_lacking = self.is_lacking(&run);
+            let gap = match is_lacking {
+                true => self.rounds.ahead(&run.spot, &run.entry),
+                false => self.uncut_from(&run.spot),
+            };
             // A tab is cut after a stop, or by hand.
             let own = |cut: &&[Range<usize>; 2]| cut[0].contains(&run.first);
             let stops = self.traced.cuts.iter().find(own).is_some_and(|[all, _]| {
                 let mut blocks = self.traced.blocks[all.clone()].iter();
                 blocks.any(|block| block.motion == Motion::Stop)
             });
-            let is_cut = if stops {
+            let is_cut = if is_lacking {
+                false
+            } else if stops {
                 gap <= COVERED
             } else {
                 let is_tab = |tab: &f64| *tab > 0.0 && (gap - tab).abs() <= 500.0;
@@ -97,6 +103,27 @@ impl Walk<'_> {
                 ),
             }
         }
+    }
+
+    /// Whether a pass that is not completed has another beside it that is, without a stop between them: what it leaves
+    /// is no tab.
+    fn is_lacking(&self, run: &Run) -> bool {
+        let own = &self.rounds.rounds[run.spot.round];
+        let blocks = &self.traced.blocks;
+        let is_offset = blocks[run.first].is_offset;
+        let others = self
+            .complete
+            .iter()
+            .filter(|(round, _)| self.rounds.rounds[*round].contour == own.contour);
+        let is_own = |other: usize| !self.is_switched(other, run.first);
+        let is_beside = |other: usize| {
+            let between = &blocks[other.min(run.first)..other.max(run.first)];
+            between.iter().all(|block| block.segment().is_some())
+        };
+        let mut others = others
+            .map(|(_, first)| *first)
+            .filter(|other| is_beside(*other));
+        is_offset && own.closed && !others.clone().any(is_own) && others.next().is_some()
     }
 
     /// An open contour is cut from one end to the other: where a run begins after that end, and the part between is
