@@ -179,19 +179,39 @@ impl Pairs {
         let concerned = |key: ContourKey, side: Option<Side>| {
             side.is_none() || side_of(key).is_none() || side == side_of(key)
         };
-        // Slots that are milled along their middle have no walls that could be too near each other.
-        let is_middle = |key: ContourKey| {
-            outlook(key).is_some_and(|it| report.settings.goes_along_middle(it.contour.closed))
+        let is_middle = |key: ContourKey| outlook(key).is_some_and(|it| it.is_middle());
+        let is_open = |key: ContourKey| outlook(key).is_some_and(|it| !it.contour.closed);
+        // Between an open contour that is cut and another one the wire of either keeps off the other, whose own wire may run on its far
+        // side; an end of an open contour has no sides, and the wire comes no further past it than the correction.
+        let reaches = |each: &Observed| {
+            let [own, theirs] = [(each.one.0, each.sides.0), (each.other.0, each.sides.1)]
+                .map(|(key, side)| (key, side, concerned(key, side)));
+            let is_cut_open = |(key, ..): (ContourKey, _, _)| {
+                is_open(key) && !is_middle(key) && side_of(key).is_some()
+            };
+            let is_end =
+                |(key, side, _): (ContourKey, Option<Side>, _)| is_open(key) && side.is_none();
+            let is_apart = each.one.0 != each.other.0
+                && PAIR_RULES[each.rule].rule == Rule::NarrowSlot
+                && !is_without_room(each)
+                && (is_cut_open(own) || is_cut_open(theirs));
+            if !is_apart {
+                return own.2 && theirs.2;
+            }
+            let limits = outlook(each.one.0).map(|it| it.limits.correction);
+            let is_at_the_end = each
+                .disc
+                .zip(limits)
+                .is_none_or(|((_, radius), correction)| 2.0 * radius < correction);
+            let cuts = |it: (ContourKey, _, bool)| it.2 && (!is_end(it) || is_at_the_end);
+            own.2 && theirs.2 || cuts(own) || cuts(theirs)
         };
         let mut meeting: FxHashMap<[ContourKey; 2], bool> = FxHashMap::default();
         let mut seen: Vec<(usize, Ends, &Observed)> = Vec::new();
         for each in self.seen.told() {
             let ends = |(key, index): SegmentId| outlook(key)?.segment_id(index);
             if !each.blocked
-                && !(PAIR_RULES[each.rule].rule == Rule::NarrowSlot
-                    && (is_middle(each.one.0) || is_middle(each.other.0)))
-                && concerned(each.one.0, each.sides.0)
-                && concerned(each.other.0, each.sides.1)
+                && reaches(each)
                 && let (Some(one), Some(other)) = (ends(each.one), ends(each.other))
             {
                 // Walls on one another: a fault where one wire takes of what the other leaves.
@@ -273,8 +293,10 @@ impl Pairs {
                 },
                 _ => None,
             };
+            // What is milled along its middle has no side.
+            let is_unknown = |key: ContourKey| side_of(key).is_none() && !is_middle(key);
             let unknown = rule.warning_when_side_unknown
-                && (side_of(each.one.0).is_none() || side_of(each.other.0).is_none());
+                && (is_unknown(each.one.0) || is_unknown(each.other.0));
             let [one_is_open, other_is_open] =
                 [each.one.0, each.other.0].map(|key| open_is_an_error && is_told_open(key));
             let mildest = match rule.rule {

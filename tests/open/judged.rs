@@ -72,3 +72,67 @@ fn arcs_are_judged_on_the_side_of_the_wire() {
     let text = settings("side = \"left\"\n");
     assert!(paths(&drawing(&[("2A", false, &pocket)]), &text).is_err());
 }
+
+/// The wire of an open contour keeps off other contours, and theirs off it, whichever way the others face.
+#[test]
+fn the_path_of_an_open_contour_keeps_off_others() {
+    let plate = [
+        [0.0, 0.0, 0.0],
+        [20.0, 0.0, 0.0],
+        [20.0, 10.0, 0.0],
+        [0.0, 10.0, 0.0],
+    ];
+    let outside = |away: f64| {
+        [
+            [-2.0, 10.0 + away, 0.0],
+            [22.0, 10.0 + away, 0.0],
+            [22.0, 15.0, 0.0],
+        ]
+    };
+    let inside = [[2.0, 9.85, 0.0], [18.0, 9.85, 0.0], [18.0, 5.0, 0.0]];
+    let end = |away: f64| [[20.0 + away, 5.0, 0.0], [30.0, 5.0, 0.0], [30.0, 8.0, 0.0]];
+    // The correction is 0.1: the wire takes 0.2 on its side, and 0.1 past its ends.
+    let near = outside(0.15);
+    for (what, is_near, role, side, open) in [
+        ("the wire beside a punch", true, "punch", "right", near),
+        ("the punch's wire in the part", true, "punch", "left", near),
+        ("far enough", false, "punch", "right", outside(0.25)),
+        (
+            "the wire in the punch, to its wall",
+            true,
+            "punch",
+            "left",
+            inside,
+        ),
+        (
+            "the wire in the punch, away",
+            false,
+            "punch",
+            "right",
+            inside,
+        ),
+        ("the wire beside an opening", true, "opening", "right", near),
+        ("a thin wall to an opening", false, "opening", "left", near),
+        (
+            "an end before an opening",
+            true,
+            "opening",
+            "left",
+            end(0.05),
+        ),
+        ("an end far enough", false, "opening", "left", end(0.15)),
+        (
+            "an end in the way of the punch's wire",
+            true,
+            "punch",
+            "left",
+            end(0.15),
+        ),
+    ] {
+        let text = format!("[contours]\n2A = \"{side}\"\n2B = \"{role}\"\n");
+        let drawing = drawing(&[("2A", false, &open), ("2B", true, &plate)]);
+        let found = rules(&drawing, &settings(&text));
+        let expected = (Rule::NarrowSlot, Severity::Error);
+        assert_eq!(found.contains(&expected), is_near, "{what}: {found:?}");
+    }
+}
