@@ -12,6 +12,7 @@ mod pair;
 pub(crate) use convert::{Converted, Target, convert};
 pub use pair::pair;
 
+use crate::analysis;
 use crate::document::{Document, Snapshot, Source};
 use crate::drawing::{Drawing, DrawingEdit, Entity};
 use crate::finding::{self, Detail, Edit, Finding, Place, Severity, Telling};
@@ -424,7 +425,7 @@ fn written(
         &holes,
     ));
     warnings.extend(no_tab_kept(snapshot, &paths));
-    let mut work = toolpath::work(&snapshot.drawing, &snapshot.outlines, settings, &paths);
+    let mut work = analysis::work(&snapshot.drawing, &snapshot.outlines, settings, &paths);
     if let Some(milled) = &program.milled {
         // The finding of the simulation about the floor replaces the earlier one.
         let uneven = milling::uneven(snapshot, milled);

@@ -4,7 +4,7 @@ use super::compare::{Observed, Outlooks, SegmentId};
 use super::pairs::Pairs;
 use super::report::Report;
 use super::told::{
-    Doubles, Told, ToldPair, gather_crossings, is_without_room, merged, takes_of_the_other,
+    Doubles, Told, ToldPair, gather_crossings, is_without_room, merged, reaches, takes_of_the_other,
 };
 use crate::drawing::{ContourKey, Drawing, EntityId};
 use crate::finding::{Detail, NotJudged, Place, Rule, Severity, Side};
@@ -29,6 +29,24 @@ impl Pairs {
             .filter(own)
             .map(|each| ([each.one.1, each.other.1], each.disc))
             .collect()
+    }
+
+    /// The narrowest place between walls that count, with the segments that face each other there.
+    pub(super) fn narrowest(
+        &self,
+        outlook: Outlooks,
+        side_of: &dyn Fn(ContourKey) -> Option<Side>,
+        counts: &dyn Fn([ContourKey; 2]) -> bool,
+    ) -> Option<(f64, [SegmentId; 2])> {
+        let slots = self.seen.of(Rule::NarrowSlot).filter(|each| {
+            !each.blocked && counts([each.one.0, each.other.0]) && reaches(each, outlook, side_of)
+        });
+        let width = |each: &Observed| Some((2.0 * each.disc?.1, [each.one, each.other]));
+        // Of equally narrow ones the same, whatever their order.
+        slots.filter_map(width).min_by(|a, b| {
+            let by_place = || a.1.cmp(&b.1);
+            a.0.total_cmp(&b.0).then_with(by_place)
+        })
     }
 
     /// The facing walls that `narrow-slot` has found in single contours, with their side of travel, by contour, for
@@ -176,42 +194,13 @@ impl Pairs {
             told.sides.entry(key).or_insert_with(|| wire_side(key));
         }
         let side_of = |key: ContourKey| told.sides.get(&key).copied().flatten();
-        let concerned = |key: ContourKey, side: Option<Side>| {
-            side.is_none() || side_of(key).is_none() || side == side_of(key)
-        };
         let is_middle = |key: ContourKey| outlook(key).is_some_and(|it| it.is_middle());
-        let is_open = |key: ContourKey| outlook(key).is_some_and(|it| !it.contour.closed);
-        // Between an open contour that is cut and another one the wire of either keeps off the other, whose own wire may run on its far
-        // side; an end of an open contour has no sides, and the wire comes no further past it than the correction.
-        let reaches = |each: &Observed| {
-            let [own, theirs] = [(each.one.0, each.sides.0), (each.other.0, each.sides.1)]
-                .map(|(key, side)| (key, side, concerned(key, side)));
-            let is_cut_open = |(key, ..): (ContourKey, _, _)| {
-                is_open(key) && !is_middle(key) && side_of(key).is_some()
-            };
-            let is_end =
-                |(key, side, _): (ContourKey, Option<Side>, _)| is_open(key) && side.is_none();
-            let is_apart = each.one.0 != each.other.0
-                && PAIR_RULES[each.rule].rule == Rule::NarrowSlot
-                && !is_without_room(each)
-                && (is_cut_open(own) || is_cut_open(theirs));
-            if !is_apart {
-                return own.2 && theirs.2;
-            }
-            let limits = outlook(each.one.0).map(|it| it.limits.correction);
-            let is_at_the_end = each
-                .disc
-                .zip(limits)
-                .is_none_or(|((_, radius), correction)| 2.0 * radius < correction);
-            let cuts = |it: (ContourKey, _, bool)| it.2 && (!is_end(it) || is_at_the_end);
-            own.2 && theirs.2 || cuts(own) || cuts(theirs)
-        };
         let mut meeting: FxHashMap<[ContourKey; 2], bool> = FxHashMap::default();
         let mut seen: Vec<(usize, Ends, &Observed)> = Vec::new();
         for each in self.seen.told() {
             let ends = |(key, index): SegmentId| outlook(key)?.segment_id(index);
             if !each.blocked
-                && reaches(each)
+                && reaches(each, outlook, &side_of)
                 && let (Some(one), Some(other)) = (ends(each.one), ends(each.other))
             {
                 // Walls on one another: a fault where one wire takes of what the other leaves.

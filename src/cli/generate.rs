@@ -125,13 +125,7 @@ fn told(snapshot: &Snapshot, work: &toolpath::Work) {
         output::say(&say!(leads_turn_at_most, angle));
     }
     if let Some(largest) = &work.largest_wire {
-        output::say(&say!(
-            the_largest_wire_is,
-            largest.diameter,
-            largest.radius,
-            readable(&largest.handle),
-            largest.segment
-        ));
+        output::say(&largest.sentence());
     }
     let settings = &snapshot.settings;
     let (job, passes) = (&settings.job, &settings.passes);

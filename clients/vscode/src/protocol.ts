@@ -259,7 +259,7 @@ export interface InspectedSegment {
   verdict: string;
 }
 /**
- * The thickest wire that still cuts every arc: Ø = 2 (r − gap).
+ * The thickest wire that still cuts every arc and passes every narrow place: Ø = 2 (r − gap).
  */
 export interface LargestWire {
   /**
@@ -267,9 +267,23 @@ export interface LargestWire {
    */
   diameter: number;
   /**
-   * Of the arc that says so, mm.
+   * Of the arc that says so, mm; where that is a narrow place, half its width.
    */
   radius: number;
+  handle: string;
+  /**
+   * Index within the entity.
+   */
+  segment: number;
+  /**
+   * The facing wall of a narrow place, where that says so and no arc.
+   */
+  facing?: FacingWall;
+}
+/**
+ * One of the walls of a narrow place.
+ */
+export interface FacingWall {
   handle: string;
   /**
    * Index within the entity.

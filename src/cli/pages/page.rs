@@ -6,6 +6,7 @@ use super::super::report::{self, Row};
 use super::super::{Failure, output};
 use super::html::{self, Cell, cell, more, number, table, text};
 use super::job as of_job;
+use crate::analysis;
 use crate::document::Snapshot;
 use crate::finding::{Rule, Severity};
 use crate::job::{self, Generated, Wanted};
@@ -93,7 +94,7 @@ impl Page {
             ..
         } = &snapshot;
         let work = (!paths.is_empty()).then(|| {
-            let work = toolpath::work(drawing, outlines, settings, &paths);
+            let work = analysis::work(drawing, outlines, settings, &paths);
             Work::new(drawing, outlines, &work)
         });
         let hole = |hole| StartHole::new(drawing, outlines, settings, hole);
