@@ -332,6 +332,8 @@ pub struct Generated {
     pub work: Work,
     /// Additional findings.
     pub warnings: Vec<Finding>,
+    /// What is drawn and not cut, where all of the drawing was asked for.
+    pub left_out: Vec<Finding>,
 }
 
 /// Writes and proves the program of a drawing; `findings` are all of the drawing.
@@ -415,6 +417,8 @@ fn written(
                 say!(no_program_of_this_drawing, reason)
             })
         })?;
+    let is_left_out = |one: &&Finding| chosen.is_none() && one.rule == Rule::UnsupportedEntity;
+    let left_out = findings.iter().filter(is_left_out).cloned().collect();
     let mut warnings = findings;
     warnings.retain(|finding| finding.severity <= Severity::Warning);
     warnings.extend(toolpath::shortened_leads(
@@ -445,6 +449,7 @@ fn written(
             ..finished
         }),
         warnings,
+        left_out,
     })
 }
 

@@ -452,3 +452,23 @@ fn one_long_line_is_formatted_as_fast_as_many_short_ones() {
         );
     }
 }
+
+/// What is drawn and not in the program is said, unless contours were chosen.
+#[test]
+fn what_a_program_leaves_out_is_said() {
+    let desk = Desk::new();
+    let clean = String::from_utf8(desk.read("clean.dxf")).unwrap();
+    let line = "0\nLINE\n5\nF1\n8\n0\n10\n8\n20\n5\n11\n12\n21\n5\n";
+    let end = clean.rfind("0\nENDSEC").expect("entities");
+    let hatched = format!("{}{line}{}", &clean[..end], &clean[end..]);
+    desk.write("hatched.dxf", hatched);
+    let says =
+        "left out: 1 entity is drawn to be read, and not cut: 1 lone line within closed contours";
+    for (options, is_said) in [("", true), ("--handle 2A", false)] {
+        let ended = desk.run(&format!("generate hatched.dxf --side opening {options}"));
+        assert_eq!(ended.code, Some(0), "{ended:?}");
+        assert_eq!(ended.stderr.contains(says), is_said, "{options}: {ended:?}");
+    }
+    let ended = desk.run("generate clean.dxf --side opening");
+    assert!(!ended.stderr.contains("left out"), "{ended:?}");
+}

@@ -66,6 +66,16 @@ fn a_slot_keeps_off_the_walls_of_closed_contours_on_either_side() {
             &[[2.0, 9.9, 0.0], [18.0, 9.9, 0.0], [18.0, 5.0, 0.0]],
         ),
         (
+            "one line along a wall inside",
+            &narrow,
+            &[[2.0, 9.9, 0.0], [18.0, 9.9, 0.0]],
+        ),
+        (
+            "one line in its middle",
+            &[],
+            &[[2.0, 5.0, 0.0], [18.0, 5.0, 0.0]],
+        ),
+        (
             "on a wall",
             &narrow,
             &[[2.0, 10.0, 0.0], [18.0, 10.0, 0.0], [18.0, 15.0, 0.0]],

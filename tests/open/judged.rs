@@ -136,3 +136,44 @@ fn the_path_of_an_open_contour_keeps_off_others() {
         assert_eq!(found.contains(&expected), is_near, "{what}: {found:?}");
     }
 }
+
+/// A straight line in a closed contour is drawn to be read, unless somebody says a side of it.
+#[test]
+fn a_line_within_a_contour_is_cut_where_a_side_is_said() {
+    let plate = [
+        [0.0, 0.0, 0.0],
+        [20.0, 0.0, 0.0],
+        [20.0, 10.0, 0.0],
+        [0.0, 10.0, 0.0],
+    ];
+    let line = [[5.0, 5.0, 0.0], [15.0, 5.0, 0.0]];
+    let drawing = drawing(&[("2A", true, &plate), ("2B", false, &line)]);
+    let side = "side = \"punch\"\n";
+    for (said, cut, error) in [
+        ("", 1, None),
+        ("[layers]\n0 = \"punch\"\n", 1, None),
+        (
+            "[layers]\n0 = \"left\"\n[contours]\n2A = \"punch\"\n",
+            2,
+            None,
+        ),
+        ("[contours]\n2B = \"right\"\n", 2, None),
+        ("[contours]\n2B = \"both\"\n", 2, Some(Rule::OpenContour)),
+    ] {
+        let own = settings(&format!("{side}{said}"));
+        let document = document(&drawing, &own);
+        let snapshot = document.snapshot().expect("a drawing");
+        assert_eq!(snapshot.outlines.len(), cut, "{said}");
+        let found = rules(&drawing, &own);
+        let aside = (Rule::UnsupportedEntity, Severity::Information);
+        assert_eq!(found.contains(&aside), cut == 1, "{said}: {found:?}");
+        let mut errors = found
+            .iter()
+            .filter(|(_, severity)| *severity == Severity::Error);
+        assert_eq!(
+            errors.next().map(|(rule, _)| *rule),
+            error,
+            "{said}: {found:?}"
+        );
+    }
+}
