@@ -177,3 +177,61 @@ fn a_line_within_a_contour_is_cut_where_a_side_is_said() {
         );
     }
 }
+
+/// A last segment that the wire does not come to is no cut; one that is shorter than what a corner leaves is said beside the program.
+#[test]
+fn an_end_in_a_wedge_is_lost() {
+    let ends = |x: f64, y: f64| [[0.0, 0.0, 0.0], [10.0, 0.0, 0.0], [x, y, 0.0]];
+    let lost = Some(Rule::LostPocket);
+    for (what, contour, side, error, uncut) in [
+        ("a wedge", ends(5.0, 0.15), "left", lost, 0.0),
+        ("its outside", ends(5.0, 0.15), "right", None, 0.0),
+        (
+            "a wedge at the beginning",
+            {
+                let mut turned = ends(5.0, 0.15);
+                turned.reverse();
+                turned
+            },
+            "right",
+            lost,
+            0.0,
+        ),
+        ("a corner", ends(10.0, 5.0), "left", None, 0.0414),
+        (
+            "a corner with a short end",
+            ends(10.0, 0.05),
+            "left",
+            None,
+            0.0414,
+        ),
+        (
+            "a wedge that the wire comes into",
+            ends(5.0, 3.0),
+            "left",
+            None,
+            0.27,
+        ),
+    ] {
+        let drawing = drawing(&[("2A", false, &contour)]);
+        let own = settings(&format!("side = \"{side}\"\n"));
+        let found = rules(&drawing, &own);
+        let mut errors = found
+            .iter()
+            .filter(|(_, severity)| *severity == Severity::Error);
+        assert_eq!(
+            errors.next().map(|(rule, _)| *rule),
+            error,
+            "{what}: {found:?}"
+        );
+        let made = generate(&document(&drawing, &own), Format::Iso, false);
+        let finished = made.ok().map(|made| made.finished.expect("what stays"));
+        assert_eq!(finished.is_none(), error.is_some(), "{what}");
+        if let Some(finished) = finished {
+            assert!(
+                (finished.uncut - uncut).abs() < 0.01,
+                "{what}: {finished:?}"
+            );
+        }
+    }
+}

@@ -1193,7 +1193,7 @@ export interface PairProgram {
    */
   deviation: number;
   /**
-   * What all passes leave of the contours, where several are cut.
+   * What all passes leave of the contours, where several are cut or a contour is open.
    */
   finished?: FinishedPart;
   /**
@@ -1651,7 +1651,7 @@ export interface Program {
    */
   deviation: number;
   /**
-   * What all passes leave of the contours, where several are cut.
+   * What all passes leave of the contours, where several are cut or a contour is open.
    */
   finished?: FinishedPart;
   /**
