@@ -48,6 +48,7 @@ declare! {
     how_far_the_wire_leans_needs_the_height => "how far the wire leans is not known: expected job.thickness to be set, or TP and TN in the program";
     how_far_the_wire_leans_needs_the_angle(line) => "how far the wire leans is not known: line {line} says no angle (A or T)";
     a_taper_would_not_be_kept => "a taper (G51, G52, G140 to G142) would not be kept";
+    the_upper_profile_would_begin_beside_a_corner => "under the taper in force the upper profile would begin and end beside that corner, and cut into the part or leave a rest";
     the_planes_of_a_taper_would_not_be_kept => "the planes of a taper (TP, TN) would not be kept";
     its_begin_does_not_say_where_the_wire_stands => "its begin does not say that the wire stands at the start: expected G92 X{x} Y{y}";
     its_contour_begin_does_not_switch_the_correction_on => "its contour-begin does not switch the correction on: expected a line with {side}";

@@ -48,6 +48,7 @@ translate! {
     how_far_the_wire_leans_needs_the_height => "不知道丝倾斜多少：请设 job.thickness，或在程序中写 TP 和 TN";
     how_far_the_wire_leans_needs_the_angle(line) => "不知道丝倾斜多少：第 {line} 行没有角度（A 或 T）";
     a_taper_would_not_be_kept => "锥度（G51、G52、G140 到 G142）无法保留";
+    the_upper_profile_would_begin_beside_a_corner => "在有效的锥度下，上平面轮廓会在该拐角旁开始和结束，切入工件或留下残余";
     the_planes_of_a_taper_would_not_be_kept => "锥度的平面（TP、TN）无法保留";
     its_begin_does_not_say_where_the_wire_stands => "begin 没有说明丝在起点：应有 G92 X{x} Y{y}";
     its_contour_begin_does_not_switch_the_correction_on => "contour-begin 没有建立补偿：应有一行含 {side}";
