@@ -40,7 +40,12 @@ fn what_is_missing_or_contradicts_itself_is_said_where_it_stands() {
         (
             "[milling]\ntool-diameter = 1\ngap = 0.05\nlayer = 0.01\ndepth = 0.2\nwear = -0.1\n",
             "-0.1",
-            "milling.wear is -0.1, expected a number of 0 or above",
+            "milling.wear is -0.1, expected a number from 0 to 100",
+        ),
+        (
+            "[milling]\ntool-diameter = 1\ngap = 0.05\nlayer = 0.01\ndepth = 0.2\nwear = 1e9\n",
+            "1e9",
+            "expected a number from 0 to 100",
         ),
         (
             "[milling]\ntool-diameter = 0\ngap = 0.05\nlayer = 0.01\ndepth = 0.2\nwear = 0\n",

@@ -4,6 +4,9 @@ use super::*;
 
 type Points<'a> = &'a [[f64; 3]];
 
+/// What a slot is like, what is said of it, and where it lies.
+type Row<'a> = (&'a str, &'a [(Rule, Severity)], Points<'a>);
+
 const PLATE: Points = &[
     [0.0, 0.0, 0.0],
     [20.0, 0.0, 0.0],
@@ -49,7 +52,7 @@ fn judged(plate: Option<Role>, slots: &[Points]) -> Vec<(Rule, Severity)> {
 fn a_slot_keeps_off_the_walls_of_closed_contours_on_either_side() {
     let narrow = [(Rule::NarrowSlot, Severity::Error)];
     let crosses = [(Rule::SelfIntersection, Severity::Error)];
-    let rows: &[(&str, &[(Rule, Severity)], Points)] = &[
+    let rows: &[Row] = &[
         (
             "along a wall outside",
             &narrow,
@@ -124,7 +127,7 @@ fn a_slot_keeps_off_the_walls_of_closed_contours_on_either_side() {
 #[test]
 fn slots_that_meet_are_one_cavity_and_between_others_a_wall_is_left() {
     let narrow = [(Rule::NarrowSlot, Severity::Error)];
-    let rows: &[(&str, &[(Rule, Severity)], Points)] = &[
+    let rows: &[Row] = &[
         (
             "side by side",
             &narrow,
