@@ -12,6 +12,7 @@ mod pair;
 pub(crate) use convert::{Converted, Target, convert};
 pub use pair::pair;
 
+use crate::analysis;
 use crate::document::{Document, Snapshot, Source};
 use crate::drawing::{Drawing, DrawingEdit, Entity};
 use crate::finding::{self, Detail, Edit, Finding, Place, Severity, Telling};
@@ -331,6 +332,8 @@ pub struct Generated {
     pub work: Work,
     /// Additional findings.
     pub warnings: Vec<Finding>,
+    /// What is drawn and not cut, where all of the drawing was asked for.
+    pub left_out: Vec<Finding>,
 }
 
 /// Writes and proves the program of a drawing; `findings` are all of the drawing.
@@ -414,6 +417,8 @@ fn written(
                 say!(no_program_of_this_drawing, reason)
             })
         })?;
+    let is_left_out = |one: &&Finding| chosen.is_none() && one.rule == Rule::UnsupportedEntity;
+    let left_out = findings.iter().filter(is_left_out).cloned().collect();
     let mut warnings = findings;
     warnings.retain(|finding| finding.severity <= Severity::Warning);
     warnings.extend(toolpath::shortened_leads(
@@ -424,7 +429,7 @@ fn written(
         &holes,
     ));
     warnings.extend(no_tab_kept(snapshot, &paths));
-    let mut work = toolpath::work(&snapshot.drawing, &snapshot.outlines, settings, &paths);
+    let mut work = analysis::work(&snapshot.drawing, &snapshot.outlines, settings, &paths);
     if let Some(milled) = &program.milled {
         // The finding of the simulation about the floor replaces the earlier one.
         let uneven = milling::uneven(snapshot, milled);
@@ -444,6 +449,7 @@ fn written(
             ..finished
         }),
         warnings,
+        left_out,
     })
 }
 

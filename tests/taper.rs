@@ -347,3 +347,49 @@ fn no_refactoring_parts_the_upper_end_from_the_lower_one() {
         assert!(count >= 2, "{text}");
     }
 }
+
+/// Whole numbers in micrometres make angles of thousandths of a degree, and nobody leans a wire by 89°.
+#[test]
+fn an_angle_that_is_hardly_meant_is_named() {
+    let program = |angle: &str, at: &str| {
+        format!(
+            "G92 X{at} Y0\nG90\nG51 {angle}\nG01 X9000 Y0\nG03 X10000 Y1000 I0 J1000\nG01 X10000 Y9000\nG50\nG01 X20000 Y9000\nM02\n"
+        )
+    };
+    let whole = |angle: &str| program(angle, "0");
+    let millimetres = |angle: &str| program(angle, "0").replace("000", ".");
+    let set = settings(HEIGHT);
+    for (text, severity, part) in [
+        (
+            whole("A2"),
+            Some(Severity::Hint),
+            "the wire leans by 0.002°",
+        ),
+        (whole("A99"), Some(Severity::Hint), "0.099°"),
+        (whole("A2000"), Some(Severity::Error), "nothing is left"),
+        (whole("A2."), Some(Severity::Error), "nothing is left"),
+        (millimetres("A.002"), None, ""),
+        (
+            millimetres("A61."),
+            Some(Severity::Warning),
+            "no machine leans it by more than 60°",
+        ),
+        (
+            millimetres("A89."),
+            Some(Severity::Warning),
+            "lean by 89.000°",
+        ),
+        (millimetres("A90."), Some(Severity::Warning), "not followed"),
+    ] {
+        let found = said(&text, &set);
+        let first = found.first().map(|(_, severity, _)| *severity);
+        assert_eq!(first, severity, "{text}: {found:?}");
+        assert!(
+            found.iter().all(|(_, _, said)| said.contains(part)),
+            "{text}: {found:?}"
+        );
+        // What is not followed leads nowhere.
+        let is_near = |ends: &[Point; 2]| ends.iter().all(|end| end.coords.norm() < 1e3);
+        assert!(upper(&text, &set).iter().flatten().all(is_near), "{text}");
+    }
+}

@@ -72,11 +72,14 @@ impl Analysis {
         let has_role = entity.role.is_some()
             || own_role(drawing, settings, piece.entity).is_some()
             || linetype.is_some_and(|it| role_of_linetype(settings, &it.name).is_some())
-            || (settings.layers.contains(&entity.layer) && is_for_reading());
+            || (settings.layers.contains(&entity.layer) && is_for_reading())
+            // Whoever says a side of the direction speaks of open contours.
+            || matches!(role_of(drawing, settings, piece.entity), Some(Role::Left | Role::Right | Role::Both));
         let join = self.limits.tolerances.join;
         let length = line.length();
-        // Where the contour is the wire's own path, a single line may be all of it.
-        if has_role || settings.compensation == Compensation::None || length <= join {
+        // Where the contour is the wire's own path, or the middle of a milled slot, a single line may be all of it.
+        let is_path = settings.compensation == Compensation::None || settings.mills;
+        if has_role || is_path || length <= join {
             return None;
         }
         let reach = (SHARE * length).max(JOINS * join);

@@ -15,6 +15,7 @@ mod fitting;
 mod fixes;
 mod judge;
 mod known;
+mod largest_wire;
 mod learn;
 mod nearby;
 mod notable;
@@ -33,6 +34,7 @@ mod within;
 
 #[cfg(test)]
 pub(crate) use contours::is_cut;
+pub use largest_wire::{largest_wire, work};
 
 use crate::drawing::{
     Chains, Contour, ContourKey, Delta, Drawing, EntityId, Outline, RUN, Role, Touched,

@@ -4,7 +4,7 @@ use super::compare::{Observed, Outlooks, SegmentId};
 use super::pairs::Pairs;
 use super::report::Report;
 use super::told::{
-    Doubles, Told, ToldPair, gather_crossings, is_without_room, merged, takes_of_the_other,
+    Doubles, Told, ToldPair, gather_crossings, is_without_room, merged, reaches, takes_of_the_other,
 };
 use crate::drawing::{ContourKey, Drawing, EntityId};
 use crate::finding::{Detail, NotJudged, Place, Rule, Severity, Side};
@@ -29,6 +29,24 @@ impl Pairs {
             .filter(own)
             .map(|each| ([each.one.1, each.other.1], each.disc))
             .collect()
+    }
+
+    /// The narrowest place between walls that count, with the segments that face each other there.
+    pub(super) fn narrowest(
+        &self,
+        outlook: Outlooks,
+        side_of: &dyn Fn(ContourKey) -> Option<Side>,
+        counts: &dyn Fn([ContourKey; 2]) -> bool,
+    ) -> Option<(f64, [SegmentId; 2])> {
+        let slots = self.seen.of(Rule::NarrowSlot).filter(|each| {
+            !each.blocked && counts([each.one.0, each.other.0]) && reaches(each, outlook, side_of)
+        });
+        let width = |each: &Observed| Some((2.0 * each.disc?.1, [each.one, each.other]));
+        // Of equally narrow ones the same, whatever their order.
+        slots.filter_map(width).min_by(|a, b| {
+            let by_place = || a.1.cmp(&b.1);
+            a.0.total_cmp(&b.0).then_with(by_place)
+        })
     }
 
     /// The facing walls that `narrow-slot` has found in single contours, with their side of travel, by contour, for
@@ -176,22 +194,13 @@ impl Pairs {
             told.sides.entry(key).or_insert_with(|| wire_side(key));
         }
         let side_of = |key: ContourKey| told.sides.get(&key).copied().flatten();
-        let concerned = |key: ContourKey, side: Option<Side>| {
-            side.is_none() || side_of(key).is_none() || side == side_of(key)
-        };
-        // Slots that are milled along their middle have no walls that could be too near each other.
-        let is_middle = |key: ContourKey| {
-            outlook(key).is_some_and(|it| report.settings.goes_along_middle(it.contour.closed))
-        };
+        let is_middle = |key: ContourKey| outlook(key).is_some_and(|it| it.is_middle());
         let mut meeting: FxHashMap<[ContourKey; 2], bool> = FxHashMap::default();
         let mut seen: Vec<(usize, Ends, &Observed)> = Vec::new();
         for each in self.seen.told() {
             let ends = |(key, index): SegmentId| outlook(key)?.segment_id(index);
             if !each.blocked
-                && !(PAIR_RULES[each.rule].rule == Rule::NarrowSlot
-                    && (is_middle(each.one.0) || is_middle(each.other.0)))
-                && concerned(each.one.0, each.sides.0)
-                && concerned(each.other.0, each.sides.1)
+                && reaches(each, outlook, &side_of)
                 && let (Some(one), Some(other)) = (ends(each.one), ends(each.other))
             {
                 // Walls on one another: a fault where one wire takes of what the other leaves.
@@ -273,8 +282,10 @@ impl Pairs {
                 },
                 _ => None,
             };
+            // What is milled along its middle has no side.
+            let is_unknown = |key: ContourKey| side_of(key).is_none() && !is_middle(key);
             let unknown = rule.warning_when_side_unknown
-                && (side_of(each.one.0).is_none() || side_of(each.other.0).is_none());
+                && (is_unknown(each.one.0) || is_unknown(each.other.0));
             let [one_is_open, other_is_open] =
                 [each.one.0, each.other.0].map(|key| open_is_an_error && is_told_open(key));
             let mildest = match rule.rule {

@@ -116,7 +116,9 @@ impl Report {
 
     /// True where an open contour is reported as an error: what only spoils a cut along it can wait until it is closed.
     pub(crate) fn open_is_an_error(&self) -> bool {
-        !self.is_for_a_path() && self.severity(Rule::OpenContour, None) == Some(Severity::Error)
+        !self.is_for_a_path()
+            && !self.settings.mills
+            && self.severity(Rule::OpenContour, None) == Some(Severity::Error)
     }
 
     /// The severity of a rule, `mildest` where the case is milder than the rule and nobody has set it; `None` where it is off.

@@ -154,6 +154,39 @@ pub(super) fn is_without_room(seen: &Observed) -> bool {
     PAIR_RULES[seen.rule].rule == Rule::NarrowSlot && seen.disc.is_none()
 }
 
+/// True where what is seen concerns the sides on which the wire runs.
+pub(super) fn reaches(
+    each: &Observed,
+    outlook: Outlooks,
+    side_of: &dyn Fn(ContourKey) -> Option<Side>,
+) -> bool {
+    let is_concerned = |(key, side): (ContourKey, Option<Side>)| {
+        side.is_none() || side_of(key).is_none() || side == side_of(key)
+    };
+    let both = [(each.one.0, each.sides.0), (each.other.0, each.sides.1)];
+    if both.into_iter().all(is_concerned) {
+        return true;
+    }
+    // Between an open contour that is cut and another one the wire of either keeps off the other, whose own wire may run on its far side;
+    // an end of an open contour has no sides, and the wire comes no further past it than the correction.
+    let is_open = |key: ContourKey| outlook(key).is_some_and(|it| !it.contour.closed);
+    let is_cut_open = |(key, _): (ContourKey, Option<Side>)| is_open(key) && side_of(key).is_some();
+    if each.one.0 == each.other.0
+        || PAIR_RULES[each.rule].rule != Rule::NarrowSlot
+        || !both.into_iter().any(is_cut_open)
+    {
+        return false;
+    }
+    let Some((_, radius)) = each.disc else {
+        return false;
+    };
+    let correction = outlook(each.one.0).map_or(0.0, |it| it.limits.correction);
+    both.into_iter().any(|(key, side)| {
+        let is_end = is_open(key) && side.is_none();
+        is_concerned((key, side)) && (!is_end || 2.0 * radius < correction)
+    })
+}
+
 /// Of two contours with the wire on different sides of a wall that they share: true where the wire of each runs in the part of the other.
 /// That of an opening at the edge of its punch runs in waste, and so do those of two openings side by side.
 pub(super) fn takes_of_the_other(

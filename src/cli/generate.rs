@@ -4,7 +4,7 @@ use super::options::{Common, Program};
 use super::output::{self, styled};
 use super::{Failure, Verdict, files, report};
 use crate::document::Snapshot;
-use crate::finding::{Detail, Finding, Rule};
+use crate::finding::{Detail, Finding, Rule, sentence};
 use crate::job::{self, Wanted};
 use crate::message::{lengths, readable};
 use crate::program::{Format, ProvedProgram};
@@ -71,6 +71,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let said: Vec<Finding> = made.warnings.iter().filter(of_program).cloned().collect();
     report::say(path, document, &said);
     summarise(arguments, &made.program, made.contours);
+    for finding in made.left_out.iter().take(CUTS) {
+        output::say(&say!(
+            left_out_of_the_program,
+            sentence(finding, document.telling())
+        ));
+    }
     if let Some(line) = output::offsets(&made.program) {
         output::say(&line);
     }
@@ -125,13 +131,7 @@ fn told(snapshot: &Snapshot, work: &toolpath::Work) {
         output::say(&say!(leads_turn_at_most, angle));
     }
     if let Some(largest) = &work.largest_wire {
-        output::say(&say!(
-            the_largest_wire_is,
-            largest.diameter,
-            largest.radius,
-            readable(&largest.handle),
-            largest.segment
-        ));
+        output::say(&largest.sentence());
     }
     let settings = &snapshot.settings;
     let (job, passes) = (&settings.job, &settings.passes);

@@ -176,15 +176,7 @@ fn inspected(arguments: &Arguments, mut opened: Opened) -> Printed {
     let largest = inspection
         .as_ref()
         .and_then(|inspection| inspection.largest_wire.as_ref())
-        .map(|largest| {
-            say!(
-                the_largest_wire_is,
-                largest.diameter,
-                largest.radius,
-                readable(&largest.handle),
-                largest.segment
-            )
-        });
+        .map(|largest| largest.sentence());
     let needs_gap = settings.gap.is_none() && !gaps && has_arcs;
     let wire = largest.or_else(|| needs_gap.then(|| say!(the_largest_wire_needs_the_gap).into()));
     let mut printed = Printed {

@@ -35,13 +35,16 @@ told! {
                 say!(sharp_corners_that_the_wire_runs_inside, count, radius, telling.tool())
             }
         };
-    /// Facing walls are `width` apart, the wire needs `required`. Those of two parts may lie on one another: 0.
-    NarrowSlot { width: f64, required: f64 } => {
+    /// Facing walls are `width` apart, the wire needs `required`. Those of two parts may lie on one another: 0. Of the two, `middles` are
+    /// the middle of a milled slot.
+    NarrowSlot { width: f64, required: f64, middles: usize } => {
         let is_without_room = *width == 0.0;
         let (width, required) = told_apart(width * telling.unit_mm, required * telling.unit_mm);
-        match is_without_room {
-            true => say!(walls_lie_on_one_another, telling.tool(), required),
-            false => say!(the_slot_is_too_narrow, width, required, telling.tool())
+        match (is_without_room, middles) {
+            (true, 0) => say!(walls_lie_on_one_another, telling.tool(), required),
+            (_, 1) => say!(the_middle_of_a_slot_is_too_near_a_wall, width, required, telling.tool()),
+            (_, 2) => say!(no_wall_is_left_between_slots, width, required, telling.tool()),
+            _ => say!(the_slot_is_too_narrow, width, required, telling.tool())
         }
     };
     /// The offset loses a part of the outline, near a point.

@@ -24,7 +24,7 @@ pub(crate) fn related(
     );
     match finding.detail {
         Detail::DoesNotFit(ref misfit) => say!(its_partner, misfit.partner, place),
-        Detail::NarrowSlot { .. } => say!(the_facing_wall, place),
+        Detail::NarrowSlot { middles: 0, .. } => say!(the_facing_wall, place),
         Detail::DeadEnd { .. } => say!(the_wire_comes_no_further_than_here, place, telling.tool()),
         Detail::DuplicateEntity { .. } => say!(the_same_place, place),
         Detail::Overlap { .. } => say!(runs_on_this_one, place),

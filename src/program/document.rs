@@ -261,6 +261,11 @@ impl Document {
         };
         let unknown = taper.unknown.map(|unknown| match unknown {
             iso::Unknown::Angle(line) => say!(how_far_the_wire_leans_needs_the_angle, line + 1),
+            iso::Unknown::Steep(line) => say!(
+                the_wire_leans_more_than_any_machine_does,
+                line + 1,
+                iso::STEEPEST
+            ),
             iso::Unknown::Height(_) => say!(how_far_the_wire_leans_needs_the_height).to_owned(),
         });
         Trace {

@@ -80,7 +80,7 @@ pub(crate) fn nothing_to_write() -> ProofError {
 }
 
 /// No number of a program reaches `point`, which is in steps of its grid.
-pub(super) fn too_far_out(point: Point) -> ProofError {
+pub(crate) fn too_far_out(point: Point) -> ProofError {
     ProofError::Refused(say!(
         the_path_passes_too_far_out_for_a_program,
         point.x,

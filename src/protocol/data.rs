@@ -133,7 +133,9 @@ impl FindingData {
                 data.uncut = Some(*uncut);
                 data.count = *count;
             }
-            Detail::NarrowSlot { width, required } => {
+            Detail::NarrowSlot {
+                width, required, ..
+            } => {
                 data.distance = Some(*width);
                 data.required = Some(*required);
             }

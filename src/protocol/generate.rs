@@ -65,7 +65,7 @@ pub(crate) struct Program {
     pub(crate) closure: Closure,
     /// Largest distance in µm of the decoded blocks from the path, over their whole length.
     pub(crate) deviation: f64,
-    /// What all passes leave of the contours, where several are cut.
+    /// What all passes leave of the contours, where several are cut or a contour is open.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) finished: Option<FinishedPart>,
     /// The layers and the wear of an electrode, of the format `milling`.

@@ -2,10 +2,10 @@
 
 use super::segment::SegmentShape;
 use super::work::LargestWire;
+use crate::analysis;
 use crate::document::Document;
 use crate::drawing::{Drawing, Entity, EntityId};
 use crate::finding::{Finding, Place, Rule, Severity};
-use crate::toolpath;
 use rustc_hash::FxHashMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -55,7 +55,7 @@ impl Inspection {
         let is_cut = |id| document.cuts(id);
         let snapshot = document.snapshot()?;
         let largest =
-            toolpath::largest_wire(drawing, &snapshot.outlines, document.settings(), &|_| true);
+            analysis::largest_wire(drawing, &snapshot.outlines, document.settings(), &|_| true);
         Some(Inspection {
             largest_wire: largest.map(|largest| LargestWire::new(drawing, &largest)),
             ..Inspection::new(drawing, unit.mm, zero_length, &findings, &is_cut, handle)

@@ -3,10 +3,11 @@
 use super::contours::Direction;
 use super::segment::SegmentShape;
 use super::work::{StartHole, Work};
+use crate::analysis;
 use crate::drawing::{Drawing, Outline};
 use crate::geometry::Xy as Point;
 use crate::settings::Effective;
-use crate::toolpath::{self, Planned, Source, WirePath};
+use crate::toolpath::{Planned, Source, WirePath};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -83,7 +84,7 @@ impl Toolpath {
     ) -> Toolpath {
         let paths = &planned.paths;
         let holes = planned.holes.iter();
-        let work = toolpath::work(drawing, outlines, settings, paths);
+        let work = analysis::work(drawing, outlines, settings, paths);
         Toolpath {
             units_to_mm: settings.unit_of(drawing).mm,
             paths: paths.iter().map(|path| one_path(drawing, path)).collect(),

@@ -2,6 +2,7 @@
 
 use crate::drawing::{Drawing, Outline};
 use crate::geometry::Xy as Point;
+use crate::message::readable;
 use crate::settings::Effective;
 use crate::toolpath;
 use schemars::JsonSchema;
@@ -74,13 +75,24 @@ pub(crate) struct Slug {
     pub mass: f64,
 }
 
-/// The thickest wire that still cuts every arc: Ø = 2 (r − gap).
+/// The thickest wire that still cuts every arc and passes every narrow place: Ø = 2 (r − gap).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub(crate) struct LargestWire {
     /// mm.
     pub diameter: f64,
-    /// Of the arc that says so, mm.
+    /// Of the arc that says so, mm; where that is a narrow place, half its width.
     pub radius: f64,
+    pub handle: String,
+    /// Index within the entity.
+    pub segment: usize,
+    /// The facing wall of a narrow place, where that says so and no arc.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub facing: Option<FacingWall>,
+}
+
+/// One of the walls of a narrow place.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub(crate) struct FacingWall {
     pub handle: String,
     /// Index within the entity.
     pub segment: usize,
@@ -141,12 +153,42 @@ impl Work {
 
 impl LargestWire {
     pub(crate) fn new(drawing: &Drawing, largest: &toolpath::LargestWire) -> LargestWire {
-        let entity = drawing.get(largest.entity);
+        let name = |entity| {
+            let entity = drawing.get(entity);
+            entity.map_or("?", |entity| &entity.handle).to_owned()
+        };
         LargestWire {
             diameter: largest.diameter,
             radius: largest.radius,
-            handle: entity.map_or("?", |entity| &entity.handle).to_owned(),
+            handle: name(largest.entity),
             segment: largest.segment,
+            facing: largest.facing.map(|(entity, segment)| FacingWall {
+                handle: name(entity),
+                segment,
+            }),
+        }
+    }
+
+    /// In words.
+    pub(crate) fn sentence(&self) -> String {
+        let handle = readable(&self.handle);
+        match &self.facing {
+            Some(facing) => say!(
+                the_largest_wire_passes_between,
+                self.diameter,
+                2.0 * self.radius,
+                handle,
+                self.segment,
+                readable(&facing.handle),
+                facing.segment
+            ),
+            None => say!(
+                the_largest_wire_is,
+                self.diameter,
+                self.radius,
+                handle,
+                self.segment
+            ),
         }
     }
 }

@@ -39,6 +39,8 @@ pub(crate) struct Limits {
     pub(crate) last_correction: f64,
     /// The radius that the last pass leaves in a sharp corner.
     pub(crate) corner_radius: f64,
+    /// An electrode mills along the middle of what is open.
+    mills: bool,
     /// Each pass runs its own path: the control does not offset the drawn contour.
     passes_are_drawn: bool,
     /// Radius that a fix gives: correction + margin.
@@ -57,6 +59,7 @@ impl Limits {
             correction: settings.correction / unit_mm,
             last_correction: settings.last_correction() / unit_mm,
             corner_radius: settings.corner_radius() / unit_mm,
+            mills: settings.mills,
             passes_are_drawn: settings.compensation == Compensation::Path,
             fix_radius: (settings.correction + settings.margin) / unit_mm,
             pass: settings.pass,
@@ -161,6 +164,11 @@ impl Outlook<'_> {
     pub(crate) fn segment_id(&self, index: usize) -> Option<(EntityId, usize)> {
         let index = self.wrapped(index as isize)?;
         self.contour.segment_id(self.drawing, index)
+    }
+
+    /// True for the middle of a slot that an electrode mills.
+    pub(crate) fn is_middle(&self) -> bool {
+        self.limits.mills && !self.contour.closed
     }
 
     /// The place of the segment at `index`.

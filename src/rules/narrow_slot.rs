@@ -7,26 +7,37 @@
 //!
 //! Walls of two contours that lie on one another leave no room at all. Whether the wire of one then runs in the part of the other depends on
 //! both contours: that is decided where the sides are known.
+//!
+//! What an electrode mills along the middle of an open contour reaches one correction to either side. Within that there may be no wall of
+//! a closed contour, on whichever side of it; and where the middles of two slots come nearer to each other than a slot is wide, no wall is
+//! left between them. Slots that meet are one cavity.
 
 use super::wall::{Corner, Joints, Wall, side_of};
 use super::{Limits, NEIGHBOURS, PairObservation, PairRule, small_radius};
-use crate::finding::{Detail, Rule, Side};
-use crate::geometry::{Point, Segment, curvature, facing, foot_inside, shared_length};
+use crate::finding::{Detail, Rule, Severity, Side};
+use crate::geometry::{Point, Segment, Vector, curvature, facing, foot_inside, shared_length};
 
 pub(crate) const RULE: PairRule = PairRule {
     rule: Rule::NarrowSlot,
     reach: |limits| 2.0 * limits.correction,
     check: |one, other, same_contour| {
+        let middles = middles(one, other);
         let observation = |slot: Slot| {
             let center = slot.from + (slot.to - slot.from) * 0.5;
             PairObservation {
-                sides: slot.sides,
+                sides: match middles {
+                    0 => slot.sides,
+                    _ => (None, None),
+                },
                 disc: Some((center, slot.width / 2.0)),
+                // A slot that comes back beside itself may be the way to clear an area.
+                mildest: (same_contour && middles > 0).then_some(Severity::Warning),
                 ..PairObservation::default()
             }
         };
-        let slot = narrowest(one, other, same_contour).map(observation);
-        let without_room = match same_contour {
+        let slot = narrowest(one, other, same_contour).or_else(|| on_the_wall(one, other));
+        let slot = slot.map(observation);
+        let without_room = match same_contour || middles > 0 {
             true => None,
             false => sides_without_room(one, other),
         };
@@ -44,7 +55,7 @@ pub(crate) const RULE: PairRule = PairRule {
         slot.into_iter().chain(without_room).collect()
     },
     detail: |one, other, same_contour| {
-        let slot = narrowest(one, other, same_contour);
+        let slot = narrowest(one, other, same_contour).or_else(|| on_the_wall(one, other));
         let width = match (slot, same_contour) {
             (Some(slot), _) => slot.width,
             (None, true) => return None,
@@ -52,7 +63,8 @@ pub(crate) const RULE: PairRule = PairRule {
         };
         Some(Detail::NarrowSlot {
             width,
-            required: 2.0 * one.outlook.limits.correction,
+            required: required(one, other),
+            middles: middles(one, other),
         })
     },
     one_per_place: true,
@@ -60,6 +72,41 @@ pub(crate) const RULE: PairRule = PairRule {
     warning_when_side_unknown: true,
     ..PairRule::PLAIN
 };
+
+/// Of two walls, those that are the middle of a milled slot.
+fn middles(one: &Wall, other: &Wall) -> usize {
+    let is_middle = |wall: &&Wall| wall.outlook.is_middle();
+    [one, other].iter().filter(|wall| is_middle(wall)).count()
+}
+
+/// How far from each other two walls are at least, where nothing of what they bound is cut.
+fn required(one: &Wall, other: &Wall) -> f64 {
+    let correction = one.outlook.limits.correction;
+    match middles(one, other) {
+        1 => correction,
+        _ => 2.0 * correction,
+    }
+}
+
+/// True where a slot ends in another one: the two are one cavity.
+fn is_joined(one: &Wall, other: &Wall, from: Point, to: Point) -> bool {
+    // Up to 60° beside the way on which the slot would go on.
+    const AHEAD: f64 = 0.5;
+    let way = to - from;
+    let ends = |wall: &Wall, at: Point, toward: Vector| {
+        wall.corners().any(|corner| {
+            let ahead = match (corner.incoming, corner.outgoing) {
+                (Some(incoming), None) => incoming.end_tangent(),
+                (None, Some(outgoing)) => -outgoing.start_tangent(),
+                _ => return false,
+            };
+            corner.at == at && ahead.dot(&toward) > AHEAD * toward.norm()
+        })
+    };
+    middles(one, other) == 2
+        && way.norm() <= one.outlook.limits.correction
+        && (ends(one, from, way) || ends(other, to, -way))
+}
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Slot {
@@ -72,17 +119,33 @@ struct Slot {
 /// The sides of travel on which two wires run on different sides of walls that lie on one another, one way and the other. `None` where the
 /// two do not.
 fn sides_without_room(one: &Wall, other: &Wall) -> Option<[(Side, Side); 2]> {
-    let tolerances = &one.outlook.limits.tolerances;
     let (a, b) = (one.geometry(), other.geometry());
     let run_alike = match (a, b) {
         (Segment::Line(a), Segment::Line(b)) => a.direction().dot(&b.direction()) > 0.0,
         (Segment::Arc(a), Segment::Arc(b)) => a.sweep * b.sweep > 0.0,
         _ => return None,
     };
-    let shared = shared_length(a, b, tolerances.same_place);
-    (shared > tolerances.same_place.max(tolerances.resolution)).then_some(match run_alike {
+    lie_on_one_another(one, other).then_some(match run_alike {
         true => [(Side::Left, Side::Right), (Side::Right, Side::Left)],
         false => [(Side::Left, Side::Left), (Side::Right, Side::Right)],
+    })
+}
+
+fn lie_on_one_another(one: &Wall, other: &Wall) -> bool {
+    let tolerances = &one.outlook.limits.tolerances;
+    let shared = shared_length(one.geometry(), other.geometry(), tolerances.same_place);
+    shared > tolerances.same_place.max(tolerances.resolution)
+}
+
+/// The middle of a slot that lies on a wall.
+fn on_the_wall(one: &Wall, other: &Wall) -> Option<Slot> {
+    let at = one.geometry().point_at(0.5);
+    let lies_there = middles(one, other) == 1 && lie_on_one_another(one, other);
+    lies_there.then_some(Slot {
+        from: at,
+        to: at,
+        width: 0.0,
+        sides: (None, None),
     })
 }
 
@@ -94,15 +157,14 @@ fn narrowest(one: &Wall, other: &Wall, same_contour: bool) -> Option<Slot> {
     let (a, b) = (one.geometry(), other.geometry());
     let mut best: Option<Slot> = None;
     let mut consider =
-        |from: Point,
-         to: Point,
-         sides: &dyn Fn(crate::geometry::Vector) -> Option<(Option<Side>, Option<Side>)>| {
+        |from: Point, to: Point, sides: &dyn Fn(Vector) -> Option<(Option<Side>, Option<Side>)>| {
             let width = (to - from).norm();
             let narrow =
-                width > tolerances.touch && width < 2.0 * limits.correction - tolerances.report;
+                width > tolerances.touch && width < required(one, other) - tolerances.report;
             if narrow
                 && best.is_none_or(|best| width < best.width)
                 && !(joints.are_at(from, tolerances.touch) && joints.are_at(to, tolerances.touch))
+                && !is_joined(one, other, from, to)
                 && let Some(sides) = sides((to - from) / width)
             {
                 best = Some(Slot {

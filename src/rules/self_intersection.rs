@@ -16,7 +16,13 @@ pub(crate) const RULE: PairRule = PairRule {
     rule: Rule::SelfIntersection,
     reach: |limits| limits.tolerances.touch,
     check: |one, other, same_contour| {
-        let both_closed = one.outlook.contour.closed && other.outlook.contour.closed;
+        // Slots that meet are one cavity, and one that touches a wall cuts into it.
+        let middles = [one, other].map(|wall| wall.outlook.is_middle());
+        if middles == [true, true] {
+            return Vec::new();
+        }
+        let is_outline = |wall: &Wall| wall.outlook.contour.closed || wall.outlook.is_middle();
+        let both_closed = is_outline(one) && is_outline(other);
         let observation = |contact: Contact| PairObservation {
             mildest: (contact.touches && !both_closed).then_some(Severity::Warning),
             ..PairObservation::default()

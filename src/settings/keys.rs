@@ -33,6 +33,9 @@ const MILLING_STEPS: Range = Range {
     ..Range::FROM_ZERO
 };
 
+/// Volumes that an electrode loses of each that it erodes: most lose a few hundredths.
+const WEAR: Range = Range::of(0.0, 100.0);
+
 /// Contours of a drawing, counted by people.
 const ORDERS: Range = Range::of(1.0, 1e6);
 
@@ -248,7 +251,7 @@ tables! {
         /// Depth below the surface, mm.
         depth: f64 => number in Range::ABOVE_ZERO;
         /// Volume that the electrode loses of each volume that it erodes.
-        wear: f64 => number in Range::FROM_ZERO;
+        wear: f64 => number in WEAR;
         /// How the feed makes up for the wear of the electrode.
         #[serde(alias = "wear-compensation")]
         wear_compensation: WearCompensation = WearCompensation::Uniform => name;

@@ -238,7 +238,7 @@ impl Job<'_> {
         let found = match closed {
             true => found.filter(|path| keeps_its_side(&path.elements, walls, own, side)),
             false => found.and_then(|path| {
-                let path = one_side(vec![path.pairs().collect()], &raw, walls.len());
+                let path = one_side(vec![path.pairs().collect()], &raw, walls, correction);
                 path.ok().map(Pieces::of)
             }),
         };
@@ -266,7 +266,7 @@ impl Job<'_> {
             Found::Cancelled => return Err(Refusal::Cancelled),
         };
         if !closed {
-            let path = match one_side(loops, &raw, walls.len()) {
+            let path = match one_side(loops, &raw, walls, correction) {
                 Ok(path) => path,
                 Err(None) => return Ok(Err(Fault::Nothing)),
                 Err(Some((near, wall))) => return Ok(Err(Fault::Several { near, wall })),

@@ -61,8 +61,9 @@ pub use path::{PathSegment, Refusal, Source, WirePath};
 pub(crate) use reuse::{NEW, which_it_is, which_it_was};
 pub(crate) use rounds::rounds;
 pub(crate) use settings_check::{is_stated, short_layers, shortened_leads, stated_faults};
-pub(crate) use work::Work;
-pub use work::{LargestWire, largest_wire, work};
+pub use work::LargestWire;
+pub use work::Work;
+pub(crate) use work::{largest_of_arcs, last_gap, work};
 
 use crate::drawing::{Drawing, EntityId, Outline};
 use crate::finding::{Detail, Finding, Rule, Severity};

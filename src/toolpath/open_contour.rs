@@ -5,10 +5,13 @@
 //! of the wire, between the ways round the two ends: it begins and ends at the correction from the ends, square to the
 //! contour there.
 
+use super::clearance::Walls;
 use super::corners::{Element, Raw};
 use super::loops::Loops;
 use super::offset::Wall;
+use super::path::Source;
 use crate::geometry::Point;
+use std::f64::consts::SQRT_2;
 
 /// The walls of an open contour, and after them the same backwards.
 pub(super) fn there_and_back(walls: &[Wall]) -> Vec<Wall> {
@@ -23,13 +26,18 @@ pub(super) fn there_and_back(walls: &[Wall]) -> Vec<Wall> {
 /// wall.
 pub(super) type Lost = Option<(Point, usize)>;
 
-/// The path on the side of the wire, from all closed ways about an open contour with this many `walls`.
+/// Where walls at an end are not followed, more than this share of the correction may not stay uncut: it is what a corner of 90° leaves.
+const LEFT_OF_AN_END: f64 = SQRT_2 - 1.0;
+
+/// The path on the side of the wire, from all closed ways about an open contour of `walls`. None of these may be lost at an end, as in a
+/// wedge that the wire does not come into.
 pub(super) fn one_side(
     loops: Loops,
     raw: &Raw,
-    walls: usize,
+    walls: &[Wall],
+    correction: f64,
 ) -> Result<Vec<(usize, Element)>, Lost> {
-    let end = raw.end_roll(walls);
+    let end = raw.end_roll(walls.len());
     let is_own = |piece: &(usize, Element)| piece.0 < end;
     let lost =
         |(_, element): &(usize, Element)| Some((element.geometry.point_at(0.5), element.wall));
@@ -56,5 +64,37 @@ pub(super) fn one_side(
         return Err(lost(&path[length - 1]));
     }
     path.truncate(length);
-    Ok(path)
+    match lost_at_an_end(&path, walls, correction) {
+        Some(lost) => Err(Some(lost)),
+        None => Ok(path),
+    }
+}
+
+/// The place of walls at an end that the path does not follow which is farthest from what the wire cuts, and its wall, where that is too far.
+fn lost_at_an_end(
+    path: &[(usize, Element)],
+    walls: &[Wall],
+    correction: f64,
+) -> Option<(Point, usize)> {
+    let followed = path
+        .iter()
+        .filter(|(_, element)| matches!(element.source, Source::Segment { .. }))
+        .map(|(_, element)| element.wall);
+    let (first, last) = followed.fold((walls.len(), 0), |(first, last), wall| {
+        (first.min(wall), last.max(wall + 1))
+    });
+    if first == 0 && last >= walls.len() {
+        return None;
+    }
+    let pieces = path.iter().map(|(_, element)| element.geometry).collect();
+    let pieces = Walls::by_one_core(pieces);
+    let lost = walls.iter().enumerate();
+    let lost = lost.filter(|(wall, _)| !(first..last).contains(wall));
+    let places = lost.flat_map(|(wall, Wall { geometry, .. })| {
+        [0.0, 0.5, 1.0].map(|share| (geometry.point_at(share), wall))
+    });
+    let (away, lost) = places
+        .map(|lost| (pieces.distance_to(lost.0, 2.0 * correction), lost))
+        .max_by(|a, b| a.0.total_cmp(&b.0))?;
+    (away > (1.0 + LEFT_OF_AN_END) * correction).then_some(lost)
 }

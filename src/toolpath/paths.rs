@@ -206,10 +206,14 @@ impl Job<'_> {
         }
     }
 
-    /// What all passes leave of a contour, where that is asked for.
+    /// What all passes leave of a contour, where that is asked for; of a closed one where there are several.
     fn finished(&self, unled: &Unled) -> Option<Finished> {
-        let count = unled.passes.len();
-        if !self.finishes || count < 2 {
+        // At an end of an open contour a single pass may leave more than what its corners say.
+        let (count, closed) = (
+            unled.passes.len(),
+            self.outlines[unled.outline].contour.closed,
+        );
+        if !self.finishes || count < 2 && closed {
             return None;
         }
         // Half the kerf of the last pass is its correction where nothing else is known: no later pass finds any stock.

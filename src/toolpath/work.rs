@@ -1,4 +1,4 @@
-//! The totals of a job at the machine: lengths, times, slugs, money, and the largest possible wire.
+//! The totals of a job at the machine: lengths, times, slugs, money, without the largest possible wire, which depends on all contours.
 //!
 //! Nothing is guessed: without a key that it needs a value is left out, and the key is named.
 
@@ -51,19 +51,21 @@ pub struct Slug {
     pub mass: f64,
 }
 
-/// The thickest wire that still cuts every arc, and the arc that limits it.
+/// The thickest wire that still cuts every arc and passes every narrow place, and what limits it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LargestWire {
     /// mm: twice the radius less the spark gap of the last pass.
     pub diameter: f64,
-    /// mm.
+    /// mm: of the arc, or half the width of the narrow place.
     pub radius: f64,
     pub entity: EntityId,
     pub segment: usize,
+    /// The facing wall of a narrow place.
+    pub facing: Option<(EntityId, usize)>,
 }
 
-/// The totals of `paths` of a drawing.
-pub fn work(
+/// The totals of `paths` of a drawing, without the largest wire.
+pub(crate) fn work(
     drawing: &Drawing,
     outlines: &[Outline],
     settings: &Effective,
@@ -102,7 +104,6 @@ pub fn work(
     let angles = paths
         .iter()
         .filter_map(|path| largest_lead_angle(&path.segments));
-    let is_cut = |index: usize| paths.iter().any(|path| path.outline == index);
     let missing = [
         ("job.thickness", thickness.is_none()),
         ("passes.rates", rates.is_none()),
@@ -123,7 +124,7 @@ pub fn work(
             .filter_map(slug)
             .collect(),
         lead_angle: angles.max_by(f64::total_cmp),
-        largest_wire: largest_wire(drawing, outlines, settings, &is_cut),
+        largest_wire: None,
         missing: missing
             .into_iter()
             .filter_map(|(key, is_missing)| is_missing.then_some(key))
@@ -133,14 +134,14 @@ pub fn work(
 }
 
 /// Spark gap of the last pass, mm, where set.
-fn last_gap(settings: &Effective) -> Option<f64> {
+pub(crate) fn last_gap(settings: &Effective) -> Option<f64> {
     let of_passes = settings.passes.gaps.as_ref();
     of_passes.map_or(settings.gap, |gaps| gaps.last().copied())
 }
 
 /// The thickest wire that cuts every arc of the contours that are `cut`: for an arc with the wire on its inside it is Ø
 /// = 2 (r − δ). Where the side is not known each arc counts. `None` where there is no such arc, or the gap is not set.
-pub fn largest_wire(
+pub(crate) fn largest_of_arcs(
     drawing: &Drawing,
     outlines: &[Outline],
     settings: &Effective,
@@ -164,11 +165,12 @@ pub fn largest_wire(
                 smallest = Some(LargestWire {
                     diameter: 2.0 * (radius - gap),
                     radius,
+                    facing: None,
                     entity: segment.entity,
                     segment: segment.segment,
                 });
             }
         }
     }
-    smallest.filter(|smallest| smallest.diameter > 0.0)
+    smallest
 }

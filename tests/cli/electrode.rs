@@ -35,3 +35,41 @@ fn sentences_of_a_milled_drawing_speak_of_the_electrode() {
         assert!(count(&milled, electrode) > 30, "{milled:?}");
     }
 }
+
+/// A page of milling has the electrode's numbers and none of a wire's, where one is set beside it, too.
+#[test]
+fn a_page_of_milling_is_about_the_electrode() {
+    let desk = Desk::new();
+    let job = "[job]\nthickness = 30\nmachine-rate = 60\n[passes]\nrates = [60]\n";
+    let wire = "wire-diameter = 0.18\ngap = 0.02\n";
+    let milling = MILLED.replace("side = \"opening\"\n", "");
+    let milling = milling.replace("= 1.0", "= 0.1");
+    for (wire, job) in [("", ""), ("", job), (wire, job)] {
+        desk.write(
+            "wedm.toml",
+            format!("side = \"opening\"\n{wire}{job}{milling}"),
+        );
+        let ended = desk.run("report clean.dxf --format milling -o pages");
+        assert_eq!(ended.code, Some(0), "{ended:?}");
+        let page = String::from_utf8(desk.read("pages/clean.html")).unwrap();
+        for part in [
+            "20 layers of ",
+            "path of the electrode",
+            "0.1000 mm beside the contour",
+        ] {
+            assert!(page.contains(part), "{part} with {wire}{job}: {page}");
+        }
+        let body = &page[page.find("<h2>").unwrap()..];
+        for part in [
+            "<h2>Passes",
+            " min",
+            "slug",
+            "which costs",
+            "the wire",
+            ">0.0000<",
+            "not set",
+        ] {
+            assert!(!body.contains(part), "{part} with {wire}{job}: {body}");
+        }
+    }
+}

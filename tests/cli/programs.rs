@@ -452,3 +452,45 @@ fn one_long_line_is_formatted_as_fast_as_many_short_ones() {
         );
     }
 }
+
+/// What is drawn and not in the program is said, unless contours were chosen.
+#[test]
+fn what_a_program_leaves_out_is_said() {
+    let desk = Desk::new();
+    let clean = String::from_utf8(desk.read("clean.dxf")).unwrap();
+    let line = "0\nLINE\n5\nF1\n8\n0\n10\n8\n20\n5\n11\n12\n21\n5\n";
+    let end = clean.rfind("0\nENDSEC").expect("entities");
+    let hatched = format!("{}{line}{}", &clean[..end], &clean[end..]);
+    desk.write("hatched.dxf", hatched);
+    let says =
+        "left out: 1 entity is drawn to be read, and not cut: 1 lone line within closed contours";
+    for (options, is_said) in [("", true), ("--handle 2A", false)] {
+        let ended = desk.run(&format!("generate hatched.dxf --side opening {options}"));
+        assert_eq!(ended.code, Some(0), "{ended:?}");
+        assert_eq!(ended.stderr.contains(says), is_said, "{options}: {ended:?}");
+    }
+    let ended = desk.run("generate clean.dxf --side opening");
+    assert!(!ended.stderr.contains("left out"), "{ended:?}");
+}
+
+/// Beyond what any machine travels no program is written, and the drawing is no fault of wedm.
+#[test]
+fn a_drawing_too_far_out_is_refused_in_words() {
+    let desk = Desk::new();
+    let outline = |at: f64| {
+        let corners = [[0.0, 0.0], [20.0, 0.0], [20.0, 10.0], [0.0, 10.0]];
+        let corners = corners.map(|[x, y]| format!("10\n{}\n20\n{}\n", at + x, at + y));
+        format!(
+            "0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n5\n31\n8\n0\n90\n4\n70\n1\n{}0\nENDSEC\n0\nEOF\n",
+            corners.concat()
+        )
+    };
+    for (at, code) in [(1e6, 0), (1e7, 1), (1e8, 1)] {
+        desk.write("far.dxf", outline(at));
+        let ended = desk.run("generate far.dxf --side punch --format iso");
+        assert_eq!(ended.code, Some(code), "{ended:?}");
+        let says = ended.stderr.contains("too far out for a program");
+        assert_eq!(says, code == 1, "{ended:?}");
+        assert!(!ended.stderr.contains("internal error"), "{ended:?}");
+    }
+}

@@ -82,7 +82,7 @@ fn an_arc_leads_tangent_to_the_path_and_clear_of_the_part() {
                     );
                 }
                 assert!(
-                    wedm::toolpath::work(&drawing, &outlines, &settings, &[path])
+                    wedm::analysis::work(&drawing, &outlines, &settings, &[path])
                         .lead_angle
                         .unwrap()
                         < 1e-6

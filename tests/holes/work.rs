@@ -94,7 +94,7 @@ fn the_smallest_radius_names_the_largest_wire() {
         let outlines = Analysis::new(&drawing, Arc::new(settings.clone()))
             .outlines(&drawing)
             .clone();
-        let found = wedm::toolpath::largest_wire(&drawing, &outlines, &settings, &|_| true);
+        let found = wedm::analysis::largest_wire(&drawing, &outlines, &settings, &|_| true);
         let diameter = found.map(|found| (found.diameter * 1e6).round() / 1e6);
         assert_eq!(diameter, expected, "{text}");
     };
@@ -108,6 +108,124 @@ fn the_smallest_radius_names_the_largest_wire() {
     // The wire runs outside of it.
     check(Role::Punch, "gap = 0.02\n", None);
     check(Role::Opening, "", None);
+}
+
+/// What is drawn, what names the wire, and its diameter with a gap of 0.02.
+type Narrow<'a> = (&'a str, Vec<Entity>, (&'a str, Option<&'a str>), f64);
+
+#[test]
+fn a_place_narrower_than_the_smallest_radius_names_the_largest_wire() {
+    let (out, quarter) = (-quarter(), quarter());
+    // Two rooms with fillets of R 2, and a neck of 0.5 mm with R 1 at its mouths.
+    let rooms: &[[f64; 3]] = &[
+        [-8.0, -5.0, 0.0],
+        [-6.0, -5.0, quarter],
+        [-4.0, -3.0, 0.0],
+        [-4.0, -1.25, out],
+        [-3.0, -0.25, 0.0],
+        [3.0, -0.25, out],
+        [4.0, -1.25, 0.0],
+        [4.0, -3.0, quarter],
+        [6.0, -5.0, 0.0],
+        [8.0, -5.0, quarter],
+        [10.0, -3.0, 0.0],
+        [10.0, 3.0, quarter],
+        [8.0, 5.0, 0.0],
+        [6.0, 5.0, quarter],
+        [4.0, 3.0, 0.0],
+        [4.0, 1.25, out],
+        [3.0, 0.25, 0.0],
+        [-3.0, 0.25, out],
+        [-4.0, 1.25, 0.0],
+        [-4.0, 3.0, quarter],
+        [-6.0, 5.0, 0.0],
+        [-8.0, 5.0, quarter],
+        [-10.0, 3.0, 0.0],
+        [-10.0, -3.0, quarter],
+    ];
+    let ring = |handle, at: f64| circle(handle, Role::Opening, [at, 0.0], 3.0);
+    let punch = |at: f64| rectangle("2C", Role::Punch, [at, -5.0], [at + 10.0, 5.0]);
+    let rows: Vec<Narrow> = vec![
+        (
+            "a neck",
+            vec![polygon("2A", Role::Opening, rooms)],
+            ("2A", Some("2A")),
+            0.46,
+        ),
+        // The other side of the same walls is wide.
+        (
+            "the part",
+            vec![polygon("2A", Role::Punch, rooms)],
+            ("2A", None),
+            1.96,
+        ),
+        (
+            "an opening alone",
+            vec![ring("2A", 0.0)],
+            ("2A", None),
+            5.96,
+        ),
+        (
+            "two openings",
+            vec![ring("2A", 0.0), ring("2B", 6.3)],
+            ("2A", None),
+            5.96,
+        ),
+        (
+            "two punches",
+            vec![
+                ring("2A", 50.0),
+                punch(0.0),
+                Entity {
+                    handle: "2D".into(),
+                    ..punch(10.8)
+                },
+            ],
+            ("2C", Some("2D")),
+            0.76,
+        ),
+    ];
+    for (what, entities, (handle, facing), diameter) in rows {
+        let (drawing, settings) = (drawing(entities), settings("gap = 0.02\n"));
+        let outlines = Analysis::new(&drawing, Arc::new(settings.clone()))
+            .outlines(&drawing)
+            .clone();
+        let largest = |is_cut: &dyn Fn(usize) -> bool| {
+            wedm::analysis::largest_wire(&drawing, &outlines, &settings, is_cut)
+        };
+        let found = largest(&|_| true).unwrap_or_else(|| panic!("{what}"));
+        let handle_of = |entity| drawing.get(entity).map(|it| it.handle.to_string());
+        assert!(
+            (found.diameter - diameter).abs() < 1e-9,
+            "{what}: {found:?}"
+        );
+        assert_eq!(handle_of(found.entity).as_deref(), Some(handle), "{what}");
+        let other = found.facing.and_then(|(entity, _)| handle_of(entity));
+        assert_eq!(other.as_deref(), facing, "{what}");
+        assert!(
+            (found.diameter - 2.0 * (found.radius - 0.02)).abs() < 1e-9,
+            "{what}"
+        );
+        // What is not cut limits nothing.
+        let of_first = largest(&|outline| outline == 0).map(|it| it.diameter);
+        assert!(
+            of_first.is_some_and(|first| first >= found.diameter),
+            "{what}"
+        );
+    }
+    // Walls are as wide apart as a wire that just passes: by the proof of its path.
+    let passes = |correction: f64| {
+        let text = format!("correction = {correction}\n[program]\nlead-in = 0.1\n");
+        let drawing = drawing(vec![polygon("2A", Role::Opening, rooms)]);
+        let source = Of::Cad(Arc::new(drawing));
+        let document = Document::new(source, Arc::new(settings(&text)));
+        generate(&document, Format::ThreeB, false).is_ok()
+    };
+    assert!(passes(0.2499) && !passes(0.2501));
+}
+
+fn quarter() -> f64 {
+    (std::f64::consts::PI / 8.0).tan()
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 mod programs;
 mod refusals;
+mod slots;
 #[path = "../support/generate.rs"]
 mod support;
 use std::sync::Arc;
@@ -25,12 +26,17 @@ fn settings(text: &str) -> Effective {
 
 /// Polylines `[x, y, bulge]`, closed or not; the closed ones are openings.
 fn drawing(contours: &[(bool, &[[f64; 3]])]) -> Drawing {
+    with_role(Role::Opening, contours)
+}
+
+/// The same, but what the closed ones are.
+fn with_role(role: Role, contours: &[(bool, &[[f64; 3]])]) -> Drawing {
     let mut drawing = Drawing::new(Some(Unit::MILLIMETRE));
     for (number, (closed, vertices)) in contours.iter().enumerate() {
         drawing.push(Entity {
             handle: format!("A{number}").into(),
             layer: "0".into(),
-            role: closed.then_some(Role::Opening),
+            role: closed.then_some(role),
             kind: Kind::LightPolyline,
             geometry: Geometry::Polyline {
                 closed: *closed,

@@ -40,7 +40,12 @@ fn what_is_missing_or_contradicts_itself_is_said_where_it_stands() {
         (
             "[milling]\ntool-diameter = 1\ngap = 0.05\nlayer = 0.01\ndepth = 0.2\nwear = -0.1\n",
             "-0.1",
-            "milling.wear is -0.1, expected a number of 0 or above",
+            "milling.wear is -0.1, expected a number from 0 to 100",
+        ),
+        (
+            "[milling]\ntool-diameter = 1\ngap = 0.05\nlayer = 0.01\ndepth = 0.2\nwear = 1e9\n",
+            "1e9",
+            "expected a number from 0 to 100",
         ),
         (
             "[milling]\ntool-diameter = 0\ngap = 0.05\nlayer = 0.01\ndepth = 0.2\nwear = 0\n",
@@ -151,7 +156,7 @@ fn a_drawing_is_judged_for_the_electrode_where_nothing_is_said_of_a_wire() {
         let document = Document::new(source, Arc::new(settings(text)));
         rules(&document.all_findings())
     };
-    // A radius below that of the electrode's path in a pocket; along a slot it is as it is drawn, and slots may lie side by side.
+    // A radius below that of the electrode's path in a pocket; along a slot it is as it is drawn.
     let rounded: &[[f64; 3]] = &[
         [0.0, 0.0, 0.0],
         [9.7, 0.0, 0.41421356],
@@ -168,7 +173,7 @@ fn a_drawing_is_judged_for_the_electrode_where_nothing_is_said_of_a_wire() {
         .contains(&Rule::SmallRadius)
     );
     let open: &[[f64; 3]] = &rounded[..4];
-    let beside: &[[f64; 3]] = &[[0.0, -0.7, 0.0], [9.0, -0.7, 0.0]];
+    let beside: &[[f64; 3]] = &[[0.0, -1.2, 0.0], [9.0, -1.2, 0.0]];
     assert_eq!(
         judged(&[(false, open), (false, beside)], ELECTRODE),
         [Rule::OpenContour]

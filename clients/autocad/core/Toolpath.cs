@@ -101,7 +101,8 @@ namespace Wedm.Core
             }
             if (_work["largestWire"] is JObject wire)
             {
-                lines.Add("largest wire: " + ((double)wire["diameter"]).ToString("0.000", CultureInfo.InvariantCulture) + " mm, for the arc at entity "
+                var limit = wire["facing"] is JObject ? " mm, for the narrow place at entity " : " mm, for the arc at entity ";
+                lines.Add("largest wire: " + ((double)wire["diameter"]).ToString("0.000", CultureInfo.InvariantCulture) + limit
                     + (string)wire["handle"] + " segment " + (int)wire["segment"]);
             }
             var missing = (_work["missing"] ?? new JArray()).Select(key => (string)key).ToArray();

@@ -259,7 +259,7 @@ export interface InspectedSegment {
   verdict: string;
 }
 /**
- * The thickest wire that still cuts every arc: Ø = 2 (r − gap).
+ * The thickest wire that still cuts every arc and passes every narrow place: Ø = 2 (r − gap).
  */
 export interface LargestWire {
   /**
@@ -267,9 +267,23 @@ export interface LargestWire {
    */
   diameter: number;
   /**
-   * Of the arc that says so, mm.
+   * Of the arc that says so, mm; where that is a narrow place, half its width.
    */
   radius: number;
+  handle: string;
+  /**
+   * Index within the entity.
+   */
+  segment: number;
+  /**
+   * The facing wall of a narrow place, where that says so and no arc.
+   */
+  facing?: FacingWall;
+}
+/**
+ * One of the walls of a narrow place.
+ */
+export interface FacingWall {
   handle: string;
   /**
    * Index within the entity.
@@ -1179,7 +1193,7 @@ export interface PairProgram {
    */
   deviation: number;
   /**
-   * What all passes leave of the contours, where several are cut.
+   * What all passes leave of the contours, where several are cut or a contour is open.
    */
   finished?: FinishedPart;
   /**
@@ -1654,7 +1668,7 @@ export interface Program {
    */
   deviation: number;
   /**
-   * What all passes leave of the contours, where several are cut.
+   * What all passes leave of the contours, where several are cut or a contour is open.
    */
   finished?: FinishedPart;
   /**

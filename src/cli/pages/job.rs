@@ -4,7 +4,6 @@ use super::super::fit::of_least;
 use super::html::{cell, more, number, table, text};
 use crate::document::{Document, Snapshot};
 use crate::job;
-use crate::message::readable;
 use crate::picture;
 use crate::protocol::{Fit, StartHole, Work};
 
@@ -66,13 +65,7 @@ pub(super) fn time_and_material(work: &Work) -> String {
         facts.push(say!(leads_turn_at_most, angle));
     }
     if let Some(largest) = &work.largest_wire {
-        facts.push(say!(
-            the_largest_wire_is,
-            largest.diameter,
-            largest.radius,
-            readable(&largest.handle),
-            largest.segment
-        ));
+        facts.push(largest.sentence());
     }
     if !work.missing.is_empty() {
         facts.push(say!(keys_are_missing, work.missing.join(", ")));

@@ -6,6 +6,7 @@ use super::super::report::{self, Row};
 use super::super::{Failure, output};
 use super::html::{self, Cell, cell, more, number, table, text};
 use super::job as of_job;
+use crate::analysis;
 use crate::document::Snapshot;
 use crate::finding::{Rule, Severity};
 use crate::job::{self, Generated, Wanted};
@@ -14,6 +15,7 @@ use crate::program::Format;
 use crate::protocol::{Contours, Fit, Inspection, Milling, SegmentKind, StartHole, Work};
 use crate::toolpath::{self, WirePath};
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// The most arcs of the radius list, and findings of one rule, on a page: other commands list them all.
 const MOST_ARCS: usize = 100;
@@ -28,7 +30,7 @@ pub(super) struct Page {
     unit_mm: f64,
     picture: String,
     contours: Contours,
-    arcs: Vec<Arc>,
+    arcs: Vec<ListedArc>,
     rows: Vec<Row>,
     paths: Vec<WirePath>,
     /// For each path the distance of the wire's centre from the contour, mm.
@@ -58,7 +60,7 @@ pub(super) struct Line {
 }
 
 /// An arc of the radius list.
-struct Arc {
+struct ListedArc {
     handle: String,
     segment: usize,
     radius_mm: f64,
@@ -68,6 +70,12 @@ struct Arc {
 
 impl Page {
     pub(super) fn of(mut opened: Opened, format: Format) -> Result<Page, Failure> {
+        // Where a wire is set, too, a page of milling is about the electrode alone.
+        if format == Format::Milling
+            && let Ok(milled) = opened.document.settings().milled()
+        {
+            opened.document.set_settings(Arc::new(milled));
+        }
         let snapshot = opened.snapshot()?;
         let rows = report::rows(&opened.path, &mut opened.document);
         let unit_mm = opened.document.unit_mm();
@@ -92,10 +100,13 @@ impl Page {
             settings,
             ..
         } = &snapshot;
-        let work = (!paths.is_empty()).then(|| {
-            let work = toolpath::work(drawing, outlines, settings, &paths);
-            Work::new(drawing, outlines, &work)
-        });
+        // An electrode goes its way once for each layer, which the program counts.
+        let work = match (format, &program) {
+            (Format::Milling, Ok(made)) => Some(made.work.clone()),
+            (Format::Milling, Err(_)) => None,
+            _ => (!paths.is_empty()).then(|| analysis::work(drawing, outlines, settings, &paths)),
+        };
+        let work = work.map(|work| Work::new(drawing, outlines, &work));
         let hole = |hole| StartHole::new(drawing, outlines, settings, hole);
         let correction = |path: &WirePath| path.offset(settings, unit_mm);
         let milled = program
@@ -230,7 +241,7 @@ impl Page {
             say!(column_segment),
             say!(column_verdict),
         ];
-        let row = |arc: &Arc| {
+        let row = |arc: &ListedArc| {
             let verdict: Cell = match arc.verdict.as_str() {
                 "ok" => ("good", "ok".into()),
                 verdict => ("error", text(verdict)),
@@ -249,6 +260,10 @@ impl Page {
 
     /// The path of the wire, pass by pass.
     fn passes(&self) -> String {
+        // The layers of an electrode have a section of their own.
+        if self.format == Format::Milling {
+            return String::new();
+        }
         let mut passes: BTreeMap<(bool, usize), (f64, f64, usize)> = BTreeMap::new();
         for (path, correction) in self.paths.iter().zip(&self.corrections) {
             let length: f64 = path
@@ -343,13 +358,13 @@ impl Page {
 }
 
 /// Every arc, the smallest first.
-fn arcs_of(inspection: Option<Inspection>, unit_mm: f64) -> Vec<Arc> {
+fn arcs_of(inspection: Option<Inspection>, unit_mm: f64) -> Vec<ListedArc> {
     let entities = inspection.map(|inspection| inspection.entities);
-    let mut arcs: Vec<Arc> = Vec::new();
+    let mut arcs: Vec<ListedArc> = Vec::new();
     for entity in entities.into_iter().flatten().filter(|entity| entity.cut) {
         let of_entity = entity.segments.into_iter().filter_map(|segment| {
             let radius = segment.shape.radius?;
-            (segment.shape.kind != SegmentKind::Line).then(|| Arc {
+            (segment.shape.kind != SegmentKind::Line).then(|| ListedArc {
                 handle: entity.handle.clone(),
                 segment: segment.index,
                 radius_mm: radius * unit_mm,

@@ -182,6 +182,8 @@ declare! {
     the_tab_takes(contour, pass, length, minutes) => "  tab of contour {contour}, pass {pass}: {length:.3} mm, {minutes:.2} min";
     the_slug_weighs(contour, mass) => "slug of contour {contour}: {mass:.1} g";
     leads_turn_at_most(angle) => "leads: at most {angle:.1}° to the contour";
+    left_out_of_the_program(what) => "left out: {what}";
+    the_largest_wire_passes_between(diameter, width, handle, segment, other, met) => "largest wire: Ø {diameter:.3} mm, by the {width:.3} mm between {handle}, segment {segment}, and {other}, segment {met}";
     the_largest_wire_is(diameter, radius, handle, segment) => "largest wire: Ø {diameter:.3} mm, by R {radius:.3} mm of {handle}, segment {segment}";
     the_largest_wire_needs_the_gap => "largest wire: not known, since gap is not set";
     keys_are_missing(keys) => "not known, since not set: {keys}";

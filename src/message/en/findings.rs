@@ -80,6 +80,8 @@ declare! {
     a_sharp_corner_that_the_wire_runs_inside(turn, radius, tool) => "sharp corner of {turn:.1}°: where {tool} runs inside of it, it is left with R {radius} mm";
     sharp_corners_that_the_wire_runs_inside(count, radius, tool) => "{count} sharp corners: those that {tool} runs inside of are left with R {radius} mm";
     the_slot_is_too_narrow(width, required, tool) => "slot is {width} mm wide, {tool} needs {required} mm: it cannot pass without cutting the walls";
+    the_middle_of_a_slot_is_too_near_a_wall(width, required, tool) => "middle of the slot is {width} mm from a wall, {tool} needs {required} mm: it cuts into the wall";
+    no_wall_is_left_between_slots(width, required, tool) => "middles of slots are {width} mm apart, and {tool} takes {required} mm: no wall is left between them";
     walls_lie_on_one_another(tool, required) => "two parts share this wall, with no room between them: {tool} needs {required} mm and cuts into the other part";
     the_offset_loses_this_part_of_the_outline(tool) => "the offset loses this part of the outline: {tool} does not reach it";
     the_wire_does_not_reach_this_part_of_the_outline(uncut, tool) => "{tool} does not reach this part of the outline: {uncut} mm stay uncut";

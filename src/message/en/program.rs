@@ -62,8 +62,12 @@ declare! {
     an_arc_has_no_room_for_the_leaning_wire(radius, least, angle) => "arc R {radius:.4} mm is below {least:.4} mm: under a taper of {angle:.3}° it widens up to the other plane, but in its own plane the leaning wire's axis keeps the correction divided by the cosine of that angle";
     an_arc_narrows_to_nothing(radius, narrows, angle) => "arc R {radius:.3} mm narrows by {narrows:.3} mm under a taper of {angle:.3}°: nothing is left of it in the other plane";
     how_far_the_wire_leans_needs_the_height => "how far the wire leans is not known: expected job.thickness to be set, or TP and TN in the program";
+    the_wire_leans_more_than_any_machine_does(line, most) => "how far the wire leans is not followed: the angle in line {line} is above {most:.0}°, more than any machine leans its wire";
+    the_wire_is_to_lean_more_than_any_machine_does(degrees, most) => "the wire is to lean by {degrees:.3}°, and no machine leans it by more than {most:.0}°: the taper is not followed";
+    an_angle_in_thousandths_of_a_degree(degrees) => "the wire leans by {degrees:.3}°: where whole numbers are micrometres, those of an angle are thousandths of a degree; a decimal point makes them degrees";
     how_far_the_wire_leans_needs_the_angle(line) => "how far the wire leans is not known: line {line} says no angle (A or T)";
     a_taper_would_not_be_kept => "a taper (G51, G52, G140 to G142) would not be kept";
+    the_upper_profile_would_begin_beside_a_corner => "under the taper in force the upper profile would begin and end beside that corner, and cut into the part or leave a rest";
     the_planes_of_a_taper_would_not_be_kept => "the planes of a taper (TP, TN) would not be kept";
     its_begin_does_not_say_where_the_wire_stands => "its begin does not say that the wire stands at the start: expected G92 X{x} Y{y}";
     its_contour_begin_names_no_register(number) => "its contour-begin does not name the place {number} of the correction: expected a line with {{register}}, and a register that ends in a number";

@@ -124,6 +124,7 @@ declare! {
     cut_of(contours, length, jumps, minutes) => "cut of {contours}: {length:.3} mm{jumps}{minutes}";
     and_jumps(length) => ", jumps {length:.3} mm";
     and_minutes(minutes) => ", {minutes:.2} min";
+    largest_wire_by_a_narrow_place(diameter, width) => "largest wire Ø {diameter:.3} mm, by a narrow place of {width:.3} mm";
     largest_wire(diameter, radius) => "largest wire Ø {diameter:.3} mm, by R {radius:.3} mm";
     thread_hole_at_mm(x, y) => "thread hole at {x:.3}, {y:.3} mm";
     change_by_number(index, reason) => "change {index}: {reason}";

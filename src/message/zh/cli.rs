@@ -182,6 +182,8 @@ translate! {
     the_tab_takes(contour, pass, length, minutes) => "  轮廓 {contour} 的暂留段，第 {pass} 次：{length:.3} mm，{minutes:.2} min";
     the_slug_weighs(contour, mass) => "轮廓 {contour} 的落料：{mass:.1} g";
     leads_turn_at_most(angle) => "引线与轮廓的最大夹角：{angle:.1}°";
+    left_out_of_the_program(what) => "未写入程序：{what}";
+    the_largest_wire_passes_between(diameter, width, handle, segment, other, met) => "最粗可用电极丝：Ø {diameter:.3} mm，由 {handle} 段 {segment} 与 {other} 段 {met} 之间的 {width:.3} mm 决定";
     the_largest_wire_is(diameter, radius, handle, segment) => "最粗可用电极丝：Ø {diameter:.3} mm，由 {handle} 段 {segment} 的 R {radius:.3} mm 决定";
     the_largest_wire_needs_the_gap => "最粗可用电极丝：未设 gap，无法得知";
     keys_are_missing(keys) => "未设而无法得知：{keys}";

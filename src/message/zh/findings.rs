@@ -80,6 +80,8 @@ translate! {
     a_sharp_corner_that_the_wire_runs_inside(turn, radius, tool) => "{turn:.1}° 的尖角：{tool}在内侧走时，会留下 R {radius} mm 的圆角";
     sharp_corners_that_the_wire_runs_inside(count, radius, tool) => "{count} 处尖角：{tool}在内侧走的会留下 R {radius} mm 的圆角";
     the_slot_is_too_narrow(width, required, tool) => "槽宽 {width} mm，{tool}需要 {required} mm：通过时必然切到槽壁";
+    the_middle_of_a_slot_is_too_near_a_wall(width, required, tool) => "槽的中线距槽壁 {width} mm，{tool}需要 {required} mm：会切入该壁";
+    no_wall_is_left_between_slots(width, required, tool) => "两槽的中线相距 {width} mm，{tool}切去 {required} mm：其间不留壁";
     walls_lie_on_one_another(tool, required) => "两个工件共用这道壁，其间没有空隙：{tool}需要 {required} mm，会切入另一个工件";
     the_offset_loses_this_part_of_the_outline(tool) => "偏移后丢失这部分轮廓：{tool}到不了";
     the_wire_does_not_reach_this_part_of_the_outline(uncut, tool) => "{tool}到不了这部分轮廓：{uncut} mm 未切到";

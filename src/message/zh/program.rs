@@ -62,8 +62,12 @@ translate! {
     an_arc_has_no_room_for_the_leaning_wire(radius, least, angle) => "圆弧 R {radius:.4} mm 小于 {least:.4} mm：锥度 {angle:.3}° 使它到另一平面变大，但在本平面内，倾斜的丝的轴线离轮廓为补偿量除以该角的余弦";
     an_arc_narrows_to_nothing(radius, narrows, angle) => "圆弧 R {radius:.3} mm 在锥度 {angle:.3}° 下缩小 {narrows:.3} mm：到另一平面已不存在";
     how_far_the_wire_leans_needs_the_height => "不知道丝倾斜多少：请设 job.thickness，或在程序中写 TP 和 TN";
+    the_wire_leans_more_than_any_machine_does(line, most) => "不追踪丝的倾斜：第 {line} 行的角度超过 {most:.0}°，没有机床能让丝倾斜这么多";
+    the_wire_is_to_lean_more_than_any_machine_does(degrees, most) => "丝要倾斜 {degrees:.3}°，而没有机床能超过 {most:.0}°：不追踪此锥度";
+    an_angle_in_thousandths_of_a_degree(degrees) => "丝倾斜 {degrees:.3}°：整数为微米时，角度的整数为千分之一度；加小数点则为度";
     how_far_the_wire_leans_needs_the_angle(line) => "不知道丝倾斜多少：第 {line} 行没有角度（A 或 T）";
     a_taper_would_not_be_kept => "锥度（G51、G52、G140 到 G142）无法保留";
+    the_upper_profile_would_begin_beside_a_corner => "在有效的锥度下，上平面轮廓会在该拐角旁开始和结束，切入工件或留下残余";
     the_planes_of_a_taper_would_not_be_kept => "锥度的平面（TP、TN）无法保留";
     its_begin_does_not_say_where_the_wire_stands => "begin 没有说明丝在起点：应有 G92 X{x} Y{y}";
     its_contour_begin_names_no_register(number) => "contour-begin 写不出补偿号 {number}：应有一行含 {{register}}，且 register 以数字结尾";

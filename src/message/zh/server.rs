@@ -124,6 +124,7 @@ translate! {
     cut_of(contours, length, jumps, minutes) => "切割 {contours}：{length:.3} mm{jumps}{minutes}";
     and_jumps(length) => "，空走 {length:.3} mm";
     and_minutes(minutes) => "，{minutes:.2} 分钟";
+    largest_wire_by_a_narrow_place(diameter, width) => "最粗可用电极丝 Ø {diameter:.3} mm，由宽 {width:.3} mm 的窄处决定";
     largest_wire(diameter, radius) => "最粗可用电极丝 Ø {diameter:.3} mm，由 R {radius:.3} mm 决定";
     thread_hole_at_mm(x, y) => "穿丝孔位于 {x:.3}, {y:.3} mm";
     change_by_number(index, reason) => "修改 {index}：{reason}";

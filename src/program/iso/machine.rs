@@ -8,7 +8,7 @@ use super::moves::{Bend, Course, Move, Place, Reading, added, apart, bend_about}
 
 /// The largest coordinate or way that a line may give, nm: 10 km, which is 10 m where µm were read as mm. No machine travels so far, and
 /// the sum of hundreds of thousands of lines still has room in an `i64`.
-const FARTHEST: i64 = 10_000_000_000_000;
+pub(super) const FARTHEST: i64 = 10_000_000_000_000;
 
 /// The same in mm.
 pub(super) const FARTHEST_MM: i64 = FARTHEST / 1_000_000;

@@ -52,7 +52,7 @@ pub(crate) use mill::write_milled;
 pub(in crate::program) use taper::{Words as TaperWords, refuse_anywhere as refuse_taper};
 
 pub(crate) use plain::words;
-pub(in crate::program) use tilt::Unknown;
+pub(in crate::program) use tilt::{STEEPEST, Unknown};
 pub(crate) use unfollowed::{Unfollowed, UnfollowedWord};
 pub(crate) use word::Token;
 pub use write::write;

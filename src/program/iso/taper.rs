@@ -1,6 +1,8 @@
 //! Words that give the upper guide another path than the lower one. Their meaning depends on the order, the direction
 //! and the mode of the moves of X and Y: refactorings that would change it refuse such a program.
 
+use super::plain::words_in;
+use super::word::Token;
 use crate::program::iso::document::Document;
 use std::ops::Range;
 
@@ -31,6 +33,36 @@ pub(in crate::program) fn refuse_anywhere(
     wanted: Words,
 ) -> Result<(), String> {
     refuse(document, 0..document.text().line_count(), wanted)
+}
+
+/// An error where the wire leans by an angle from a line before this one on.
+pub(in crate::program) fn refuse_where_it_leans(
+    document: &Document,
+    line: usize,
+) -> Result<(), String> {
+    let mut leans = None;
+    for before in 0..line {
+        words_in(document.line_bytes(before), |token, _| {
+            if let Token::Word {
+                letter: b'G',
+                number,
+            } = token
+            {
+                match number.whole() {
+                    Some(51 | 52 | 141 | 142) => leans = Some(before),
+                    Some(50 | 140) => leans = None,
+                    _ => {}
+                }
+            }
+        });
+    }
+    match leans {
+        Some(line) => {
+            let reason = say!(the_upper_profile_would_begin_beside_a_corner);
+            Err(say!(line_by_number, line + 1, reason))
+        }
+        None => Ok(()),
+    }
 }
 
 fn reason(document: &Document, line: usize, wanted: Words) -> Option<&'static str> {

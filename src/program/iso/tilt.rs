@@ -5,6 +5,10 @@
 //! contour after a colon. An angle needs the height between the programmed plane and the other one: TP and TN, else
 //! the workpiece's.
 
+mod angle;
+
+pub(crate) use angle::{Doubtful, STEEPEST};
+
 use super::block::{Offset, read_line};
 use super::document::Document;
 use super::machine::Machine;
@@ -14,6 +18,7 @@ use super::word::{Number, Token};
 use crate::geometry::{
     Arc, Point, Segment, Side, Vector, circle_circle, left_normal, line_circle, line_line, turn,
 };
+use angle::degrees;
 use std::ops::Range;
 
 /// A joint that turns by less is tangent, radians.
@@ -37,6 +42,8 @@ pub(crate) struct Taper {
     pub(crate) arcs: Vec<TiltedArc>,
     /// Why some of it is unknown.
     pub(crate) unknown: Option<Unknown>,
+    /// The first angle that is hardly meant.
+    pub(crate) doubtful: Option<Doubtful>,
 }
 
 /// Why the way of the upper end is unknown.
@@ -44,6 +51,8 @@ pub(crate) struct Taper {
 pub(crate) enum Unknown {
     /// No angle stands with G51 or G52; the line, from 0.
     Angle(usize),
+    /// The line tilts the wire by more than any machine does.
+    Steep(usize),
     /// Neither TP and TN nor the height of the workpiece is set; the line that tilts the wire.
     Height(usize),
 }
@@ -127,6 +136,7 @@ impl Document {
             upper: upper_of(&moves),
             arcs: moves.iter().filter_map(tilted_arc).collect(),
             unknown: reader.unknown,
+            doubtful: reader.doubtful,
         })
     }
 }
@@ -148,6 +158,7 @@ struct Reader<'a> {
     /// This line's words for it.
     own: Option<Segment>,
     unknown: Option<Unknown>,
+    doubtful: Option<Doubtful>,
 }
 
 impl<'a> Reader<'a> {
@@ -162,6 +173,7 @@ impl<'a> Reader<'a> {
             upper: None,
             own: None,
             unknown: None,
+            doubtful: None,
         }
     }
 
@@ -180,7 +192,10 @@ impl<'a> Reader<'a> {
         // T switches other things where no word tilts the wire.
         let angle = said.angle.or(said.tool.filter(|_| said.side.is_some()));
         if let Some(angle) = angle.filter(|_| self.side.is_some()) {
-            self.angle = Some(self.degrees(angle).to_radians());
+            let (degrees, doubtful) = degrees(angle, self.reading.whole_numbers_are_fine, line);
+            let is_steep = doubtful.is_some_and(|it| it.is_steep);
+            self.angle = (!is_steep).then(|| degrees.to_radians());
+            self.doubtful = self.doubtful.or(doubtful);
         }
         for (plane, number) in self.planes.iter_mut().zip(said.planes) {
             if let Some(number) = number {
@@ -198,15 +213,6 @@ impl<'a> Reader<'a> {
         }
         if let Some(second) = said.second {
             self.follow(&bytes[second..], machine);
-        }
-    }
-
-    /// An angle: degrees, or thousandths of one where whole numbers are fine.
-    fn degrees(&self, number: Number) -> f64 {
-        let degrees = number.mantissa as f64 / 10_f64.powi(i32::from(number.decimals));
-        match !number.point && self.reading.whole_numbers_are_fine {
-            true => degrees / 1000.0,
-            false => degrees,
         }
     }
 
@@ -255,7 +261,9 @@ impl<'a> Reader<'a> {
             return Lean::apart(self.apart);
         };
         let Some(angle) = self.angle else {
-            self.unknown.get_or_insert(Unknown::Angle(line));
+            let steep = self.doubtful.filter(|it| it.is_steep);
+            let why = steep.map_or(Unknown::Angle(line), |it| Unknown::Steep(it.line));
+            self.unknown.get_or_insert(why);
             return Lean::apart(self.apart);
         };
         let height = match (self.planes, self.thickness) {

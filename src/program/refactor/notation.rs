@@ -17,8 +17,11 @@ use std::ops::{Deref, Range};
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(in crate::program) enum Change {
     Reverse,
-    /// With the contour in these lines.
-    StartHere(Range<usize>),
+    /// With the contour in these lines; the new start lies at a corner of it, or within a straight edge or where it is tangent.
+    StartHere {
+        lines: Range<usize>,
+        is_corner: bool,
+    },
     Scale,
 }
 

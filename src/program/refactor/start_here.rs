@@ -7,7 +7,7 @@
 //! ```
 
 use super::{Change, Content, Edits, Notation, Refactoring, Rewrite, Sheet};
-use crate::geometry::{Segment, meetings};
+use crate::geometry::{Segment, meetings, turn};
 use crate::program::grid::Node;
 use std::ops::Range;
 
@@ -18,6 +18,9 @@ pub(super) fn start_here<N: Notation>() -> Refactoring<N> {
         rewrite: begun_here,
     }
 }
+
+/// Moves that turn by no more than this, rad, are tangent: the numbers of a program are rounded.
+const TANGENT: f64 = 2e-3;
 
 /// A way in or out may meet the contour only within this distance of its end, µm.
 const TOUCH: f64 = 3.0;
@@ -40,7 +43,12 @@ fn begun_here<N: Notation>(sheet: &Sheet<'_, N>) -> Edits {
     }
     let all = contour.steps.clone();
     let lines = rows[all.start].line..rows[all.end - 1].line + 1;
-    N::refuse(sheet, Change::StartHere(lines))?;
+    let is_corner = turn(
+        rows[first - 1].piece.end_tangent(),
+        rows[first].piece.start_tangent(),
+    );
+    let is_corner = is_corner.abs() > TANGENT;
+    N::refuse(sheet, Change::StartHere { lines, is_corner })?;
     let begin = rows[first].from;
     let mut rewrite = Rewrite::new();
     for (place, row) in own.clone().zip((first..own.end).chain(own.start..first)) {

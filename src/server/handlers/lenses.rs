@@ -2,6 +2,7 @@
 //! clients that have the commands.
 
 use super::Task;
+use crate::analysis::largest_wire;
 use crate::ide::SymbolKind;
 use crate::ide::program::symbols;
 use crate::server::context::RequestContext;
@@ -54,7 +55,7 @@ pub(in crate::server) fn code_lens(
     Ok(Some(of_program.chain(of_contours).collect()))
 }
 
-/// Segments of a drawing beyond which no path is planned for a lens.
+/// Segments of a drawing beyond which no path is planned for a lens, and no narrow place looked for.
 const LAID: usize = 5_000;
 
 /// The totals of a drawing's cuts and the largest wire, above its first line; nothing without a text, or where neither
@@ -81,8 +82,15 @@ fn of_drawing(context: &RequestContext) -> Option<Vec<CodeLens>> {
             minutes.unwrap_or_default()
         )
     });
-    let wire = toolpath::largest_wire(drawing, outlines, settings, &|_| true)
-        .map(|largest| say!(largest_wire, largest.diameter, largest.radius));
+    let wire = (segments <= LAID).then(|| largest_wire(drawing, outlines, settings, &|_| true));
+    let wire = wire.flatten().map(|largest| match largest.facing {
+        Some(_) => say!(
+            largest_wire_by_a_narrow_place,
+            largest.diameter,
+            2.0 * largest.radius
+        ),
+        None => say!(largest_wire, largest.diameter, largest.radius),
+    });
     let title = cut.into_iter().chain(wire).collect::<Vec<_>>().join("; ");
     (!title.is_empty()).then(|| {
         let command = Command {

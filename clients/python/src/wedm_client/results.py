@@ -318,13 +318,24 @@ class Slug(Value):
 
 
 @dataclass(frozen=True)
+class FacingWall(Value):
+    """One of the walls of a narrow place."""
+
+    handle: str
+    segment: int
+
+
+@dataclass(frozen=True)
 class LargestWire(Value):
-    """The thickest wire that still cuts every arc, mm, and the arc that limits it."""
+    """The thickest wire that still cuts every arc and passes every narrow place, mm, and what limits it.
+
+    Where that is a narrow place, ``radius`` is half its width and ``facing`` its other wall."""
 
     diameter: float
     radius: float
     handle: str
     segment: int
+    facing: FacingWall | None = None
 
 
 @dataclass(frozen=True)

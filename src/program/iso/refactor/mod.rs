@@ -15,7 +15,7 @@ use super::line::{Bent, MIDDLE_TOLERANCE, Target};
 use super::moves::{Bend, MICROMETRE, Move, Place, micrometres};
 use super::plain::{words_at, words_in};
 use super::style::Style;
-use super::taper::{Words, refuse, refuse_anywhere};
+use super::taper::{Words, refuse, refuse_anywhere, refuse_where_it_leans};
 use super::word::Token;
 use crate::finding::{Finding, Side};
 use crate::geometry::Arc;
@@ -60,8 +60,12 @@ impl Notation for Iso {
     fn refuse(sheet: &Sheet<'_, Iso>, change: Change) -> Result<(), String> {
         match change {
             Change::Reverse => refuse_anywhere(sheet.document, Words::All),
-            Change::StartHere(lines) => {
+            Change::StartHere { lines, is_corner } => {
                 refuse_anywhere(sheet.document, Words::Guide)?;
+                // At a corner the upper end begins beside its profile, and ends there.
+                if is_corner {
+                    refuse_where_it_leans(sheet.document, lines.start)?;
+                }
                 refuse(sheet.document, lines, Words::All)
             }
             Change::Scale => refuse_anywhere(sheet.document, Words::Guide),

@@ -116,6 +116,30 @@ fn what_would_part_the_upper_guide_from_the_wire_is_refused() {
             refuses(id, &square(words), "a taper");
         }
     }
+    // Before the way in a taper is in force all the same: at a corner the upper end would begin beside its profile.
+    let ahead = |words: &str, begin: &str| {
+        let before = "G92 X10. Y5.\nG90\n";
+        let (mut contour, mut lines) = (String::new(), 0);
+        for line in ["X20.\n", "Y10.\n", "X10.\n", "X0.\n", "Y0.\n", "X10.\n"] {
+            lines += 1;
+            let here = if begin == line && lines > 1 { "|" } else { "" };
+            contour += &format!("{here}{line}");
+        }
+        format!("{before}{words}G01 X10. Y0.\n{contour}G50\nG01 Y5.\nM02\n")
+    };
+    for words in ["G51 A2.\n", "G52 A2.\n", "G142 A2.\n", "G50\nG51 A2.\n"] {
+        refuses("startHere", &ahead(words, "Y10.\n"), "beside that corner");
+        assert!(
+            after(&ahead(words, "X0.\n"), "startHere").is_ok(),
+            "{words}"
+        );
+    }
+    for words in ["", "G51 A2.\nG50\n", "(G51 A2.)\n"] {
+        assert!(
+            after(&ahead(words, "Y10.\n"), "startHere").is_ok(),
+            "{words}"
+        );
+    }
     // In a comment they mean nothing.
     let harmless = square("(U1 G51) ");
     assert!(after(&harmless, "reverse").is_ok());

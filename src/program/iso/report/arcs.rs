@@ -4,7 +4,7 @@ use super::super::block::{Motion, Offset};
 use super::super::cut::JoinedCut;
 use super::super::moves::Course;
 use super::super::part::Tight;
-use super::super::tilt::{TiltedArc, Unknown};
+use super::super::tilt::{Doubtful, STEEPEST, TiltedArc, Unknown};
 use super::Report;
 use crate::finding::{Detail, Fault, NoFix, Rule, Severity, Side, SmallRadius};
 use crate::program::path::{UM_IN_MM, is_tight};
@@ -89,6 +89,29 @@ impl Report<'_> {
         if let Some(Unknown::Height(line)) = taper.unknown {
             let fault = Fault::said(Rule::Taper, say!(how_far_the_wire_leans_needs_the_height));
             self.add_as(Severity::Information, self.document.words_of(line), fault);
+        }
+        if let Some(Doubtful {
+            line,
+            degrees,
+            is_steep,
+        }) = taper.doubtful
+        {
+            let (severity, sentence) = match is_steep {
+                true => (
+                    Severity::Warning,
+                    say!(
+                        the_wire_is_to_lean_more_than_any_machine_does,
+                        degrees,
+                        STEEPEST
+                    ),
+                ),
+                false => (
+                    Severity::Hint,
+                    say!(an_angle_in_thousandths_of_a_degree, degrees),
+                ),
+            };
+            let fault = Fault::said(Rule::Taper, sentence);
+            self.add_as(severity, self.document.words_of(line), fault);
         }
         for arc in &taper.arcs {
             let TiltedArc {

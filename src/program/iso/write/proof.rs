@@ -5,8 +5,9 @@ use crate::geometry::Segment;
 use crate::program::encode::proved_aside;
 use crate::program::grid::point_of;
 use crate::program::iso::encode::Encoded;
+use crate::program::iso::machine::FARTHEST;
 use crate::program::iso::moves::{Course, Move, Place, micrometres};
-use crate::program::write::{ProofError, Proved, scaled};
+use crate::program::write::{ProofError, Proved, scaled, too_far_out};
 
 /// A line that was read back and is as it should be.
 pub(super) struct Checked {
@@ -21,6 +22,9 @@ impl Lines<'_> {
     /// Compares the control's move for the line with the node and the piece of the path.
     pub(super) fn check(&self, step: &Encoded, made: Option<Move>) -> Proved<Checked> {
         let Some(made) = made else {
+            if self.place(step.to).iter().any(|nm| nm.abs() > FARTHEST) {
+                return Err(too_far_out(point_of(step.to)));
+            }
             return Err(ProofError::Mismatch(say!(
                 a_written_move_does_not_move,
                 step.to

@@ -79,7 +79,7 @@ impl Notation for ThreeB {
     fn refuse(sheet: &Sheet<'_, ThreeB>, change: Change) -> Result<(), String> {
         match change {
             Change::Scale => refuse_four_b(sheet.content()?),
-            Change::Reverse | Change::StartHere(_) => Ok(()),
+            Change::Reverse | Change::StartHere { .. } => Ok(()),
         }
     }
 

@@ -1,0 +1,118 @@
+//! The thickest wire that a drawing lets through: what its smallest arc and its narrowest place leave.
+//!
+//! Narrow places are those of `narrow-slot` under a larger correction. It is raised step by step, so that a neck is found before much is
+//! compared; what is as far apart as the smallest arc is wide does not matter any more.
+
+use super::Analysis;
+use crate::drawing::{ContourKey, Drawing, Outline};
+use crate::rule::Rule;
+use crate::settings::Effective;
+use crate::toolpath::{self, LargestWire, WirePath, Work};
+use rustc_hash::FxHashMap;
+use std::sync::Arc;
+
+/// In a drawing of more segments nothing is said: it would take longer than the answer is worth.
+const MOST_SEGMENTS: usize = 100_000;
+
+/// By how much the correction grows from one comparison to the next.
+const GROWTH: f64 = 6.0;
+
+/// The totals of `paths` of a drawing.
+pub fn work(
+    drawing: &Drawing,
+    outlines: &[Outline],
+    settings: &Effective,
+    paths: &[WirePath],
+) -> Work {
+    let is_cut = |index: usize| paths.iter().any(|path| path.outline == index);
+    Work {
+        largest_wire: (!settings.mills)
+            .then(|| largest_wire(drawing, outlines, settings, &is_cut))
+            .flatten(),
+        ..toolpath::work(drawing, outlines, settings, paths)
+    }
+}
+
+/// The thickest wire that cuts every arc of the contours that are `cut`, and passes between their own walls and those of others. `None`
+/// where there is no arc, where the gap is not set or fills the narrowest place, and where there is too much to compare.
+pub fn largest_wire(
+    drawing: &Drawing,
+    outlines: &[Outline],
+    settings: &Effective,
+    is_cut: &dyn Fn(usize) -> bool,
+) -> Option<LargestWire> {
+    let of_arcs = toolpath::largest_of_arcs(drawing, outlines, settings, is_cut)?;
+    let segments: usize = outlines.iter().map(|outline| outline.contour.len()).sum();
+    if of_arcs.diameter <= 0.0 || segments > MOST_SEGMENTS {
+        return None;
+    }
+    let mut severities = settings.severities.clone();
+    for rule in Rule::ALL {
+        severities.insert(
+            rule,
+            (rule == Rule::NarrowSlot).then(|| rule.default_severity()),
+        );
+    }
+    let mut correction = settings.correction;
+    loop {
+        correction = (GROWTH * correction).min(of_arcs.radius);
+        let settings = Effective {
+            correction,
+            severities: severities.clone(),
+            ..settings.clone()
+        };
+        let found = narrowest(drawing, outlines, settings, is_cut).ok()?;
+        if let Some(narrowest) = found {
+            let smaller = narrowest.radius < of_arcs.radius;
+            let largest = if smaller { narrowest } else { of_arcs };
+            return Some(largest).filter(|largest| largest.diameter > 0.0);
+        }
+        if correction >= of_arcs.radius {
+            return Some(of_arcs);
+        }
+    }
+}
+
+/// What comes of the comparison was left out for its length.
+struct NotCompared;
+
+/// What the narrowest place below twice the correction lets through, if there is one.
+fn narrowest(
+    drawing: &Drawing,
+    outlines: &[Outline],
+    settings: Effective,
+    is_cut: &dyn Fn(usize) -> bool,
+) -> Result<Option<LargestWire>, NotCompared> {
+    let unit_mm = settings.unit_of(drawing).mm;
+    let gap = toolpath::last_gap(&settings).unwrap_or(0.0);
+    let analysis = Analysis::new(drawing, Arc::new(settings));
+    if analysis.pairs.uncompared() > 0 {
+        return Err(NotCompared);
+    }
+    let places = outlines.iter().enumerate().filter_map(|(index, outline)| {
+        let first = outline.contour.pieces.first()?;
+        Some((analysis.chains.contour_of(first.entity)?, index))
+    });
+    let places: FxHashMap<ContourKey, usize> = places.collect();
+    let outline = |key: ContourKey| Some((*places.get(&key)?, outlines.get(*places.get(&key)?)?));
+    let counts = |keys: [ContourKey; 2]| {
+        let both = keys.map(outline);
+        let is_drawn_once = |it: &Option<(usize, &Outline)>| {
+            it.is_some_and(|(_, outline)| outline.contour.double_of.is_none())
+        };
+        both.iter().all(is_drawn_once) && both.iter().flatten().any(|(index, _)| is_cut(*index))
+    };
+    let side_of = |key: ContourKey| outline(key)?.1.wire_side();
+    let outlook = |key: ContourKey| analysis.outlook(drawing, key);
+    let Some((width, facing)) = analysis.pairs.narrowest(&outlook, &side_of, &counts) else {
+        return Ok(None);
+    };
+    let [one, other] = facing.map(|(key, index)| outlook(key)?.segment_id(index));
+    Ok(one.map(|(entity, segment)| LargestWire {
+        diameter: width * unit_mm - 2.0 * gap,
+        radius: width * unit_mm / 2.0,
+        entity,
+        segment,
+        facing: other,
+    }))
+}
