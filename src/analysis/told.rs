@@ -167,23 +167,29 @@ pub(super) fn reaches(
     if both.into_iter().all(is_concerned) {
         return true;
     }
-    // Between an open contour that is cut and another one the wire of either keeps off the other, whose own wire may run on its far side;
-    // an end of an open contour has no sides, and the wire comes no further past it than the correction.
-    let is_open = |key: ContourKey| outlook(key).is_some_and(|it| !it.contour.closed);
-    let is_cut_open = |(key, _): (ContourKey, Option<Side>)| is_open(key) && side_of(key).is_some();
-    if each.one.0 == each.other.0
-        || PAIR_RULES[each.rule].rule != Rule::NarrowSlot
-        || !both.into_iter().any(is_cut_open)
-    {
+    if each.one.0 == each.other.0 || PAIR_RULES[each.rule].rule != Rule::NarrowSlot {
         return false;
     }
     let Some((_, radius)) = each.disc else {
         return false;
     };
+    // Between an open contour that is cut and another one the wire of either keeps off the other, whose own wire may run on its far side;
+    // an end of an open contour has no sides, and the wire comes no further past it than the correction. So does the wire round a punch keep
+    // off an opening beside it.
+    let is_open = |key: ContourKey| outlook(key).is_some_and(|it| !it.contour.closed);
+    let is_cut_open = |(key, _): (ContourKey, Option<Side>)| is_open(key) && side_of(key).is_some();
+    let is_punch = |(key, _): &(ContourKey, Option<Side>)| {
+        let (own, side) = outlook(*key).zip(side_of(*key))?;
+        (own.contour.closed).then(|| side.sign() * own.index.twice_area() < 0.0)
+    };
+    let has_opening = both.iter().any(|one| is_punch(one) == Some(false));
+    let is_any_open = both.into_iter().any(is_cut_open);
     let correction = outlook(each.one.0).map_or(0.0, |it| it.limits.correction);
     both.into_iter().any(|(key, side)| {
         let is_end = is_open(key) && side.is_none();
-        is_concerned((key, side)) && (!is_end || 2.0 * radius < correction)
+        is_concerned((key, side))
+            && (is_any_open || has_opening && is_punch(&(key, side)) == Some(true))
+            && (!is_end || 2.0 * radius < correction)
     })
 }
 

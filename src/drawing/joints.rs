@@ -246,7 +246,17 @@ impl<'a> Joints<'a> {
         else {
             return false;
         };
+        // Two segments lead out and back, or, as the halves of a circle, round something.
+        let encloses = || {
+            let mut segments = geometry.segments_of(self.drawing.flat());
+            let middles = segments
+                .next()
+                .zip(segments.next())
+                .map(|(out, back)| [out, back].map(|segment| segment.point_at(0.5)));
+            middles.is_some_and(|[out, back]| (out - back).norm() > self.cells.join)
+        };
         geometry.segment_count() > 2
+            || geometry.segment_count() == 2 && encloses()
             || geometry
                 .segments_of(self.drawing.flat())
                 .any(|segment| segment.as_arc().is_some_and(|arc| !arc.is_minor()))

@@ -35,6 +35,19 @@ fn contours_that_are_open() {
         false,
     );
     check(&closed(&SQUARE), None, Rule::OpenContour, 0, true);
+    // Two segments that return to their start: the halves of a circle, a half disc; out and back encloses nothing.
+    for (back, bulge, is_open) in [(1.0, 1.0, 0), (0.0, 1.0, 0), (-1.0, 1.0, 1), (0.0, 0.0, 1)] {
+        let there_and_back = open(&[(0.0, 0.0, bulge), (10.0, 0.0, back), (0.0, 0.0, 0.0)]);
+        // As the polyline that it is.
+        for drawing in drawings(&there_and_back, Some(Role::Opening))
+            .iter()
+            .take(1)
+        {
+            let found = analysed(drawing).1;
+            let told = count(&found, Rule::OpenContour);
+            assert_eq!(told.min(1), is_open, "{bulge} {back}: {found:?}");
+        }
+    }
     // Once it is closed the wire has a side on it, and four corners to leave round: that is no reason to leave it open.
     for drawing in drawings(&open(&SQUARE), Some(Role::Opening)) {
         let (analysis, findings) = analysed(&drawing);

@@ -168,6 +168,38 @@ fn parts_that_share_a_wall_have_no_room_between_them() {
             [punch, opening],
             0,
         ),
+        // The wire round a punch comes through the wall of an opening beside it; those of two openings stay in them, and so does that
+        // of a hole in the punch.
+        (
+            left(),
+            rectangle([10.15, 0.0], [20.0, 10.0]),
+            [punch, opening],
+            1,
+        ),
+        (
+            left(),
+            rectangle([10.05, 0.0], [20.0, 10.0]),
+            [opening, punch],
+            1,
+        ),
+        (
+            left(),
+            rectangle([10.15, 0.0], [20.0, 10.0]),
+            [opening, opening],
+            0,
+        ),
+        (
+            left(),
+            rectangle([10.25, 0.0], [20.0, 10.0]),
+            [punch, opening],
+            0,
+        ),
+        (
+            left(),
+            rectangle([0.15, 4.0], [3.0, 7.0]),
+            [punch, opening],
+            0,
+        ),
         // Drawn twice.
         (left(), left(), [punch, punch], 0),
         (left(), clockwise(), [opening, opening], 0),

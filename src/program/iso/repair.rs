@@ -9,6 +9,7 @@ mod around;
 pub(super) mod found;
 mod lost;
 mod scan;
+mod slip;
 mod words;
 
 use super::block::Block;
@@ -251,13 +252,6 @@ impl Contour for Suspect<'_> {
         let (was, is) = (self.total.faults(), after.faults());
         let is_sounder = was == [0, 0] && cost + SOUNDER < self.total.cost();
         let is_better = is < was || (after.hard == 0 && is_sounder);
-        // A change that adds a way, or removes something that stands only once, is never sure.
-        let is_a_slip = match change {
-            Change::Delete { index } => self.is_twice(*index),
-            Change::Insert { .. } => false,
-            Change::Replace { meant, .. } => !meant.is_calculated && !self.may_lack_a_line,
-            Change::Exchange { .. } => true,
-        };
         let (plainness, speaks) = match change {
             Change::Replace { meant, .. } => {
                 let is_a_word = !meant.is_calculated && !meant.found.is_empty();
@@ -288,7 +282,7 @@ impl Contour for Suspect<'_> {
                 && after.back <= self.total.back
                 && after.beside == 0
                 && after.unlike <= self.total.unlike
-                && is_a_slip
+                && self.is_a_slip(change, &lines)
                 && was > [0, 0]
                 && !self.begins_astray,
         };

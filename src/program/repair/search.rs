@@ -302,6 +302,11 @@ fn is_rival<C: Contour>(
 ) -> bool {
     // A doubled block is stronger evidence than a possibly lost one.
     let is_twin = matches!(change, Change::Delete { .. }) && matches!(its, Change::Insert { .. });
+    // Of two pairs of blocks that may have changed places nothing says which have.
+    let are_exchanged = matches!(
+        (change, its),
+        (Change::Exchange { .. }, Change::Exchange { .. })
+    );
     // What is calculated fits by itself.
     let clearly = match best.plainness > other.plainness {
         true => 2.0 * C::CLEARLY,
@@ -310,7 +315,7 @@ fn is_rival<C: Contour>(
     !is_twin
         && other.left == best.left
         && other.plainness <= best.plainness
-        && other.evidence - best.evidence < clearly
+        && (are_exchanged || other.evidence - best.evidence < clearly)
 }
 
 #[cfg(test)]

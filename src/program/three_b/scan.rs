@@ -305,7 +305,13 @@ impl Scan {
         }
         let end = reader.at;
         reader.at_next();
-        let digit = reader.here().filter(u8::is_ascii_digit);
+        // A number that stands apart is no quadrant, but the first of the coordinates after the block.
+        let next = reader.text.get(reader.at + 1);
+        let goes_on = next.is_some_and(|next| next.is_ascii_digit() || *next == b'.');
+        let is_quadrant = reader.at == end || !goes_on;
+        let digit = reader
+            .here()
+            .filter(|digit| digit.is_ascii_digit() && is_quadrant);
         self.quadrant = digit.and_then(|digit| Quadrant::from_number(digit - b'0'));
         if self.quadrant.is_none() {
             self.stops(reader.at, say!(a_quadrant_from_1_to_4))?;

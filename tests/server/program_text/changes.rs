@@ -92,7 +92,7 @@ fn refactorings_are_offered_as_versioned_edits_or_with_their_reason() {
             "rotate.left",
             "N50 G03 Y-10. I0. J-5. (half)\nN60 Y10. J5.\n",
         ),
-        ("profile", "G92 X0 Y0\nG91\nG41 D0\nG01 X5000 Y0\n"),
+        ("profile", "G92 X0 Y0\nG91\nG41 D1\nG01 X5000 Y0\n"),
     ] {
         let rewritten = editor.with(named(&all, kind));
         assert!(rewritten.contains(expected), "{kind}: {rewritten}");

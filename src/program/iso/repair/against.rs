@@ -15,6 +15,10 @@ pub(crate) struct Against {
     pub(crate) unlike: u32,
     /// Places at an arc where the way goes back on itself.
     pub(crate) back: u32,
+    /// Of the hard ones, lines out and back on one way, which may be a slit.
+    pub(crate) slits: u32,
+    /// Of the hard ones, arcs without a radius.
+    pub(crate) radiusless: u32,
 }
 
 impl Against {
@@ -36,6 +40,8 @@ impl Against {
             beside: self.beside + other.beside,
             unlike: self.unlike + other.unlike,
             back: self.back + other.back,
+            slits: self.slits + other.slits,
+            radiusless: self.radiusless + other.radiusless,
         }
     }
 
@@ -48,6 +54,8 @@ impl Against {
             beside: self.beside - other.beside,
             unlike: self.unlike - other.unlike,
             back: self.back - other.back,
+            slits: self.slits - other.slits,
+            radiusless: self.radiusless - other.radiusless,
         }
     }
 }

@@ -344,7 +344,10 @@ impl Scan {
                     });
                 self.against.vague += (miss / 1e3).min(3.0) * 0.6;
             }
-            Course::OffRadius { .. } | Course::NoRadius => self.against.hard += 1,
+            course @ (Course::OffRadius { .. } | Course::NoRadius) => {
+                self.against.hard += 1;
+                self.against.radiusless += u32::from(matches!(course, Course::NoRadius));
+            }
         }
         if let Some((start, end)) = directions(made, reading) {
             heading = Some(end);
@@ -404,6 +407,7 @@ impl Scan {
         }
         if turned > BACK {
             self.against.hard += 1;
+            self.against.slits += 1;
             return;
         }
         let slack = match last.center(reading.rule(last.incremental)) {

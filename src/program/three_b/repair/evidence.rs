@@ -210,11 +210,22 @@ impl Suspect<'_> {
         f64::from(self.path.beside.iter().any(is_own))
     }
 
+    /// True of an exchange where another one, of the first block or of the last, makes the way out the way in backwards.
+    fn may_be_a_lead(&self, change: &Change) -> bool {
+        let last = self.items.len().saturating_sub(2);
+        let is_mirrored = |change: &Change| is_mirrored(&self.with(change));
+        let mut ends = [0, last]
+            .into_iter()
+            .filter(|index| *index != change.index());
+        !is_mirrored(change) && ends.any(|index| is_mirrored(&Change::Exchange { index }))
+    }
+
     /// A change that adds a way is never sure. One supported by the coordinates alone is sure only where there is no
     /// other fault, and an arc for a block written like a line only where coordinates support it.
     fn may_be_sure(&self, change: &Change, left: usize) -> bool {
         match change {
             Change::Insert { .. } => false,
+            Change::Exchange { .. } => !self.may_be_a_lead(change),
             Change::Replace {
                 index,
                 meant: (block, Slip::Coordinates),

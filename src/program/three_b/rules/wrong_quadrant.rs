@@ -64,7 +64,8 @@ fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
         Fault::AxisQuadrant { expected, .. } | Fault::UnusualQuadrant { expected, .. } => {
             let is_fault = matches!(fault, Fault::AxisQuadrant { .. });
             let closes = |name: &&str| (site.closes_with)(&[named(&site.block, name)]);
-            let closing = expected.iter().copied().find(closes);
+            let mut all_closing = expected.iter().copied().filter(closes);
+            let (closing, is_only) = (all_closing.next(), all_closing.next().is_none());
             // The half axis that the controller takes it for now.
             let same = match (site.block.motion, expected[0]) {
                 (Motion::Line(Quadrant::Fourth), "L1") | (Motion::Line(Quadrant::First), "L2") => {
@@ -86,7 +87,7 @@ fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
                     .filter(|name| is_fault && *name != first),
             );
             let fix = |(index, name): (usize, &'static str)| {
-                let is_safe = index == 0 && is_fault && closing.is_some();
+                let is_safe = index == 0 && is_fault && closing.is_some() && is_only;
                 let made = named(&site.block, name);
                 let fix = site.fix(FixKind::SetMotion { name }, &made, is_safe);
                 fix.preferred_if(index == 0)
