@@ -23,6 +23,9 @@ use support::{Client, capabilities};
 const SECONDS: u64 = 60;
 const STEPS: u64 = 1_300;
 
+/// No further action of one document is tried after this time.
+const ACTING: Duration = Duration::from_secs(10);
+
 /// Findings of one document, one above the other, and where they came from.
 #[derive(Clone, Debug, PartialEq)]
 struct Told(Vec<Value>);
@@ -247,7 +250,11 @@ impl Soak {
         } else {
             0
         };
+        let began = Instant::now();
         for action in offered.iter().skip(first).take(12) {
+            if began.elapsed() > ACTING {
+                break;
+            }
             let kept = self.models[at].clone();
             let Some(changes) = self.models[at].changes_of(action, asked) else {
                 self.fail(at, &kept, action, "its edit cannot be made")
