@@ -3,7 +3,7 @@
 use super::compare::{Observed, Outlooks, SegmentId};
 use crate::drawing::{ContourKey, EntityId};
 use crate::finding::{Detail, Place, Rule, Severity, Side};
-use crate::rules::PAIR_RULES;
+use crate::rules::{Outlook, PAIR_RULES};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
 
@@ -154,6 +154,11 @@ pub(super) fn is_without_room(seen: &Observed) -> bool {
     PAIR_RULES[seen.rule].rule == Rule::NarrowSlot && seen.disc.is_none()
 }
 
+/// Whether a wire on this side of a closed contour runs outside of it, as round a punch.
+fn runs_outside(outlook: &Outlook, side: Side) -> bool {
+    side.sign() * outlook.index.twice_area() < 0.0
+}
+
 /// True where what is seen concerns the sides on which the wire runs.
 pub(super) fn reaches(
     each: &Observed,
@@ -180,7 +185,7 @@ pub(super) fn reaches(
     let is_cut_open = |(key, _): (ContourKey, Option<Side>)| is_open(key) && side_of(key).is_some();
     let is_punch = |(key, _): &(ContourKey, Option<Side>)| {
         let (own, side) = outlook(*key).zip(side_of(*key))?;
-        (own.contour.closed).then(|| side.sign() * own.index.twice_area() < 0.0)
+        own.contour.closed.then(|| runs_outside(&own, side))
     };
     let has_opening = both.iter().any(|one| is_punch(one) == Some(false));
     let is_any_open = both.into_iter().any(is_cut_open);
@@ -203,9 +208,11 @@ pub(super) fn takes_of_the_other(
     // Whether it is a punch, and its area; `None` for an open one, which keeps what lies on the other side of the wire.
     let of = |key: ContourKey| {
         let (outlook, side) = (outlook(key)?, wire_side(key)?);
-        let twice_area = outlook.index.twice_area();
-        let closed = outlook.contour.closed;
-        Some(closed.then_some((side.sign() * twice_area < 0.0, twice_area.abs())))
+        let of_closed = || {
+            let twice_area = outlook.index.twice_area().abs();
+            (runs_outside(&outlook, side), twice_area)
+        };
+        Some(outlook.contour.closed.then(of_closed))
     };
     let [Some(one), Some(other)] = keys.map(of) else {
         return false;

@@ -16,7 +16,7 @@ pub(super) enum Behind {
 }
 
 /// What a block between two semicolons holds.
-#[derive(Clone, Copy, Default)]
+#[derive(Default)]
 struct Held {
     /// Something else than words and values for the table.
     others: bool,
@@ -30,37 +30,25 @@ struct Held {
 }
 
 impl Held {
-    fn of(block: &[u8]) -> Held {
-        let mut held = Held::default();
+    /// Adds what a block holds.
+    fn add(&mut self, block: &[u8]) {
         scan(block, 0, false, |token, _| match token {
             Token::Word { letter, number } => match letter {
-                b'X' | b'Y' | b'I' | b'J' | b'R' => held.lengths = true,
-                b'G' if number.whole() == Some(4) => held.dwells = true,
-                b'G' => held.prepares = true,
-                b'M' => held.acts = true,
-                b'N' | b'O' => held.number = true,
+                b'X' | b'Y' | b'I' | b'J' | b'R' => self.lengths = true,
+                b'G' if number.whole() == Some(4) => self.dwells = true,
+                b'G' => self.prepares = true,
+                b'M' => self.acts = true,
+                b'N' | b'O' => self.number = true,
                 _ => {}
             },
             Token::Definition { .. } | Token::Sum { .. } | Token::Comment => {}
-            _ => held.others = true,
+            _ => self.others = true,
         });
-        held
-    }
-
-    fn with(self, other: Held) -> Held {
-        Held {
-            others: self.others | other.others,
-            lengths: self.lengths | other.lengths,
-            prepares: self.prepares | other.prepares,
-            dwells: self.dwells | other.dwells,
-            acts: self.acts | other.acts,
-            number: self.number | other.number,
-        }
     }
 
     /// Where the wire goes depends on it.
-    fn leads(self) -> bool {
-        self.lengths | self.prepares
+    fn leads(&self) -> bool {
+        self.lengths || self.prepares
     }
 }
 
@@ -72,13 +60,14 @@ pub(super) fn behind(line: &[u8], at: usize) -> Behind {
     let is_first = before.iter().all(u8::is_ascii_whitespace);
     let length = rest.iter().position(|byte| *byte == b';');
     let end = at + 1 + length.unwrap_or(rest.len());
-    let own = Held::of(line.get(at + 1..end).unwrap_or_default());
+    let (mut own, mut earlier) = (Held::default(), Held::default());
+    own.add(line.get(at + 1..end).unwrap_or_default());
     if rest.is_empty() || is_first || own.others {
         return Behind::Comment;
     }
-    let before = before.split(|byte| *byte == b';').map(Held::of);
-    let before = before.fold(Held::default(), Held::with);
-    let is_of_its_own = own.number || own.leads() && (before.lengths || before.acts);
+    let blocks = before.split(|byte| *byte == b';');
+    blocks.for_each(|block| earlier.add(block));
+    let is_of_its_own = own.number || own.leads() && (earlier.lengths || earlier.acts);
     match line.ends_with(b";") {
         true if own.dwells => Behind::Dwell { end },
         true if !is_of_its_own => Behind::Words,

@@ -166,7 +166,7 @@ fn slips_near(digits: &str, value: i64, within: i64) -> Vec<i64> {
     let is_plain = digits.bytes().all(|byte| byte.is_ascii_digit())
         && !digits.is_empty()
         && (digits == "0" || !digits.starts_with('0'));
-    // Nobody writes a zero in front: of such a number they are few, each looked at.
+    // Without a zero in front a number has one way to be written: those near the value are few.
     if is_plain {
         let near = value.saturating_sub(within).max(0)..=value.saturating_add(within);
         let is_one = |slip: &i64| keys::is_slip(digits.as_bytes(), slip.to_string().as_bytes());
