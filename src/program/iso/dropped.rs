@@ -2,10 +2,10 @@
 
 use super::block::{Note, read_line};
 use super::document::Document;
-use super::plain::words;
+use super::plain::{text_of, words};
 use super::unfollowed::{UnfollowedWord, unfollowed};
 use super::word::Token;
-use crate::text::{says_anything, shown};
+use crate::text::says_anything;
 use std::collections::BTreeSet;
 
 /// What stands in a program beside its moves.
@@ -39,8 +39,7 @@ pub(in crate::program) fn dropped(document: &Document, taper: bool) -> Dropped {
             }
         });
         words(bytes, 1, |token, range| {
-            let text = bytes.get(range.start - 1..range.end - 1);
-            let text = shown(text.unwrap_or_default().trim_ascii()).to_ascii_uppercase();
+            let text = text_of(bytes, &range);
             match token {
                 Token::Comment => found.comments |= says_anything(text.as_bytes()),
                 Token::Skip if !block.empty => found.optional.push(line),

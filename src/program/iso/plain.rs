@@ -5,7 +5,7 @@
 use super::cursor::scan;
 use super::word::{Number, Token, WordFault};
 use crate::program::lookalikes::{Alike, alike};
-use crate::text::SourceText;
+use crate::text::{SourceText, shown};
 use std::ops::Range;
 
 /// Hands each token of a line, without its line end, to `each`, with its range counted from `offset`.
@@ -16,6 +16,12 @@ pub(crate) fn words(line: &[u8], offset: usize, each: impl FnMut(Token, Range<us
 /// The same for a line that may not begin with a byte order mark; ranges are counted from its start.
 pub(super) fn words_in(line: &[u8], each: impl FnMut(Token, Range<usize>)) {
     tokens(line, 0, false, each);
+}
+
+/// The text of a word whose range is counted from 1, in upper case.
+pub(super) fn text_of(line: &[u8], range: &Range<usize>) -> String {
+    let text = line.get(range.start - 1..range.end - 1).unwrap_or_default();
+    shown(text.trim_ascii()).to_ascii_uppercase()
 }
 
 /// Hands the letter and the number of each word of a line to `each`, with its bytes in the text.

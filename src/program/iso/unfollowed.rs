@@ -5,9 +5,8 @@
 
 use super::block::Block;
 use super::document::Document;
-use super::plain::words;
+use super::plain::{text_of, words};
 use super::word::{Number, Token};
-use crate::text::shown;
 use std::collections::BTreeSet;
 
 /// What such a word does.
@@ -81,8 +80,7 @@ impl Line<'_> {
     fn of<'a>(bytes: &[u8], block: &'a Block) -> Line<'a> {
         let mut found = Vec::new();
         words(bytes, 1, |token, range| {
-            let text = bytes.get(range.start - 1..range.end - 1);
-            let text = shown(text.unwrap_or_default().trim_ascii()).to_ascii_uppercase();
+            let text = text_of(bytes, &range);
             found.push((token, text));
         });
         Line {
