@@ -486,6 +486,17 @@ fn program_session(program: &Program, rounds: usize) {
         );
     }
     edits.rows(&format!("{name}: one character"), "p50 1 ms");
+    let mut edits = Edits::default();
+    for _ in 0..(rounds / 40).max(1) {
+        version += 1;
+        let changes = last_digits(&text);
+        edits.time(&mut client, uri, |client| {
+            client
+                .notify("textDocument/didChange", json!({ "textDocument": { "uri": uri, "version": version }, "contentChanges": changes }));
+            version
+        });
+    }
+    edits.rows(&format!("{name}: a digit of every line"), "1 s");
     language_rows(&mut client, name, uri, line, text.lines().count(), rounds);
     let whole = json!({ "textDocument": { "uri": uri }, "options": { "tabSize": 4, "insertSpaces": true } });
     let format =
@@ -512,6 +523,19 @@ fn program_session(program: &Program, rounds: usize) {
         row(&format!("{name}: refactoring {kind}"), vec![time], "");
     }
     client.shut_down();
+}
+
+/// The last digit of every line, written again: one change each, from the last line to the first, as an editor sends
+/// what a refactoring has changed.
+fn last_digits(text: &str) -> Value {
+    let change = |(line, text): (usize, &str)| {
+        let at = text.rfind(|letter: char| letter.is_ascii_digit())?;
+        let place = |character: usize| json!({ "line": line, "character": character });
+        let range = json!({ "start": place(at), "end": place(at + 1) });
+        Some(json!({ "range": range, "text": &text[at..=at] }))
+    };
+    let lines: Vec<(usize, &str)> = text.lines().enumerate().collect();
+    lines.into_iter().rev().filter_map(change).collect()
 }
 
 /// An edit of a small drawing while everything is asked about one place of another document that takes long.

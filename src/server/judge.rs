@@ -1,8 +1,8 @@
 //! Makes a document's pending changes, and judges it: small work at once, the rest on a worker, so that no
 //! document waits for another.
 
+use super::changes;
 use super::content::{Content, Remains, is_small_drawing, is_small_text};
-use super::convert;
 use super::kind::Kind;
 use super::partner::{Kept, Wanted};
 use super::shown::Shown;
@@ -171,7 +171,7 @@ impl Job {
                         remarks.push(say!(was_changed_to_an_older_version, uri, newer, version));
                     }
                     version = version.max(newer);
-                    change(&mut content, changes, encoding);
+                    changes::make(&mut content, changes, encoding);
                 }
                 Task::ChangeDrawing { version: newer, .. } if newer <= version => {
                     refused.push(say!(version_is_not_newer_than, newer, version));
@@ -219,21 +219,5 @@ impl Job {
             form,
             uri,
         }
-    }
-}
-
-/// Makes the changes of one message in a text.
-pub(super) fn change(
-    content: &mut Content,
-    changes: Vec<TextDocumentContentChangeEvent>,
-    encoding: Encoding,
-) {
-    for change in changes {
-        let length = content.source_text().map_or(0, SourceText::len);
-        let range = match (change.range, content.source_text()) {
-            (Some(range), Some(text)) => convert::bytes_of(text, range, encoding),
-            _ => 0..length,
-        };
-        content.edit_text(range, &change.text);
     }
 }

@@ -4,6 +4,7 @@
 //! that the core could decide.
 
 mod beside;
+mod changes;
 mod client;
 mod config;
 mod content;

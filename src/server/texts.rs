@@ -1,8 +1,9 @@
 //! Text documents: opened, changed, closed.
 
+use super::changes;
 use super::client::Weight;
 use super::content::Content;
-use super::judge::{self, Task};
+use super::judge::Task;
 use super::kind::Kind;
 use super::open::Open;
 use super::state::State;
@@ -44,7 +45,7 @@ pub(super) fn change(
         return;
     }
     open.version = open.version.max(version);
-    judge::change(&mut open.content, changes, encoding);
+    changes::make(&mut open.content, changes, encoding);
     state.mark_dirty(uri);
     state.settings_changed();
 }
