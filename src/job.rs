@@ -8,6 +8,7 @@ mod convert;
 pub(crate) mod drill;
 mod milling;
 mod pair;
+mod tabs;
 
 pub(crate) use convert::{Converted, Target, convert};
 pub use pair::pair;
@@ -20,11 +21,9 @@ use crate::fit::{self, Fit};
 use crate::picture::{self, View};
 use crate::program::{self, Format, ProofError, ProvedProgram};
 use crate::rule::Rule;
-use crate::settings::{Effective, LengthSetting};
+use crate::settings::Effective;
 use crate::text::{Patch, TextEdit, edited};
-use crate::toolpath::{
-    self, Finished, Planned, StartHole, WirePath, Work, entities_of, plan_while,
-};
+use crate::toolpath::{self, Finished, Planned, StartHole, Work, entities_of, plan_while};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -428,7 +427,8 @@ fn written(
         &paths,
         &holes,
     ));
-    warnings.extend(no_tab_kept(snapshot, &paths));
+    warnings.extend(tabs::none_kept(snapshot, &paths));
+    warnings.extend(tabs::missed(snapshot, &paths));
     let mut work = analysis::work(&snapshot.drawing, &snapshot.outlines, settings, &paths);
     if let Some(milled) = &program.milled {
         // The finding of the simulation about the floor replaces the earlier one.
@@ -450,22 +450,5 @@ fn written(
         }),
         warnings,
         left_out,
-    })
-}
-
-/// The finding when a tab is requested and no contour keeps one.
-fn no_tab_kept(snapshot: &Snapshot, paths: &[WirePath]) -> Option<Finding> {
-    let settings = &snapshot.settings;
-    let is_asked = match &settings.tab {
-        LengthSetting::One(length) => *length > 0.0,
-        LengthSetting::ByHandle(_) => false,
-    };
-    let is_left_out = is_asked && !settings.mills && !paths.iter().any(|path| path.cut_off);
-    is_left_out.then(|| Finding {
-        rule: Rule::Settings,
-        severity: Severity::Information,
-        place: Place::Document,
-        detail: Detail::Said(say!(no_contour_keeps_a_tab, "program.tab")),
-        related: Vec::new(),
     })
 }

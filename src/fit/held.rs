@@ -326,8 +326,8 @@ fn corner(
     let (far, at_other, on) = farthest([one, other], edge, turned, about, limits)?;
     Some(Verdict {
         edge: edge as u32,
-        at: turned + (at_other - turned) * (one.half / far),
-        clearance: one.half - far,
+        at: turned + (at_other - turned) * (one.radius_of(edge) / far),
+        clearance: one.radius_of(edge) - far,
         other: on as u32,
         at_other,
     })
@@ -346,13 +346,14 @@ fn farthest(
     let (from, to) = (arc.start - turned, arc.end - turned);
     let sense = arc.sweep.signum();
     let is_whole = arc.is_full_turn();
-    let slack = limits.rounding * one.half;
+    let own = one.radius_of(index);
+    let slack = limits.rounding * own;
     let is_within = |way: Vector| {
         is_whole || cross(from, way) * sense >= -slack && cross(way, to) * sense >= -slack
     };
-    let kept = one.half - limits.clearance + limits.rounding;
+    let kept = own - limits.clearance + limits.rounding;
     let widest = (arc.sweep / 2.0).cos().max(1.0 / FARTHEST);
-    let reach = (one.half + 2.0 * limits.clearance) / widest;
+    let reach = (own + 2.0 * limits.clearance) / widest;
     let mut places: Vec<(f64, Point, usize)> = Vec::new();
     let area = Bounds::of_disc(turned, reach);
     about.asked.merge(&area);
@@ -391,7 +392,8 @@ fn farthest(
     places.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.2.cmp(&b.2)));
     let mut is_nearest = |&(far, at, _): &(f64, Point, usize)| {
         about.asked.merge(&Bounds::of_disc(at, far));
-        about.way.nearer(at, far - limits.rounding).is_none()
+        let from_way = far - one.edges[index].swing;
+        about.way.nearer(at, from_way - limits.rounding).is_none()
     };
     places.into_iter().find(|place| is_nearest(place))
 }

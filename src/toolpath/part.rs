@@ -22,6 +22,8 @@ pub(crate) struct Edge {
     pub geometry: Segment,
     /// Where the wire turned, and left its own radius.
     pub(crate) turned_about: Option<Point>,
+    /// By how much that radius is larger: the first pass turned in that point, and the last one ran beside it.
+    pub(crate) swing: f64,
     /// The walls that the path follows before and after, by index.
     walls: [usize; 2],
 }
@@ -66,6 +68,7 @@ impl Edge {
         Edge {
             geometry,
             turned_about: turn.map(|arc| arc.center),
+            swing: 0.0,
             walls: [
                 before,
                 if element.is_roll() {
@@ -79,6 +82,11 @@ impl Edge {
 }
 
 impl Part {
+    /// The radius that the wire has left where it turned about a point.
+    pub(crate) fn radius_of(&self, edge: usize) -> f64 {
+        self.half + self.edges[edge].swing
+    }
+
     /// The segment of the drawing that an edge stands for at a point of it: of those that the wire does not follow the nearest, else the
     /// one after the corner.
     pub(crate) fn segment_at(&self, edge: usize, at: Point) -> Option<(EntityId, usize)> {
@@ -140,6 +148,7 @@ pub(crate) fn part(
         own,
         path,
         is_proved,
+        swing,
     } = job.last_path(contour, away, last, before)?;
     let is_path_by_neighbours = !job.searched.swap(false, Relaxed);
     let path_follows = follows(&path);
@@ -165,6 +174,7 @@ pub(crate) fn part(
             edges: vec![Edge {
                 geometry: circle,
                 turned_about: Some(stand.start),
+                swing: 0.0,
                 walls: [path[0].wall; 2],
             }],
             near: Walls::new(vec![circle]),
@@ -210,7 +220,23 @@ pub(crate) fn part(
         }
     };
     let is_by_neighbours = [is_path_by_neighbours, !job.searched.load(Relaxed)];
-    let edge = |element: &Element| Edge::of(element, &path_follows);
+    let rounding = job.units(super::job::ROUNDING);
+    let edge = |element: &Element| {
+        let edge = Edge::of(element, &path_follows);
+        let piece = beside[element.wall].geometry;
+        let swung = piece.as_arc().filter(|arc| {
+            let is_inside = arc.sweep.signum() == away.sign();
+            swing > 0.0 && is_inside && (arc.radius - swing).abs() <= rounding
+        });
+        match swung.filter(|_| !element.is_roll()) {
+            Some(arc) => Edge {
+                turned_about: Some(arc.center),
+                swing,
+                ..edge
+            },
+            None => edge,
+        }
+    };
     let edges: Vec<Edge> = outline.iter().map(edge).collect();
     Ok(Part {
         near: Walls::new(edges.iter().map(|edge| edge.geometry).collect()),
@@ -273,6 +299,8 @@ struct Last {
     path: Vec<Element>,
     /// It has been proved at its correction.
     is_proved: bool,
+    /// The radius of its way about a point in which the first pass turned; 0 where it turns there itself.
+    swing: f64,
 }
 
 /// The segments of a closed contour in the direction of travel.
@@ -305,6 +333,7 @@ impl Job<'_> {
                 own: None,
                 path,
                 is_proved: false,
+                swing: 0.0,
             });
         }
         let is_plain = !is_beside_rough && settings.corner == Corner::Arc;
@@ -339,6 +368,7 @@ impl Job<'_> {
                 own,
                 path,
                 is_proved: is_plain,
+                swing: if is_beside_rough { rough - last } else { 0.0 },
             }),
             Ok(Laid::Point(stand)) => {
                 let element = Element {
@@ -351,6 +381,7 @@ impl Job<'_> {
                     own,
                     path: vec![element],
                     is_proved: false,
+                    swing: 0.0,
                 })
             }
             Err(fault) => Err(Refusal::Findings(vec![self.no_path(&fault, &walls, first)])),
@@ -399,6 +430,7 @@ impl Job<'_> {
                 own: Some(own),
                 path,
                 is_proved: true,
+                swing: 0.0,
             }),
             _ => None,
         })

@@ -1,9 +1,9 @@
 //! The passes of a contour with their leads: to and fro, on past the start, and without the tab,
 //! which is cut off after a stop.
 //!
-//! With a tab the passes end where it begins, and alternate ones go back from there: a step leads from the path of one to that of the
-//! next. Passes that all go one way come back to the thread hole from where the tab begins. Then the tab is cut in passes of its own, to and
-//! fro from where the wire stands, or one way from the thread hole.
+//! With a tab the passes end where it begins, and go back from there: a step leads from the path of one to that of the next. Then the tab is
+//! cut in passes of its own, to and fro from where the wire stands. Several passes that all go one way keep no tab: the way from where it
+//! begins back to the thread hole would cut off what hangs on it.
 
 use super::corners::Element;
 use super::entry::{Entry, path_point};
@@ -51,9 +51,15 @@ impl Job<'_> {
         kerfs: &Kerfs,
     ) -> Result<Vec<WirePath>, Refusal> {
         let tab = self.tab(&unled)?;
-        // From the beginning of the tab to the thread hole and back there, in place of along the
-        // contour.
-        let returns = self.settings.passes.sequence() == Sequence::OneWay && unled.passes.len() > 1;
+        // From the far end of an open contour to the thread hole, in place of along the contour.
+        let returns = self.returns(unled.passes.len());
+        if returns && tab.is_some() {
+            let handle = name(self.drawing, &self.outlines[unled.outline]);
+            let source = unled.walls.first().map(|wall| wall.source);
+            let sentence = say!(one_way_keeps_no_tab, handle);
+            let finding = fault(self.severity(), source, sentence, None);
+            return Err(Refusal::Findings(vec![finding]));
+        }
         let form = self.lead(wanted);
         let is_straight = form == Lead::Straight;
         let overlap = self.overlap(&unled)?;
@@ -90,7 +96,7 @@ impl Job<'_> {
         for (number, cut_off) in stages {
             let round = &mut rounds[number];
             let back = match cut_off {
-                true => at_tab.is_none() && !returns,
+                true => at_tab.is_none(),
                 false => self.settings.runs_back(number),
             };
             let from_tab = (tab.is_some() || !closed) && cut_off != back;
@@ -232,8 +238,7 @@ impl Job<'_> {
                 };
                 (ring, at.map(|(_, at)| at), wire, None)
             };
-        // One pass goes on as it came.
-        let returns = self.settings.passes.sequence() == Sequence::OneWay;
+        let returns = self.returns(count);
         let aside = |at: &Entry| {
             let away = normal(&unled.walls[at.wall].geometry, at.share, unled.side);
             let aside = at.point + away * (wire + self.units(CLEAR));
@@ -272,6 +277,11 @@ impl Job<'_> {
             aside: aside(tab),
         };
         Ok((round, side))
+    }
+
+    /// Whether each of so many passes comes back to the thread hole to go the same way as the one before.
+    fn returns(&self, passes: usize) -> bool {
+        self.settings.passes.sequence() == Sequence::OneWay && passes > 1
     }
 
     /// Where on the walls the tab begins; `None` for a contour that keeps none.

@@ -1,6 +1,6 @@
 //! What is left between punch and plate in a corner.
 
-use super::{corner, drawing, fit_of, notch, pair, polyline};
+use super::{corner, drawing, fit_of, notch, pair, polyline, settings};
 
 /// What is left in one corner, µm, and whether it fits.
 #[track_caller]
@@ -83,5 +83,43 @@ fn it_fits_up_to_the_correction_of_the_formula() {
         let drawing = drawing(vec![polyline("0", "2A", corner(turn, radius))]);
         assert!(fit_of(&drawing, &pair("punch", limit - 1e-5, clearance)).fits());
         assert!(!fit_of(&drawing, &pair("punch", limit + 1e-5, clearance)).fits());
+    }
+}
+
+/// With a constant stock the last pass runs on an arc about the point in which the first one turned, c1 from both walls, and leaves
+/// c1 - cn + half a kerf there.
+#[test]
+fn passes_with_a_constant_stock_leave_the_radius_of_the_first_in_a_corner() {
+    for turn in [60.0, 90.0, 120.0] {
+        for corrections in [&[0.2, 0.145][..], &[0.215, 0.17, 0.14]] {
+            for (drawn_as, is_notch) in [("punch", false), ("plate", true)] {
+                let vertices = match is_notch {
+                    true => notch(turn, 0.0),
+                    false => corner(turn, 0.0),
+                };
+                let drawing = drawing(vec![polyline("0", "2A", vertices)]);
+                let (first, last) = (corrections[0], corrections[corrections.len() - 1]);
+                let left = |skim_corner: &str| {
+                    let own = settings(&format!(
+                        "wire-diameter = {:?}\ngap = 0.01\n[passes]\ncorrections = {corrections:?}\n\
+                         skim-corner = \"{skim_corner}\"\n[pair]\ndrawn-as = \"{drawn_as}\"\nclearance = 0.01\n",
+                        2.0 * (last - 0.01)
+                    ));
+                    fit_of(&drawing, &own).least()
+                };
+                let deep = 1.0 / f64::to_radians(turn / 2.0).cos();
+                // The partner is cut by the clearance nearer.
+                let constant = first - last + last - (first - 0.01) * deep;
+                let sharp = last - (last - 0.01) * deep;
+                for (name, expected) in [("constant-stock", constant), ("sharp", sharp)] {
+                    let left = left(name);
+                    let label = format!("{turn}° {corrections:?} {drawn_as} {name}");
+                    assert!(
+                        (left - expected.min(0.01)).abs() < 1e-6,
+                        "{label}: {left} {expected}"
+                    );
+                }
+            }
+        }
     }
 }

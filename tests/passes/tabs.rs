@@ -2,9 +2,10 @@
 
 use super::{PLATE, THREE, drawing, generated, held, length, outlines, paths, settings};
 use wedm::drawing::Role;
+use wedm::finding::{Finding, Rule};
 use wedm::geometry::Point;
 use wedm::program::Format;
-use wedm::toolpath::{Source, plan};
+use wedm::toolpath::{Refusal, Source, plan};
 
 fn is_of_contour(source: &Source) -> bool {
     matches!(source, Source::Segment { .. } | Source::Corner { .. })
@@ -68,36 +69,44 @@ fn passes_leave_the_tab_and_cut_it_off_in_passes_of_its_own() {
     }
 }
 
+/// The way from where the tab begins back to the thread hole would cut off the punch, and what hangs on it, with the
+/// first pass.
 #[test]
-fn passes_one_way_come_back_from_the_tab_to_the_thread_hole() {
+fn passes_one_way_keep_no_tab() {
     for compensation in ["path", "controller"] {
-        let settings = settings(&format!(
-            "{THREE}sequence = \"one-way\"\n[program]\ntab = 3\ncompensation = \"{compensation}\"\n"
-        ));
+        let with = |tab: f64| {
+            settings(&format!(
+                "{THREE}sequence = \"one-way\"\n[program]\ntab = {tab}\ncompensation = \"{compensation}\"\n"
+            ))
+        };
         let drawing = drawing(Role::Punch, &PLATE);
-        let found = paths(&drawing, &settings);
-        assert_eq!(found.len(), 6);
-        for (number, path) in found.iter().enumerate() {
-            assert_eq!((path.cut_off, path.pass), (number >= 3, number % 3 + 1));
-            assert_eq!(path.counter_clockwise, Some(true));
-            assert_eq!(
-                (path.begin(), path.end()),
-                (path.thread_hole, path.thread_hole)
-            );
-            let own = length(path, is_of_contour);
-            assert!((own - 3.0).abs() < 1e-9 || own > 116.0, "{own}");
-            // The leads at the tab keep clear of the part, too.
-            for piece in path
-                .segments
-                .iter()
-                .filter(|piece| matches!(piece.source, Source::LeadIn | Source::LeadOut))
-            {
-                assert!(piece.geometry.start().y.max(piece.geometry.end().y) <= 0.0);
-            }
-        }
-        let made = generated(&drawing, &settings, Format::Iso);
-        assert_eq!(made.program.text.matches("M00").count(), 5);
+        let outlines = outlines(&drawing, &with(3.0));
+        let refused = plan(&drawing, &outlines, &with(3.0), None).expect_err("it drops");
+        let Refusal::Findings(findings) = refused else {
+            panic!("{refused:?}")
+        };
+        assert_eq!(findings.len(), 1);
+        let said = format!("{:?}", findings[0]);
+        assert!(said.contains("passes.sequence"), "{said}");
+        assert_eq!(
+            plan(&drawing, &outlines, &with(0.0), None).map(|paths| paths.len()),
+            Ok(3)
+        );
     }
+}
+
+#[test]
+fn a_punch_without_a_tab_is_said_to_drop_in_its_first_pass() {
+    let said = |role: Role, text: &str| {
+        let made = generated(&drawing(role, &PLATE), &settings(text), Format::Iso);
+        let of_settings = |said: &&Finding| said.rule == Rule::Settings;
+        made.warnings.iter().filter(of_settings).count()
+    };
+    let tab = format!("{THREE}[program]\ntab = 3\n");
+    assert_eq!(said(Role::Punch, THREE), 1);
+    assert_eq!(said(Role::Punch, &tab), 0);
+    assert_eq!(said(Role::Opening, THREE), 0);
+    assert_eq!(said(Role::Punch, "correction = 0.14\n"), 0);
 }
 
 #[test]

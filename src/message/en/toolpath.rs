@@ -16,8 +16,10 @@ declare! {
     runs_into_the_cut_along_contour(contour) => "runs into the cut along contour {contour}";
     an_open_contour_keeps_no_tab(handle) => "contour {handle} is open: nothing of it drops, so it keeps no tab; give the tab by handle to the contours that keep one, or set it to 0";
     no_contour_keeps_a_tab(key) => "{key}: no contour of this program keeps a tab; punches do, and openings whose slug is heavier than job.slug-limit";
+    a_punch_is_free_after_its_first_pass(handle) => "contour {handle} is a punch and keeps no tab: it drops in its first pass, and the later ones cut nothing; expected a program.tab, unless it is held otherwise";
     the_tab_is_longer_than_contour(tab, handle, length) => "the tab of {tab:.3} mm leaves nothing of contour {handle}, which is {length:.3} mm long: expected a shorter tab";
     the_overlap_is_longer_than_contour(overlap, handle, length) => "the overlap of {overlap:.3} mm goes all round contour {handle}, which is {length:.3} mm long: expected a shorter one";
+    one_way_keeps_no_tab(handle) => "contour {handle} keeps no tab in passes that all go one way: the way from where it begins back to the thread hole would cut the part off with the first pass; expected passes.sequence = \"alternate\"";
     no_tab_fits_at(x, y) => "no tab begins at ({x:.3}, {y:.3}): the wire does not pass there";
     the_start_hole_cuts_into(diameter, x, y, handle, by) => "the start hole of Ø {diameter:.3} mm at ({x:.3}, {y:.3}) cuts {by:.3} mm into contour {handle}";
     the_start_hole_comes_near(diameter, x, y, left, handle, correction, clear) => "the start hole of Ø {diameter:.3} mm at ({x:.3}, {y:.3}) leaves {left:.3} mm beside contour {handle}, expected the correction {correction:.3} mm plus {clear} mm";

@@ -16,8 +16,10 @@ translate! {
     runs_into_the_cut_along_contour(contour) => "切入轮廓 {contour} 的切缝";
     an_open_contour_keeps_no_tab(handle) => "轮廓 {handle} 未封闭：没有会落下的部分，因此不留暂留段；请按句柄只给需要的轮廓设置 tab，或把它设为 0";
     no_contour_keeps_a_tab(key) => "{key}：此程序没有轮廓留暂留段；只有凸模，以及废料重于 job.slug-limit 的型孔才留";
+    a_punch_is_free_after_its_first_pass(handle) => "轮廓 {handle} 是凸模而不留暂留段：第一次切割后它就掉下，以后各次切不到东西；若不另行固定，请设 program.tab";
     the_tab_is_longer_than_contour(tab, handle, length) => "暂留段长 {tab:.3} mm，而轮廓 {handle} 只长 {length:.3} mm，没有可切的了：请缩短暂留段";
     the_overlap_is_longer_than_contour(overlap, handle, length) => "重叠段长 {overlap:.3} mm，绕满了只长 {length:.3} mm 的轮廓 {handle}：请缩短重叠段";
+    one_way_keeps_no_tab(handle) => "各次都按同一方向切割时，轮廓 {handle} 不能留暂留段：第一次从暂留段起点返回穿丝孔就会把工件切下；请设 passes.sequence = \"alternate\"";
     no_tab_fits_at(x, y) => "({x:.3}, {y:.3}) 处留不出暂留段：电极丝到不了那里";
     the_start_hole_cuts_into(diameter, x, y, handle, by) => "({x:.3}, {y:.3}) 处 Ø {diameter:.3} mm 的穿丝孔切入轮廓 {handle} {by:.3} mm";
     the_start_hole_comes_near(diameter, x, y, left, handle, correction, clear) => "({x:.3}, {y:.3}) 处 Ø {diameter:.3} mm 的穿丝孔距轮廓 {handle} 只剩 {left:.3} mm，应为补偿量 {correction:.3} mm 加 {clear} mm";
