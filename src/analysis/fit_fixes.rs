@@ -3,7 +3,7 @@
 use super::Analysis;
 use crate::drawing::{Drawing, DrawingEdit};
 use crate::finding::{Detail, Finding, Fix, FixKind, Place, Side};
-use crate::fit::{Fitted, Held, SegmentOf, Spot};
+use crate::fit::{Fitted, SegmentOf, Spot};
 use crate::geometry::Point;
 use crate::rules::small_radius::{self, Travel};
 use crate::settings::Partners;
@@ -17,10 +17,13 @@ impl Analysis {
             return None;
         };
         let (_, clearance) = self.settings.fit().ok()?;
-        let before = self.pair_at(drawing, (entity, segment))?;
+        let partner = finding.related.first().and_then(|place| match place {
+            Place::Segment { entity, segment } => Some((*entity, *segment)),
+            _ => None,
+        });
+        let before = self.pair_at(drawing, (entity, segment), partner)?;
         let spot = spot_of(&before, finding, (entity, segment)).filter(|spot| spot.turn > 0.0)?;
         let corner = Corner {
-            before: &before.held,
             spot: &spot,
             clearance: clearance / self.limits.unit_mm,
             is_drawn: self.chains.contour_of(spot.segment.0)
@@ -79,19 +82,43 @@ impl Analysis {
         })
     }
 
-    /// The knowledge of the pair to which a segment belongs.
-    fn pair_at(&self, drawing: &Drawing, (entity, segment): SegmentOf) -> Option<Arc<Fitted>> {
+    /// The knowledge of the pair to which a segment belongs: of several that with a segment of its partner.
+    fn pair_at(
+        &self,
+        drawing: &Drawing,
+        own: SegmentOf,
+        partner: Option<SegmentOf>,
+    ) -> Option<Arc<Fitted>> {
+        let pairs = self.pairs_of(drawing, own)?;
+        let with_both = partner.and_then(|partner| {
+            let at = self.outline_at(drawing, partner)?;
+            pairs.iter().find(|pair| pair.contains(&at))
+        });
+        self.laid_pair(drawing, *with_both.or(pairs.first())?)
+    }
+
+    /// The pairs to whose outlines a segment belongs.
+    fn pairs_of(&self, drawing: &Drawing, segment: SegmentOf) -> Option<Vec<[usize; 2]>> {
+        let at = self.outline_at(drawing, segment)?;
+        Some(match self.settings.partners()? {
+            Partners::CutTwice(_) => vec![[at, at]],
+            Partners::Drawn => {
+                let pairs = self.drawn_partners(drawing).pairs.into_iter();
+                pairs.filter(|pair| pair.contains(&at)).collect()
+            }
+        })
+    }
+
+    fn outline_at(&self, drawing: &Drawing, (entity, segment): SegmentOf) -> Option<usize> {
         let (key, _) = self.chains.index_of(entity, segment)?;
+        let keys = self.in_machining_order(drawing);
+        keys.iter().position(|other| *other == key)
+    }
+
+    /// The knowledge of a pair; worked out if necessary.
+    fn laid_pair(&self, drawing: &Drawing, both: [usize; 2]) -> Option<Arc<Fitted>> {
         let outlines = self.outlines(drawing);
         let keys = self.in_machining_order(drawing);
-        let at = keys.iter().position(|other| *other == key)?;
-        let both = match self.settings.partners()? {
-            Partners::CutTwice(_) => [at, at],
-            Partners::Drawn => {
-                let mut pairs = self.drawn_partners(drawing).pairs.into_iter();
-                pairs.find(|pair| pair.contains(&at))?
-            }
-        };
         if let Some(answer) = self.fits.get(&(keys[both[0]], keys[both[1]]))
             && !answer.is_old
         {
@@ -99,6 +126,21 @@ impl Analysis {
         }
         let both = both.map(|index| (keys[index], &outlines[index]));
         self.fitted(drawing, both).map(Arc::new)
+    }
+
+    /// In how many places the pairs bind to whose outlines the segments of a spot belong.
+    fn binding_about(&self, drawing: &Drawing, spot: &Spot) -> usize {
+        let of_both = [spot.segment, spot.other]
+            .map(|(entity, _)| self.pairs_of(drawing, (entity, 0)).unwrap_or_default());
+        let mut pairs = of_both.concat();
+        pairs.sort_unstable();
+        pairs.dedup();
+        let binds = |(_, left): &(Point, f64)| *left < -self.limits.tolerances.report;
+        let laid = pairs
+            .into_iter()
+            .filter_map(|pair| self.laid_pair(drawing, pair));
+        laid.map(|pair| pair.held.clearances().filter(binds).count())
+            .sum()
     }
 
     /// The edit that gives a corner a radius, and what is then left of the clearance there: at most the clearance that
@@ -191,21 +233,19 @@ impl Analysis {
             return None;
         }
         let spot = corner.spot;
-        let place = (spot.segment.0, 0);
-        let pair = after.pair_at(&edited, place)?;
+        let pair = after.pair_at(&edited, (spot.segment.0, 0), Some((spot.other.0, 0)))?;
         let wide = self.wide(corner.clearance, spot.clearance);
         let near = |(at, _): &(Point, f64)| (at - spot.at).norm() <= wide;
         let left = pair.held.clearances().filter(near).map(|(_, left)| left);
-        let binds = |(_, left): &(Point, f64)| *left < -self.limits.tolerances.report;
-        let binding = |held: &Held| held.clearances().filter(binds).count();
         let left = left.fold(corner.clearance, f64::min);
-        (left < 0.0 || binding(&pair.held) < binding(corner.before)).then_some(left)
+        let [before, now] = [(self, drawing), (&after, &edited)]
+            .map(|(analysis, drawing)| analysis.binding_about(drawing, spot));
+        (now < before || (left < 0.0 && now == before)).then_some(left)
     }
 }
 
 /// A corner in which two parts bind.
 struct Corner<'a> {
-    before: &'a Held,
     spot: &'a Spot,
     clearance: f64,
     /// Both parts are drawn.

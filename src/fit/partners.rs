@@ -8,6 +8,7 @@ use crate::settings::Effective;
 use crate::toolpath::Walls;
 use rayon::iter::ParallelIterator;
 use rayon::slice::ParallelSlice;
+use rustc_hash::FxHashSet;
 use std::sync::Arc;
 
 /// Segments that one core takes at a time.
@@ -44,8 +45,9 @@ pub(crate) fn walls_of(drawing: &Drawing, contour: &Contour) -> Arc<Walls> {
     ))
 }
 
-/// The partners among the contours of workpieces. A contour has one: of several the one whose box fits best. `walls_of` hands out those of
-/// an outline. Which ran beside each other is told, too, by their outlines; of some that is `known`.
+/// The partners among the contours of workpieces. A punch has one in each of the others, a plate or a stripper has one punch: of several the one
+/// whose box fits best. `walls_of` hands out those of an outline. Which ran beside each other is told, too, by their outlines; of some that is
+/// `known`.
 pub(crate) fn partners(
     drawing: &Drawing,
     outlines: &[Outline],
@@ -113,10 +115,17 @@ pub(crate) fn partners(
         let by_off = a.0.total_cmp(&b.0);
         by_off.then_with(|| (place(a.1), place(a.2)).cmp(&(place(b.1), place(b.2))))
     });
+    // What goes round another one is no punch to a third.
+    let mut holds = vec![false; candidates.len()];
+    for &(_, _, plate) in &found {
+        holds[plate] = true;
+    }
+    found.retain(|(_, punch, _)| !holds[*punch]);
     let mut taken = vec![false; candidates.len()];
+    let mut served: FxHashSet<(usize, u16)> = FxHashSet::default();
     let mut drawn = Drawn::default();
     for (_, punch, plate) in found {
-        if !taken[punch] && !taken[plate] {
+        if !taken[plate] && served.insert((punch, candidates[plate].workpiece)) {
             taken[punch] = true;
             taken[plate] = true;
             drawn.pairs.push([place(punch), place(plate)]);

@@ -83,6 +83,28 @@ fn two_drawn_parts_are_held_against_each_other_and_meet_in_no_other_rule() {
     );
 }
 
+/// The stripper runs round the punch as the plate does; it is not the plate's partner. A fix of the one pair spoils no other.
+#[test]
+fn a_punch_has_a_partner_in_each_of_the_other_workpieces() {
+    let own = settings(&DRAWN.replace("[workpieces]", "[workpieces]\nSTRIPPER = [\"ST\"]"));
+    let mut drawing = drawing(vec![
+        polyline("ST", "C", grown(20.0, 10.0, 0.02, 0.11)),
+        polyline("PL", "B", grown(20.0, 10.0, 0.01, 0.06)),
+        polyline("PU", "A", grown(20.0, 10.0, 0.0, 0.05)),
+    ]);
+    let found = fit_of(&drawing, &own);
+    assert_eq!((found.pairs.len(), found.alone.len()), (2, 0));
+    let plate = 0.01 - (f64::sqrt(2.0) - 1.0) * (0.1 - 0.06);
+    assert!((found.least() - plate).abs() < 1e-7, "{}", found.least());
+    while let Some(finding) = findings(&drawing, &own, Rule::DoesNotFit).first() {
+        let analysis = Analysis::new(&drawing, Arc::new(own.clone()));
+        let fixes = analysis.fixes(&drawing, finding);
+        assert_eq!(fixes.len(), 1, "{finding:?}");
+        drawing.apply(&fixes[0].edit).unwrap();
+    }
+    assert!(fit_of(&drawing, &own).fits());
+}
+
 /// Parts that are looser than they should be: what is left is the true distance, not the clearance that was asked for.
 #[test]
 fn more_than_the_clearance_is_said_as_it_is() {
