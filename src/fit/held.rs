@@ -6,8 +6,8 @@
 
 use super::Spot;
 use super::observations::{Observations, Verdict};
-use super::penetration::deepest;
 use super::reuse::Reuse;
+use super::walls::wall;
 use crate::geometry::{
     Bounds, Few, Point, Segment, Vector, cross, line_circle, line_line, reached,
 };
@@ -39,7 +39,7 @@ pub(crate) struct Held {
 }
 
 /// A corner is examined up to this many half kerfs from where the wire turned.
-const FARTHEST: f64 = 16.0;
+pub(super) const FARTHEST: f64 = 16.0;
 
 /// Edges that one core takes at a time.
 const AT_A_TIME: usize = 256;
@@ -51,7 +51,7 @@ const DOUBLINGS: u32 = 6;
 const WIDER: f64 = 1.0 + 1e-3;
 
 /// Of two edges that are as near as each other but for so small a share of the rounding the first one counts.
-const TIE: f64 = 1e-3;
+pub(super) const TIE: f64 = 1e-3;
 
 /// Lays the punch in the plate. `names` are what the two are called. What is known `since` before an edit is not looked at again.
 pub(super) fn held(
@@ -228,11 +228,11 @@ fn more_than_wanted(parts: [&Part; 2], names: &[Arc<str>; 2], limits: &Limits) -
 /// What lies about the edge that is looked at.
 pub(super) struct About<'a> {
     /// Edges of the other part.
-    edges: Nearby<'a>,
+    pub(super) edges: Nearby<'a>,
     /// The way of a wire.
-    way: Nearby<'a>,
+    pub(super) way: Nearby<'a>,
     /// A piece of that which the edge before lies beside.
-    beside: Option<usize>,
+    pub(super) beside: Option<usize>,
     /// The box of all that was asked about this edge.
     pub(super) asked: Bounds,
 }
@@ -407,78 +407,4 @@ fn crossed(segment: &Segment, from: Point, ray: Vector) -> Few<Point, 2> {
         Segment::Arc(arc) => line_circle(from, ray, arc.center, arc.radius),
     };
     found.into_iter().filter(|at| segment.spans(*at)).collect()
-}
-
-/// A wall of a drawn punch that lies too near to one of the plate, or runs into it.
-fn wall(
-    [punch, plate]: [&Part; 2],
-    index: usize,
-    about: &mut About,
-    limits: &Limits,
-) -> Option<Verdict> {
-    let plain = |part: &Part, index: usize| part.edges[index].turned_about.is_none();
-    if !plain(punch, index) {
-        return None;
-    }
-    let geometry = &punch.edges[index].geometry;
-    let mut nearest: (f64, Option<usize>) = (limits.clearance - limits.rounding, None);
-    let area = geometry.bounds().grown(limits.clearance);
-    about.asked.merge(&area);
-    about.edges.find(&area, |other| {
-        let most = nearest.0 + TIE * limits.rounding;
-        if plain(plate, other)
-            && let Some(apart) = plate.near.distance_below(geometry, other, most)
-            && (apart < nearest.0
-                || apart == nearest.0 && nearest.1.is_some_and(|known| other < known))
-        {
-            nearest = (apart, Some(other));
-        }
-        false
-    });
-    // What lies beyond the other's edge, or crosses it, is as deep as it is away from what the wire has cut.
-    let mut is_deep = |at: Point| {
-        let reach = plate.half + limits.rounding;
-        about.asked.merge(&Bounds::of_disc(at, reach));
-        about.beside = plate.path.nearer_from(about.beside, at, reach);
-        about.beside.is_none()
-    };
-    let is_through = nearest.1.is_some() && nearest.0 <= limits.rounding;
-    let deepest = match is_through || is_deep(geometry.start()) {
-        true => {
-            let reach = [plate.half, limits.rounding];
-            deepest(geometry, &mut about.way, reach, &mut about.asked)
-        }
-        false => None,
-    };
-    let (clearance, at, other) = match (deepest, nearest) {
-        (Some((depth, at)), (_, other)) => (-depth, at, other),
-        (None, (apart, Some(other))) => {
-            let at = nearest_place(geometry, &plate.edges[other].geometry);
-            (apart, at, Some(other))
-        }
-        (None, (_, None)) => return None,
-    };
-    let nearest_edge = || {
-        let (away, edge) = about.edges.nearest_to(at, plate.half)?;
-        about.asked.merge(&Bounds::of_disc(at, away));
-        Some(edge)
-    };
-    Some(Verdict {
-        edge: index as u32,
-        at,
-        clearance,
-        other: other.or_else(nearest_edge)? as u32,
-        at_other: at,
-    })
-}
-
-/// The point of a segment that is nearest to another one, of the ends of both.
-fn nearest_place(segment: &Segment, other: &Segment) -> Point {
-    let feet = [other.start(), other.end()]
-        .map(|end| segment.point_at(segment.share_of(end).clamp(0.0, 1.0)));
-    let ends = [segment.start(), segment.end()];
-    let places = ends.into_iter().chain(feet);
-    places
-        .min_by(|a, b| other.distance_to(*a).total_cmp(&other.distance_to(*b)))
-        .unwrap_or_else(|| segment.start())
 }

@@ -12,6 +12,7 @@ mod observations;
 mod partners;
 mod penetration;
 mod reuse;
+mod walls;
 
 pub(crate) use held::Held;
 pub(crate) use laid::{Fitted, Laid};

@@ -187,6 +187,38 @@ fn entities_of_two_workpieces_are_not_chained_to_each_other() {
     );
 }
 
+/// A sharp tip of the plate in a notch of the punch that ends in an arc: it stands as deep in the punch as it is farther from the arc's centre
+/// than its radius. The walls of the punch beside it stand less deep in the plate.
+#[test]
+fn a_tip_of_the_plate_counts_that_stands_in_a_notch_of_the_punch() {
+    for (radius, clearance) in [(0.3, 0.03_f64), (0.2, 0.02), (0.25, 0.02)] {
+        let own = settings(&DRAWN.replace("clearance = 0.01", &format!("clearance = {clearance}")));
+        let across = clearance * f64::sqrt(2.0);
+        let shape = |by: f64, tip: f64, notch: f64| {
+            rounded(&[
+                (Point::new(-by, -by), 1.0 + by),
+                (Point::new(20.0 + by, -by), 1.0 + by),
+                (Point::new(20.0 + by, 10.0 + by), 1.0 + by),
+                (Point::new(12.0 + by - tip, 10.0 + by), 0.5 + by),
+                (Point::new(10.0, 8.0 + tip), notch),
+                (Point::new(8.0 - by + tip, 10.0 + by), 0.5 + by),
+                (Point::new(-by, 10.0 + by), 1.0 + by),
+            ])
+        };
+        let drawing = drawing(vec![
+            polyline("PU", "A", shape(0.0, 0.0, radius)),
+            polyline("PL", "B", shape(clearance, across, 0.0)),
+        ]);
+        let deep = f64::sqrt(2.0) * (radius - clearance) - radius;
+        let found = fit_of(&drawing, &own).least();
+        assert!(
+            (found + deep).abs() < 2e-4,
+            "R {radius}: {found}, expected {}",
+            -deep
+        );
+    }
+}
+
 /// A plate whose corner arc is tighter than the correction, beside a punch: to make that arc alone larger would make the two bind, or partners no
 /// longer. Whatever is repaired, they are no tighter than before, and fit where they bound.
 #[test]
