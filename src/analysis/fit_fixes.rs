@@ -73,11 +73,14 @@ impl Analysis {
             radius,
             other: corner.is_drawn.then_some(radius + corner.clearance),
         };
+        // How far the fix moves a corner between straight walls, and another one that makes a tight arc larger after it.
+        let (moves, next) = (steep * radius, steep * (self.limits.fix_radius - radius));
+        let is_tight = radius < self.limits.correction && next <= self.limits.correction;
+        let moves = if is_tight { moves + next } else { moves };
         (left >= -rounding).then_some(Fix {
             kind,
             preferred: true,
-            // How far the fix moves a corner between straight walls.
-            in_fix_all: steep * radius <= self.limits.correction,
+            in_fix_all: moves <= self.limits.correction,
             edit,
         })
     }
