@@ -13,6 +13,7 @@ pub(crate) mod document;
 mod dropped;
 mod encode;
 mod evidence;
+mod far;
 mod fixes;
 pub(crate) mod labels;
 mod layout;
