@@ -17,6 +17,7 @@ mod far;
 mod fixes;
 pub(crate) mod labels;
 mod layout;
+mod leader;
 mod limits;
 mod line;
 pub(crate) mod machine;
