@@ -6,7 +6,7 @@ use super::*;
 type Told = Option<(&'static str, usize)>;
 
 /// Programs by name. A and B stand for the two parts of a contour.
-const PROGRAMS: [(&str, &str, Told); 40] = [
+const PROGRAMS: [(&str, &str, Told); 48] = [
     (
         "a call of nothing",
         "A\nM98 P7777\nB",
@@ -54,6 +54,34 @@ const PROGRAMS: [(&str, &str, Told); 40] = [
     ),
     ("a jump back", "A\nB\nM99 P5", Some(("M99 P5", 10))),
     ("a jump", "A\nGOTO5\nB", Some(("GOTO5", 7))),
+    (
+        "a jump of another control",
+        "A\nJUMP 5\nB",
+        Some(("JUMP 5", 7)),
+    ),
+    (
+        "a condition",
+        "A\nif #1 eq 2\nB\nENDIF",
+        Some(("IF #1 EQ 2", 7)),
+    ),
+    ("its other case", "A\nELSE\nB", Some(("ELSE", 7))),
+    ("a return", "A\nRETURN\nB", Some(("RETURN", 7))),
+    (
+        "a loop of another control",
+        "A\nLOOP 3\nB",
+        Some(("LOOP 3", 7)),
+    ),
+    (
+        "a call by name",
+        "A\nGOSUB 7 X5.\nB",
+        Some(("GOSUB 7 X5.", 7)),
+    ),
+    (
+        "a shift by name",
+        "A\nSHIFT X5. Y0.\nB",
+        Some(("SHIFT X5. Y0", 7)),
+    ),
+    ("a mirror by name", "A\nMIRROR X\nB", Some(("MIRROR X", 7))),
     (
         "a repeated block",
         "A\nG91 G01 X1. L3\nG90\nB",

@@ -40,6 +40,40 @@ fn a_way_in_or_out_is_told_by_the_other_pass_or_left_alone() {
     );
 }
 
+/// The text of a wrong program.
+macro_rules! wrong {
+    ($name:literal) => {
+        include_str!(concat!("../data/programs/wrong/", $name))
+    };
+}
+
+#[test]
+fn another_pass_of_iso_tells_which_block_is_wrong() {
+    for (text, found, meant) in [
+        (wrong!("another_pass_tells.iso"), "Y44.75", "Y4.75"),
+        (
+            wrong!("another_pass_backwards_tells.iso"),
+            "Y-11.2",
+            "Y-1.2",
+        ),
+    ] {
+        assert_eq!(fixed(text), text.replace(found, meant));
+    }
+}
+
+#[test]
+fn what_two_slips_explain_as_plainly_is_left_alone() {
+    for text in [
+        wrong!("digit_lost_before_the_point.iso"),
+        wrong!("either_quadrant_of_a_way_in.3b"),
+        wrong!("half_circle_lost.3b"),
+    ] {
+        assert_eq!(fixed(text), text);
+    }
+    let padded = wrong!("padded_digit.3b");
+    assert_eq!(fixed(padded), padded.replace("B 01024", "B 24"));
+}
+
 /// A circle with arcs for its ways in and out.
 const FORKED: &str = "B500B289B500GXL2\nB166B290B377GYNR1\nB7258B0B29032GYSR4\nB334B1B500GXNR3\nB500B289B500GXL1\nDD\n";
 

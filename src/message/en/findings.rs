@@ -209,7 +209,8 @@ declare! {
     word_without_number(column, letter) => "column {column}: {letter} has no number";
     expression_for_a_number(column, letter, shown) => "column {column}: {letter} is `{shown}`, an expression: only the control knows where the wire goes from here";
     word_is_no_number(column, letter, shown) => "column {column}: {letter} is `{shown}`, expected a number with one decimal point";
-    coordinate_beyond_any_machine(most) => "X or Y is more than {most} mm, farther than any machine travels: the line is not followed, and where the wire is after it is not known";
+    coordinate_beyond_any_machine(letter, most) => "{letter} is more than {most} mm, farther than any machine travels: the line is not followed, and where the wire is after it is not known";
+    word_beyond_any_machine(word, most) => "{word} is more than {most} mm, farther than any machine travels: it is not followed";
     number_of_too_many_digits(column, digits) => "column {column}: found a number of {digits} digits, expected at most 9";
     comment_is_not_closed(column) => "column {column}: the comment is not closed, expected `)`";
     letter_o_in_a_number(column) => "column {column}: found the letter O in a number, expected a zero";

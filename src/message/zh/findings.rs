@@ -209,7 +209,8 @@ translate! {
     word_without_number(column, letter) => "第 {column} 列：{letter} 后没有数字";
     expression_for_a_number(column, letter, shown) => "第 {column} 列：{letter} 是表达式 `{shown}`：电极丝由此走向何处只有控制器知道";
     word_is_no_number(column, letter, shown) => "第 {column} 列：{letter} 是 `{shown}`，应为最多带一个小数点的数";
-    coordinate_beyond_any_machine(most) => "X 或 Y 超过 {most} mm，没有机床能走这么远：不跟随本行，其后电极丝位置不明";
+    coordinate_beyond_any_machine(letter, most) => "{letter} 超过 {most} mm，没有机床能走这么远：不跟随本行，其后电极丝位置不明";
+    word_beyond_any_machine(word, most) => "{word} 超过 {most} mm，没有机床能走这么远：不跟随它";
     number_of_too_many_digits(column, digits) => "第 {column} 列：数字有 {digits} 位，最多 9 位";
     comment_is_not_closed(column) => "第 {column} 列：注释没有结束，应有 `)`";
     letter_o_in_a_number(column) => "第 {column} 列：数字中有字母 O，应为零";

@@ -163,12 +163,10 @@ pub enum Note {
 impl Note {
     /// A value for a place of the control's table, where it is one.
     fn of_table(letter: u8, place: Number, terms: Option<Vec<Term>>, range: Range<usize>) -> Note {
-        match terms.filter(|_| matches!(letter, b'D' | b'H')) {
-            Some(terms) => Note::Definition {
-                offset: Offset {
-                    letter,
-                    index: index(place),
-                },
+        let terms = terms.filter(|_| matches!(letter, b'D' | b'H'));
+        match index(place).zip(terms) {
+            Some((index, terms)) => Note::Definition {
+                offset: Offset { letter, index },
                 terms,
                 range,
             },
@@ -236,6 +234,11 @@ impl Code {
         u8::try_from(self.0 >> 16).unwrap_or_default()
     }
 
+    /// It says where the upper end of the wire goes, or between which planes it leans.
+    pub(super) fn is_of_guide(self) -> bool {
+        matches!(self.letter(), b'U' | b'V') || matches!(self, Code::SECOND | Code::PLANE)
+    }
+
     /// It does not depend on the machine in a program that mills.
     pub(super) fn is_height(self) -> bool {
         self.0 == u32::from(b'Z') << 16
@@ -276,8 +279,8 @@ pub fn read_line(line: &[u8], offset: usize, mut note: impl FnMut(Note)) -> Bloc
     });
     let Reader { block, calls, p } = reader;
     match p {
-        Some((subprogram, _)) if calls => Block {
-            call: subprogram,
+        Some((Some(subprogram), _)) if calls => Block {
+            call: Some(subprogram),
             ..block
         },
         Some((_, range)) if !block.takes_coordinates => {
@@ -393,17 +396,12 @@ impl Reader {
                 Some(99) => block.returns = true,
                 _ => note(Note::foreign(letter, number, range)),
             },
-            b'N' => block.number = Some(index(number)),
-            b'O' => block.program = Some(index(number)),
-            b'D' | b'H' => {
-                let index = index(number);
-                block.offset = Some(Offset { letter, index });
-            }
-            b'P' => {
-                let whole = number.whole();
-                self.p = Some((whole.and_then(|whole| u32::try_from(whole).ok()), range));
-            }
-            b'L' => block.repeat = Some(index(number)),
+            b'P' => self.p = Some((index(number), range)),
+            // Of a number that counts nothing the machine alone knows the meaning.
+            b'N' | b'O' | b'D' | b'H' | b'L' => match index(number) {
+                Some(index) => block.count(letter, index),
+                None => note(Note::foreign(letter, number, range)),
+            },
             // The feed does not change where the wire goes.
             b'F' => {}
             b'Z' => {
@@ -415,14 +413,22 @@ impl Reader {
     }
 }
 
-fn index(number: Number) -> u32 {
-    number
-        .whole()
-        .and_then(|whole| u32::try_from(whole).ok())
-        .unwrap_or(u32::MAX)
+/// A number that counts: whole, and not below 0.
+pub(super) fn index(number: Number) -> Option<u32> {
+    u32::try_from(number.whole()?).ok()
 }
 
 impl Block {
+    /// Takes a word that counts, or names a place of a table.
+    fn count(&mut self, letter: u8, index: u32) {
+        match letter {
+            b'N' => self.number = Some(index),
+            b'O' => self.program = Some(index),
+            b'L' => self.repeat = Some(index),
+            _ => self.offset = Some(Offset { letter, index }),
+        }
+    }
+
     /// Takes a G word; false where its meaning depends on the machine.
     fn prepare(&mut self, number: Number) -> bool {
         if number.decimals > 0 {

@@ -13,6 +13,8 @@ pub(super) struct Control {
     /// The state before the first line.
     pub(crate) begin: Machine,
     pub(crate) reading: Reading,
+    /// The first lines, which are not read.
+    pub(crate) leader: usize,
 }
 
 impl ChunkReader for Control {
@@ -29,7 +31,7 @@ impl ChunkReader for Control {
 
     fn run(&self, text: &SourceText, lines: Range<usize>, before: Machine) -> (Pathless, Machine) {
         let pathless = Stretch::run(
-            lines_from(text, lines.start),
+            lines_from(text, self.leader, lines.start),
             lines.len(),
             text.line_start(lines.start),
             before,
@@ -75,10 +77,14 @@ impl ChunkReader for Control {
     }
 }
 
-/// The lines of a text from one on, each with the byte at which it begins.
+/// The lines of a text from one on, each with the byte at which it begins; those of its `leader` are empty.
 pub(super) fn lines_from(
     text: &SourceText,
+    leader: usize,
     first: usize,
 ) -> impl Iterator<Item = (usize, &[u8])> + Clone {
-    (first..text.line_count()).map(|line| (text.line_start(line), text.line(line)))
+    (first..text.line_count()).map(move |line| {
+        let read = (line >= leader).then(|| text.line(line));
+        (text.line_start(line), read.unwrap_or_default())
+    })
 }

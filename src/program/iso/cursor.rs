@@ -199,6 +199,9 @@ impl Cursor<'_> {
     #[inline]
     fn word(&mut self, letter: u8) -> Token {
         let start = self.at;
+        if self.begins_with_a_name(start) {
+            return self.without_number(letter, start);
+        }
         self.at += 1;
         self.skip_space();
         match self.number(letter) {

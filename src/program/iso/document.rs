@@ -5,6 +5,7 @@ use super::control::{Control, lines_from};
 use super::cut::JoinedCut;
 use super::evidence::{Evidence, UsualDecimals};
 use super::layout::{LOOKED_AT, is_parted};
+use super::leader::leader;
 use super::limits::Limits;
 use super::machine::Machine;
 use super::moves::Reading;
@@ -33,6 +34,8 @@ pub struct Document {
     text: SourceText,
     stretches: Chunks<Stretch>,
     reading: Reading,
+    /// The first lines, which no control reads.
+    leader: usize,
     evidence: Evidence,
     /// The order of the lines, where it is not that of the text: then there is one stretch for each range in it.
     order: Option<Order>,
@@ -70,6 +73,7 @@ impl Document {
     pub(crate) fn read_with(bytes: Vec<u8>, settings: &Effective) -> Document {
         let limits = Limits::of(settings);
         let mut document = Document {
+            leader: 0,
             text: SourceText::new(bytes),
             stretches: Chunks::default(),
             reading: Evidence::default().reading(limits.center),
@@ -86,8 +90,7 @@ impl Document {
             repairs: OnceLock::new(),
             is_parted: OnceLock::new(),
         };
-        document.guess_reading();
-        document.run_all();
+        document.read_all();
         document
     }
 
@@ -147,9 +150,15 @@ impl Document {
         *self.is_parted.get_or_init(|| is_parted(&self.text))
     }
 
-    /// A line's bytes, without its end.
+    /// A line's bytes, without its end; none of a line before the first `%`.
     pub(super) fn line_bytes(&self, line: usize) -> &[u8] {
-        self.text.line(line)
+        let read = (line >= self.leader).then(|| self.text.line(line));
+        read.unwrap_or_default()
+    }
+
+    /// The first lines, which no control reads: those before its first `%`.
+    pub(crate) fn leader(&self) -> usize {
+        self.leader
     }
 
     /// From the first to the last byte of a line that is not a space.
@@ -219,7 +228,7 @@ impl Document {
         let last = last.map(|byte| self.text.line_of(placed.offset + byte as usize));
         let count = last.map_or(end, |last| end.min(last + 1)) - start;
         Stretch::run_with(
-            lines_from(&self.text, start),
+            lines_from(&self.text, self.leader, start),
             count,
             placed.offset,
             placed.stretch.before,
@@ -258,8 +267,7 @@ impl Document {
         if self.order.is_some() {
             let end = range.end.min(self.text.len());
             self.text.replace(range.start.min(end)..end, replacement);
-            self.guess_reading();
-            return self.run_all();
+            return self.read_all();
         }
         let control = self.control();
         let evidence = &mut self.evidence;
@@ -271,6 +279,9 @@ impl Document {
         let read = &self.stretches[reread.chunks.clone()];
         read.iter()
             .for_each(|stretch| evidence.add(&stretch.evidence));
+        if leader(&self.text) != self.leader {
+            return self.read_all();
+        }
         self.settle(Some(reread));
     }
 
@@ -289,6 +300,7 @@ impl Document {
         Control {
             begin: self.first_machine(),
             reading: self.reading,
+            leader: self.leader,
         }
     }
 
@@ -309,6 +321,13 @@ impl Document {
             .iter()
             .for_each(|stretch| evidence.add(&stretch.evidence));
         evidence
+    }
+
+    /// Reads all of the text.
+    fn read_all(&mut self) {
+        self.leader = leader(&self.text);
+        self.guess_reading();
+        self.run_all();
     }
 
     /// Runs the whole program.

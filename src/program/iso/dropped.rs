@@ -25,6 +25,7 @@ pub(crate) struct Dropped {
 pub(in crate::program) fn dropped(document: &Document, taper: bool) -> Dropped {
     let mut found = Dropped {
         unfollowed: unfollowed(document),
+        comments: document.leader() > 0,
         ..Dropped::default()
     };
     let mut seen = BTreeSet::new();

@@ -2,6 +2,7 @@
 //!
 //! Numbers stay as they are: a decimal point and the number of digits mean something to a control.
 
+use super::leader::leader;
 use super::plain::{words_at, words_in};
 use super::word::Token;
 use crate::program::edits::{self, AT_ONCE, LineEdits};
@@ -22,7 +23,7 @@ pub(crate) fn format(
     lines: Range<usize>,
 ) -> Vec<TextEdit> {
     let parted = layout.map_or_else(|| is_parted(text), |layout| layout != Layout::Compact);
-    let lines = lines.start..lines.end.min(text.line_count());
+    let lines = lines.start.max(leader(text))..lines.end.min(text.line_count());
     let firsts = lines.clone().step_by(AT_ONCE);
     let pieces: Vec<Range<usize>> = firsts
         .map(|first| first..(first + AT_ONCE).min(lines.end))

@@ -3,15 +3,9 @@
 use super::block::{Block, Compensation, Corner, Motion, Offset, Stop};
 use super::word::Number;
 use crate::finding::Side;
+use crate::program::path::mixed;
 
 use super::moves::{Bend, Course, Move, Place, Reading, added, apart, bend_about};
-
-/// The largest coordinate or way that a line may give, nm: 10 km, which is 10 m where µm were read as mm. No machine travels so far, and
-/// the sum of hundreds of thousands of lines still has room in an `i64`.
-pub(super) const FARTHEST: i64 = 10_000_000_000_000;
-
-/// The same in mm.
-pub(super) const FARTHEST_MM: i64 = FARTHEST / 1_000_000;
 
 /// The modal state, and the wire's position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -148,7 +142,7 @@ impl Machine {
     pub(crate) fn steer(&mut self, block: &Block, reading: &Reading) -> Option<Steered> {
         self.inch = block.inch.unwrap_or(self.inch);
         // Whether a line is followed depends on its words alone, not on where the wire is.
-        let is_unread = block.broken || self.leads_too_far(block, reading);
+        let is_unread = block.broken || self.leads_too_far(block, reading).is_some();
         if let Some(incremental) = block.incremental {
             self.incremental = incremental;
         }
@@ -195,16 +189,30 @@ impl Machine {
         moved
     }
 
-    /// True for a line whose X or Y, in the units of this state or its own, is more than [`FARTHEST`].
-    pub(super) fn leads_too_far(&self, block: &Block, reading: &Reading) -> bool {
+    /// The letter of the line's first word of the wire's way (X, Y, I, J, R, a corner) whose length, in the units of this
+    /// state or its own, is more than [`FARTHEST`].
+    pub(super) fn leads_too_far(&self, block: &Block, reading: &Reading) -> Option<char> {
+        if block.takes_coordinates {
+            return None;
+        }
         let inch = block.inch.unwrap_or(self.inch);
-        let is_too_far = |number: Number| {
-            // With so few digits it is not, whatever the unit.
-            number.mantissa.unsigned_abs() > 390_000
-                && reading.length(number, inch).unsigned_abs() > FARTHEST.unsigned_abs()
-        };
-        let coordinates = [block.x, block.y].into_iter().flatten();
-        !block.takes_coordinates && { coordinates }.any(is_too_far)
+        let words = [
+            ('X', block.x),
+            ('Y', block.y),
+            ('I', block.i),
+            ('J', block.j),
+            ('R', block.r),
+        ];
+        let words = words
+            .into_iter()
+            .filter_map(|(letter, number)| Some((letter, number?)));
+        let corner = block
+            .corner
+            .map(|corner| (if corner.round { 'R' } else { 'C' }, corner.size));
+        words
+            .chain(corner)
+            .find(|(_, number)| reading.is_too_far(*number, inch))
+            .map(|(letter, _)| letter)
     }
 
     /// G92. At the beginning, and where the wire has not moved since a stop, it sets the wire's position: the wire was
@@ -309,4 +317,25 @@ impl Machine {
         };
         Some(Steered { said, cut_short })
     }
+}
+
+/// Lines with an equal move have an equal mark, whatever their number.
+pub(super) fn mark_of(block: &Block, made: &Move) -> u64 {
+    let numbers = [
+        block.x,
+        block.y,
+        block.i,
+        block.j,
+        block.r,
+        block.corner.map(|corner| corner.size),
+    ];
+    numbers
+        .into_iter()
+        .fold(1 + made.motion as u64, |mark, number| match number {
+            Some(number) => mixed(
+                mark,
+                number.mantissa as u64 ^ u64::from(number.decimals) << 56,
+            ),
+            None => mixed(mark, 1 << 55),
+        })
 }

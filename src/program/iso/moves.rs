@@ -13,6 +13,13 @@ pub(crate) use crate::settings::CenterRule;
 /// Nanometres in a micrometre.
 pub(crate) const MICROMETRE: i64 = 1_000;
 
+/// The largest length that a word may give, nm: 10 km, which is 10 m where µm were read as mm. No machine travels so far, and
+/// the sum of hundreds of thousands of lines still has room in an `i64`.
+pub(super) const FARTHEST: i64 = 10_000_000_000_000;
+
+/// The same in mm.
+pub(super) const FARTHEST_MM: i64 = FARTHEST / 1_000_000;
+
 /// A place in nm.
 pub(crate) type Place = [i64; 2];
 
@@ -57,6 +64,18 @@ impl Reading {
             names_places: true,
             slack: self.tolerance as f64 / 1e3,
         }
+    }
+
+    /// Whether a length is more than [`FARTHEST`].
+    pub(super) fn is_too_far(&self, number: Number, inch: bool) -> bool {
+        // With so few digits it is not, whatever the unit.
+        number.mantissa.unsigned_abs() > 390_000
+            && self.length(number, inch).unsigned_abs() > FARTHEST.unsigned_abs()
+    }
+
+    /// A length as it is written, in nm; `None` for one that is too far.
+    pub(super) fn length_within(&self, number: Number, inch: bool) -> Option<i64> {
+        (!self.is_too_far(number, inch)).then(|| self.length(number, inch))
     }
 
     /// A length as it is written, in nm.

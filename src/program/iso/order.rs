@@ -2,6 +2,7 @@
 
 use super::block::{Block, Stop};
 use super::control::Control;
+use super::leader::leader;
 use crate::program::chunks::ChunkReader;
 use crate::text::SourceText;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -51,14 +52,14 @@ pub(crate) fn order(text: &SourceText) -> Order {
         left: most_lines,
         calls: MOST_CALLS,
     };
-    walk.run(0, 0, None);
+    walk.run(leader(text), 0, None);
     walk.order
 }
 
 /// The line of each N and O number; the last one where it stands several times, since subprograms stand after the end.
 pub(super) fn labels(text: &SourceText) -> FxHashMap<u32, usize> {
     let mut labels = FxHashMap::default();
-    for line in 0..text.line_count() {
+    for line in leader(text)..text.line_count() {
         let block = Block::of(text.line(line));
         for number in [block.number, block.program].into_iter().flatten() {
             labels.insert(number, line);
@@ -70,7 +71,7 @@ pub(super) fn labels(text: &SourceText) -> FxHashMap<u32, usize> {
 /// The numbers that are called.
 pub(super) fn called(text: &SourceText) -> FxHashSet<u32> {
     let call = |line: usize| Block::of(text.line(line)).call;
-    (0..text.line_count()).filter_map(call).collect()
+    (leader(text)..text.line_count()).filter_map(call).collect()
 }
 
 struct Walk<'a> {

@@ -5,14 +5,14 @@
 use super::block::{Block, Note, Stop, read_line};
 use super::corner::{self, Turned, turned};
 use super::evidence::FEW_BARE;
-use super::machine::{Behind, Machine, Trail};
+use super::machine::{Behind, Machine, Trail, mark_of};
 use super::moves::{Course, Move, Reading, added, apart};
 use super::part::{Hears, Part, SEVERAL, Tight, Ways};
 use super::shape::Shape;
 use super::stretch::{Definition, Foreign, Pathless, Stretch};
 use crate::finding::{Fault, Finding, Rule};
 use crate::geometry::Side;
-use crate::program::path::{joint, mixed};
+use crate::program::path::joint;
 use std::ops::Range;
 
 /// Arcs with a larger radius are not kept: no correction comes near, nm.
@@ -85,8 +85,9 @@ impl Stretch {
         stretch
     }
 
-    /// The block of a line, and whether the wire's upper end may go elsewhere than before.
-    fn block(&mut self, line: &[u8], offset: usize) -> (Block, bool) {
+    /// The block of a line, whether the wire's upper end may go elsewhere than before, and whether a length stands in a
+    /// word beside the wire's way.
+    fn block(&mut self, line: &[u8], offset: usize) -> (Block, bool, bool) {
         let Stretch {
             faults,
             foreign,
@@ -96,7 +97,7 @@ impl Stretch {
             ..
         } = &mut *self;
         let (inch, known_faults) = (after.inch, faults.len());
-        let (mut leans, mut is_unread) = (false, false);
+        let (mut leans, mut measures, mut is_unread) = (false, false, false);
         let block = read_line(line, offset, |note| match note {
             Note::Fault { fault, range } => {
                 // One of a kind is enough for a line: the others may follow from it.
@@ -110,6 +111,7 @@ impl Stretch {
             }
             Note::Foreign { code, range } => {
                 leans |= code.tilts();
+                measures |= code.measures();
                 match foreign.iter_mut().find(|word| word.code == code) {
                     Some(word) => word.count += 1,
                     None => foreign.push(Foreign {
@@ -123,12 +125,15 @@ impl Stretch {
                 offset,
                 terms,
                 range,
-            } => definitions.push(Definition {
-                offset,
-                terms,
-                inch,
-                range: pair(range),
-            }),
+            } => {
+                let range = pair(range);
+                definitions.push(Definition {
+                    offset,
+                    terms,
+                    inch,
+                    range,
+                });
+            }
             Note::Length { pointed, range } => {
                 let [bare, with_point] = &mut *lengths;
                 let kept = if pointed { with_point } else { bare };
@@ -144,7 +149,7 @@ impl Stretch {
                 }
             }
         });
-        (block, leans)
+        (block, leans, measures)
     }
 
     fn line<'a>(
@@ -155,7 +160,7 @@ impl Stretch {
         each: &mut Hears<'_>,
     ) {
         let known_faults = self.faults.len();
-        let (block, leans) = self.block(line, offset);
+        let (block, leans, measures) = self.block(line, offset);
         if block.empty {
             return;
         }
@@ -171,6 +176,10 @@ impl Stretch {
         self.fixed |= block.sets_position;
         let (torn, behind) = (self.after.torn, self.after.behind);
         self.faults.extend(self.too_far(&block, range));
+        if measures {
+            self.faults
+                .extend(self.beside_too_far(line, offset, &block));
+        }
         let steered = self.after.steer(&block, &self.reading);
         // A line that says where to go fixes the position even where it makes no move because the
         // position before it is unknown.
@@ -454,27 +463,6 @@ impl<'a, L: Lines<'a>> Ahead<'_, L> {
     fn beyond(&self, looked_at: usize) -> u32 {
         looked_at.saturating_sub(self.left) as u32
     }
-}
-
-/// Lines with an equal move have an equal mark, whatever their number.
-fn mark_of(block: &Block, made: &Move) -> u64 {
-    let numbers = [
-        block.x,
-        block.y,
-        block.i,
-        block.j,
-        block.r,
-        block.corner.map(|corner| corner.size),
-    ];
-    numbers
-        .into_iter()
-        .fold(1 + made.motion as u64, |mark, number| match number {
-            Some(number) => mixed(
-                mark,
-                number.mantissa as u64 ^ u64::from(number.decimals) << 56,
-            ),
-            None => mixed(mark, 1 << 55),
-        })
 }
 
 /// From the first to the last byte of a line that is not a space.

@@ -7,7 +7,9 @@
 mod against;
 mod around;
 pub(super) mod found;
+mod line;
 mod lost;
+mod passes;
 mod scan;
 mod slip;
 mod words;
@@ -28,6 +30,7 @@ use crate::text::TextEdit;
 pub(super) use around::cut_around;
 use around::{LONGEST, begins_astray, is_way, stands_alone, with_numbers_kept};
 use found::{Repair, Repairs};
+use passes::Passes;
 use scan::{Against, Line, Way};
 use std::borrow::Cow;
 use std::cell::OnceCell;
@@ -172,6 +175,8 @@ struct Suspect<'a> {
     pool: Pool,
     total: Against,
     order: Vec<usize>,
+    /// Those beside it that tell which of its moves are right.
+    passes: Option<Passes>,
     /// The block numbers of its lines and of those before it, once they were needed.
     numbers: Vec<OnceCell<Option<u32>>>,
     /// The cut before it has missed the place where this one should begin.
@@ -247,7 +252,10 @@ impl Contour for Suspect<'_> {
 
     fn judged(&self, change: &Change, cost: f64) -> (Option<Verdict>, usize) {
         let lines = self.lines_with(change);
-        let (after, runs) = self.way.with(change.index(), change.replaced(), &lines);
+        let (index, count) = (change.index(), change.replaced());
+        let (after, runs) = self.way.with(index, count, &lines);
+        let told = |passes: &Passes| passes.against(&self.way, index, count, &lines);
+        let (told, more) = self.passes.as_ref().map_or((0.0, 0), told);
         let cost = after.cost() + cost;
         let (was, is) = (self.total.faults(), after.faults());
         let is_sounder = was == [0, 0] && cost + SOUNDER < self.total.cost();
@@ -275,10 +283,11 @@ impl Contour for Suspect<'_> {
         };
         let verdict = Verdict {
             left: after.hard as usize,
-            cost: cost + later,
+            cost: cost + later + told,
             plainness,
-            evidence: after.soft + speaks,
+            evidence: after.soft + speaks + told,
             may_be_sure: after.hard == 0
+                && told <= 0.0
                 && after.back <= self.total.back
                 && after.beside == 0
                 && after.unlike <= self.total.unlike
@@ -286,7 +295,7 @@ impl Contour for Suspect<'_> {
                 && was > [0, 0]
                 && !self.begins_astray,
         };
-        (is_better.then_some(verdict), runs + 1)
+        (is_better.then_some(verdict), runs + more + 1)
     }
 
     fn lead(&self, change: &Change) -> Vec<Move> {
@@ -349,6 +358,7 @@ impl<'a> Suspect<'a> {
             document,
             total: way.total(),
             begins_astray: begins_astray(document, &lines),
+            passes: Passes::beside(document, &lines, &way),
             numbers: vec![OnceCell::new(); lines.end - lines.start.saturating_sub(LOOKED_BACK)],
             lines,
             way,
@@ -390,26 +400,6 @@ impl<'a> Suspect<'a> {
     fn moves(&self, index: usize) -> bool {
         let has_fault = self.way.lines[index].faults > 0;
         self.may_be_wrong(index) && (has_fault || self.made(index).is_some())
-    }
-
-    /// True for a line that repeats the one before.
-    fn is_twice(&self, index: usize) -> bool {
-        let said = |line: &Line| {
-            let Block {
-                x,
-                y,
-                i,
-                j,
-                r,
-                motion,
-                ..
-            } = line.block;
-            (x, y, i, j, r, motion)
-        };
-        let before = index.checked_sub(1).map(|before| &self.way.lines[before]);
-        before.is_some_and(|before| {
-            said(before) == said(&self.way.lines[index]) && !before.block.empty
-        })
     }
 
     /// The lines after a change.

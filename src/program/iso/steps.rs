@@ -68,7 +68,7 @@ impl Document {
                 return;
             }
             let range = self.text().line_range(line);
-            let bytes = &self.text().bytes()[range.clone()];
+            let bytes = self.line_bytes(line);
             let block = read_line(bytes, range.start, |_| {});
             if block.empty {
                 continue;
@@ -115,7 +115,7 @@ impl Document {
         let turned = turned(
             made,
             machine,
-            lines_from(self.text(), line + 1).map(|(_, line)| line),
+            lines_from(self.text(), self.leader(), line + 1).map(|(_, line)| line),
             self.reading(),
         );
         (turned.made, turned.corner)

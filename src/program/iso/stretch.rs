@@ -3,13 +3,13 @@
 //! A program is kept as stretches of lines, so that an edit runs only the stretch that it touched, and those after it
 //! whose state changes. A stretch that only moved is shifted, not run.
 
-use super::block::{Block, Code, Offset};
+use super::block::{Code, Offset};
 use super::evidence::Evidence;
-use super::machine::{FARTHEST_MM, Machine};
+use super::machine::Machine;
 use super::moves::{Place, Reading, added, micrometres};
 use super::part::{Part, Tight, Tightest, Ways};
 use super::word::Term;
-use crate::finding::{Fault, Finding, Rule};
+use crate::finding::Finding;
 use crate::geometry::Bounds;
 use crate::program::path::Lay;
 use crate::program::steps::Sum;
@@ -179,15 +179,6 @@ impl Stretch {
             self.is_fresh = true;
         }
         true
-    }
-
-    /// What is said of a line that leads farther than any machine.
-    pub(super) fn too_far(&self, block: &Block, range: (u32, u32)) -> Option<Finding> {
-        let range = range.0 as usize..range.1 as usize;
-        self.after.leads_too_far(block, &self.reading).then(|| {
-            let sentence = say!(coordinate_beyond_any_machine, FARTHEST_MM);
-            Finding::of(Fault::said(Rule::TooManyDigits, sentence), range)
-        })
     }
 
     /// A cut begins or ends in here: the lines after do not depend on those before.

@@ -2,7 +2,7 @@
 
 use super::block::Offset;
 use super::document::{Document, Table};
-use super::moves::Reading;
+use super::moves::{FARTHEST, Reading};
 use super::stretch::Definition;
 use super::word::Value;
 use std::collections::BTreeMap;
@@ -24,8 +24,8 @@ impl Document {
         let stretches = self.stretches().iter();
         for definition in stretches.flat_map(|stretch| &stretch.definitions) {
             match value(&table, definition, self.reading()) {
-                Some(value) => _ = table.insert(definition.offset, value),
-                None => _ = table.remove(&definition.offset),
+                Ok(value) => _ = table.insert(definition.offset, value),
+                Err(_) => _ = table.remove(&definition.offset),
             }
         }
         table
@@ -97,17 +97,38 @@ impl Document {
     }
 }
 
-/// The value for the table, nm; `None` where it depends on a place that is not filled.
-pub(super) fn value(table: &Table, definition: &Definition, reading: &Reading) -> Option<i64> {
+/// Why a value for the table is not known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum NoValue {
+    /// It depends on a place that is not filled.
+    Unfilled,
+    /// It is beyond any machine.
+    TooFar,
+}
+
+/// The value for the table, nm.
+pub(super) fn value(
+    table: &Table,
+    definition: &Definition,
+    reading: &Reading,
+) -> Result<i64, NoValue> {
     definition.terms.iter().try_fold(0_i64, |sum, term| {
         let value = match term.value {
-            Value::Number(number) => reading.length(number, definition.inch),
-            Value::Place { letter, index } => *table.get(&Offset { letter, index })?,
+            Value::Number(number) => reading
+                .length_within(number, definition.inch)
+                .ok_or(NoValue::TooFar)?,
+            Value::Place { letter, index } => *table
+                .get(&Offset { letter, index })
+                .ok_or(NoValue::Unfilled)?,
         };
-        Some(if term.is_negative {
-            sum.wrapping_sub(value)
-        } else {
-            sum.wrapping_add(value)
-        })
+        // Each is far below what overflows.
+        let sum = match term.is_negative {
+            true => sum - value,
+            false => sum + value,
+        };
+        match sum.unsigned_abs() <= FARTHEST.unsigned_abs() {
+            true => Ok(sum),
+            false => Err(NoValue::TooFar),
+        }
     })
 }

@@ -197,15 +197,15 @@ impl<'a> Reader<'a> {
             self.angle = (!is_steep).then(|| degrees.to_radians());
             self.doubtful = self.doubtful.or(doubtful);
         }
+        let length = |number: Option<Number>| self.reading.length_within(number?, machine.inch);
         for (plane, number) in self.planes.iter_mut().zip(said.planes) {
-            if let Some(number) = number {
-                *plane = Some(self.reading.length(number, machine.inch));
-            }
+            *plane = length(number).or(*plane);
         }
         // Beside G51 they are not positions of the guide.
         for (axis, number) in said.guide.into_iter().enumerate().filter(|_| !switches) {
-            let Some(number) = number else { continue };
-            let length = self.reading.length(number, machine.inch);
+            let Some(length) = length(number) else {
+                continue;
+            };
             self.apart[axis] = match machine.incremental {
                 true => self.apart[axis].wrapping_add(length),
                 false => length,

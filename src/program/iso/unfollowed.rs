@@ -3,32 +3,12 @@
 
 #![warn(clippy::indexing_slicing)]
 
-use super::block::Block;
+use super::block::{Block, index};
 use super::document::Document;
+use super::names::{Unfollowed, meaning};
 use super::plain::{text_of, words};
 use super::word::{Number, Token};
 use std::collections::BTreeSet;
-
-/// What such a word does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Unfollowed {
-    /// It moves the wire to a place that only the machine knows.
-    Way,
-    /// It mirrors, turns, scales or shifts what follows, or lets its coordinates mean something else.
-    Frame,
-    /// It counts from another zero than the blocks before it.
-    Zero,
-    /// It calls a subprogram that is not in the text.
-    Missing,
-    /// It calls something in a way that is not followed.
-    Call,
-    /// It says how often something runs.
-    Repeat,
-    /// The program goes on in another block.
-    Jump,
-    /// It says which correction holds, by a value that only the control knows.
-    Correction,
-}
 
 /// One of them in its line, from 0.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -147,7 +127,11 @@ impl Line<'_> {
     /// A call has words beside P and L that may say how often it runs, or from which block on.
     fn counts_otherwise(&self) -> bool {
         self.words.iter().any(|(token, text)| match token {
-            Token::Word { letter, .. } => !b"NOMPLGFXYD".contains(letter),
+            Token::Word {
+                letter: b'L',
+                number,
+            } => index(*number).is_none(),
+            Token::Word { letter, .. } => !b"NOMPGFXYD".contains(letter),
             Token::Foreign => !text.starts_with(['#', ':']),
             _ => false,
         })
@@ -192,11 +176,7 @@ fn of_name(text: &str) -> Option<Unfollowed> {
     let name: Vec<u8> = text.bytes().take_while(is_letter).collect();
     match &name[..] {
         b"D" | b"H" => Some(Unfollowed::Correction),
-        b"GOTO" | b"JUMP" | b"WHILE" | b"IF" => Some(Unfollowed::Jump),
-        b"REPEAT" | b"LOOP" => Some(Unfollowed::Repeat),
-        b"CALL" | b"GOSUB" => Some(Unfollowed::Call),
-        b"MIRROR" | b"ROT" | b"ROTATE" | b"SCALE" | b"SHIFT" | b"TRANS" => Some(Unfollowed::Frame),
-        _ => None,
+        name => meaning(name).flatten(),
     }
 }
 

@@ -80,7 +80,11 @@ impl Heading for Segment {
 #[derive(Debug)]
 pub(crate) enum Joint<H> {
     /// An arc that would continue the block before without a corner if it ran the other way round.
-    Reversed { made: H, is_back: bool },
+    Reversed {
+        made: H,
+        is_back: bool,
+        is_in_row: bool,
+    },
     /// Out, and back on the same way; the way before that, and the way out.
     Spur {
         made: H,
@@ -116,9 +120,11 @@ pub(crate) fn joint<H: Heading>(came: Option<H>, before: &H, made: H) -> Option<
         return None;
     }
     let [start, _] = made.exchanged()?;
+    let is_in_row = turned > BACK && are_of_a_row(before, &made);
     (turn(heading, start) < tangent(&made)?).then_some(Joint::Reversed {
         made,
         is_back: turned > BACK,
+        is_in_row,
     })
 }
 
@@ -127,10 +133,16 @@ impl<H: Heading> Joint<H> {
     pub(crate) fn fault(&self, next: Option<&H>) -> Option<Fault> {
         let [ahead, _] = next?.directions()?;
         match self {
-            Joint::Reversed { made, is_back } => {
+            Joint::Reversed {
+                made,
+                is_back,
+                is_in_row,
+            } => {
                 let ([_, end], [_, other]) = (made.directions()?, made.exchanged()?);
                 let now = turn(end, ahead);
-                let found = now > CLEAR && turn(other, ahead) < tangent(made)?;
+                // Equal half circles side by side are the edge of a shell, or the teeth of a rack.
+                let is_in_row = *is_in_row || now > BACK && are_of_a_row(made, next?);
+                let found = now > CLEAR && turn(other, ahead) < tangent(made)? && !is_in_row;
                 let is_sure = *is_back && now > BACK && made.says_center();
                 found.then_some(Fault::ReversedArc { is_sure })
             }
@@ -176,6 +188,17 @@ pub(crate) fn may_be_odd(before: &Segment, made: &Segment) -> bool {
 fn has_one_center<H: Heading>(before: &H, made: &H) -> bool {
     let of_before = before.to_center().map(|center| center - before.chord());
     matches!((of_before, made.to_center()), (Some(a), Some(b)) if (a - b).norm() <= MET)
+}
+
+/// Two arcs of one radius that turn the same way.
+fn are_of_a_row<H: Heading>(one: &H, other: &H) -> bool {
+    let turned = |arc: &H| {
+        let center = arc.to_center().filter(|_| arc.is_arc())?;
+        let [start, _] = arc.directions()?;
+        Some(center.norm() * cross(start, center).signum())
+    };
+    let radii = turned(one).zip(turned(other));
+    radii.is_some_and(|(a, b)| (a - b).abs() <= 2.0 * ROUNDING)
 }
 
 /// The largest turn that counts as none beside an arc, radians; `None` where it is so small that rounding decides its

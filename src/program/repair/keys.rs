@@ -19,7 +19,7 @@ pub(in crate::program) enum Key {
 }
 
 /// The numbers that may have been meant, each one keystroke away. `pointed` says whether numbers
-/// have a point, if known. Nobody writes an additional leading zero.
+/// have a point, if known. Nobody writes an additional leading zero, but a padded number keeps its length.
 pub(in crate::program) fn meant(text: &str, pointed: Option<bool>) -> Vec<(String, Key)> {
     let bytes = text.as_bytes();
     let digits: Vec<usize> = (0..bytes.len())
@@ -61,12 +61,8 @@ pub(in crate::program) fn meant(text: &str, pointed: Option<bool>) -> Vec<(Strin
             put(at, next + 1, &swapped, Key::Swapped);
         }
     }
-    // Behind the last digit, and the last one before the point.
-    let ends = text
-        .find('.')
-        .filter(|at| *at > 0)
-        .into_iter()
-        .chain([text.len()]);
+    // Behind the last digit, and the last one before the point, or the one that is lost there.
+    let ends = text.find('.').into_iter().chain([text.len()]);
     for at in ends {
         all.iter().for_each(|digit| put(at, at, digit, Key::Lost));
     }
@@ -88,7 +84,8 @@ pub(in crate::program) fn meant(text: &str, pointed: Option<bool>) -> Vec<(Strin
         _ => {}
     }
     let most = zeros(text);
-    meant.retain(|(text, _)| zeros(text) <= most);
+    let is_padded = most > 0;
+    meant.retain(|(other, _)| zeros(other) <= most || is_padded && other.len() == text.len());
     meant
 }
 
@@ -138,6 +135,20 @@ mod tests {
                 expected,
                 "{found} {meant}"
             );
+        }
+    }
+
+    #[test]
+    fn a_padded_digit_and_one_lost_before_the_point_are_meant() {
+        for (text, other, expected) in [
+            ("01016", "00016", true),
+            (".6217", "3.6217", true),
+            ("-.6", "-1.6", true),
+            ("1016", "0016", false),
+            ("500", "0500", false),
+        ] {
+            let is_meant = meant(text, None).iter().any(|(meant, _)| meant == other);
+            assert_eq!(is_meant, expected, "{text} {other}");
         }
     }
 

@@ -33,6 +33,11 @@ impl Language for Document {
 
     fn words(&self, line: &[u8], offset: usize) -> Vec<Part> {
         let mut parts = Vec::new();
+        if self.text().line_of(offset) < self.leader() {
+            let range = offset..offset + line.len();
+            let kind = WordKind::Comment;
+            return Vec::from_iter((!line.is_empty()).then_some(Part { kind, range }));
+        }
         words(line, 0, |token, range| {
             // A part of a word that is read nevertheless.
             if let Token::Fault(_) = token

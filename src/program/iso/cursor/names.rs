@@ -1,12 +1,8 @@
 //! What has no number: names, and conditions of macros.
 
+use super::super::names::meaning;
 use super::super::word::{Token, WordFault};
 use super::{Cursor, leads};
-
-/// Names with which the lines of macros begin that hold conditions and jumps.
-const OF_MACROS: [&str; 10] = [
-    "DO", "ELSE", "END", "ENDIF", "GOTO", "IF", "REPEAT", "RETURN", "THEN", "WHILE",
-];
 
 impl Cursor<'_> {
     /// Whether `<` at `start` begins the name of a program, `<PLATE-1>`, alone in its line.
@@ -15,6 +11,22 @@ impl Cursor<'_> {
         self.line[..start].iter().all(u8::is_ascii_whitespace)
             && behind.len() > 2
             && behind.iter().position(|byte| *byte == b'>') == Some(behind.len() - 1)
+    }
+
+    /// Whether a name at `start` has an O where a number may have a zero: `LOOP`.
+    #[inline]
+    pub(super) fn begins_with_a_name(&self, start: usize) -> bool {
+        matches!(self.line.get(start + 1), Some(b'O' | b'o'))
+            && meaning(self.letters_at(start)).is_some()
+    }
+
+    fn letters_at(&self, start: usize) -> &[u8] {
+        let rest = &self.line[start..];
+        let count = rest
+            .iter()
+            .take_while(|byte| byte.is_ascii_alphabetic())
+            .count();
+        &rest[..count]
     }
 
     /// A letter without a number: the name of something, an expression, or a fault.
@@ -29,15 +41,9 @@ impl Cursor<'_> {
             }
             _ => self.at = start + 1,
         }
-        let letters = self.line[start..]
-            .iter()
-            .take_while(|byte| byte.is_ascii_alphabetic())
-            .count();
-        let name = &self.line[start..start + letters];
-        if OF_MACROS
-            .iter()
-            .any(|own| name.eq_ignore_ascii_case(own.as_bytes()))
-        {
+        let name = self.letters_at(start);
+        let letters = name.len();
+        if meaning(name).is_some() {
             self.at = start + letters;
             self.skip(|byte| !matches!(byte, b'(' | b';' | b'%'));
             self.leave_space(start);

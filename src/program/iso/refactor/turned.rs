@@ -22,8 +22,13 @@ pub(super) fn turn_words(
         edits.extend(swapped_sides(sheet.document, 0..text.line_count()));
     }
     for line in 0..text.line_count() {
-        line_words(text.line(line), text.line_start(line), transform, edits)
-            .map_err(|reason| say!(line_by_number, line + 1, reason))?;
+        line_words(
+            sheet.document.line_bytes(line),
+            text.line_start(line),
+            transform,
+            edits,
+        )
+        .map_err(|reason| say!(line_by_number, line + 1, reason))?;
     }
     Ok(())
 }

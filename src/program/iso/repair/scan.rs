@@ -1,9 +1,9 @@
 //! Weighs the evidence against a way, move by move: faults and oddities.
 
 pub(crate) use super::against::Against;
+pub(crate) use super::line::Line;
 use crate::geometry::{Segment, Vector};
-use crate::program::iso::block::{Block, Motion, Note, Stop, read_line};
-use crate::program::iso::document::Document;
+use crate::program::iso::block::{Block, Motion, Stop};
 use crate::program::iso::machine::Machine;
 use crate::program::iso::moves::{
     Bend, Course, Move, Place, Reading, added, apart, distance, micrometres,
@@ -11,38 +11,8 @@ use crate::program::iso::moves::{
 use crate::program::iso::shape::directions;
 use crate::program::path::{BACK, CLEAR, ROUNDING, TANGENT, tolerance, turn};
 
-/// A line of a cut.
-#[derive(Clone, Debug)]
-pub(crate) struct Line {
-    pub(crate) block: Block,
-    /// Faults of its words.
-    pub(crate) faults: u32,
-}
-
-impl Line {
-    pub(crate) fn read(bytes: &[u8], document: &Document) -> Line {
-        let mut faults = 0;
-        let block = read_line(bytes, 1, |note| match note {
-            Note::Fault { .. } | Note::Twice { .. } => faults += 1,
-            // Among numbers that are written otherwise.
-            Note::Length { pointed, .. }
-                if document.pointed().is_some_and(|others| others != pointed) =>
-            {
-                faults += 1
-            }
-            _ => {}
-        });
-        if let Some(decimals) = document.usual_decimals() {
-            let lengths = [block.x, block.y, block.i, block.j, block.r];
-            faults += lengths
-                .into_iter()
-                .flatten()
-                .filter(|number| decimals.is_odd(*number))
-                .count() as u32;
-        }
-        Line { block, faults }
-    }
-}
+/// From this turn on a line lies on the one before, radians; below it, it may be a way out close beside that.
+const ON_ITSELF: f64 = 3.139;
 
 /// The cut that is under way.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,6 +27,8 @@ struct CutUnderWay {
     heading: Option<Vector>,
     /// All of it could be read.
     whole: bool,
+    /// The last line went back close beside the one before: a spur where another one follows, and else the way out.
+    turned_back: bool,
 }
 
 /// A way as far as it has been run.
@@ -141,6 +113,10 @@ impl<'a> Way<'a> {
         self.before[index].cut.and_then(|cut| cut.heading)
     }
 
+    pub(crate) fn blocks(&self) -> impl Iterator<Item = &Block> {
+        self.lines.iter().map(|line| &line.block)
+    }
+
     pub(crate) fn machine_before(&self, index: usize) -> &Machine {
         &self.before[index].machine
     }
@@ -186,6 +162,7 @@ impl<'a> Way<'a> {
             (Some(own), Some(its)) => {
                 let is_alike = own.last.seen_from(own.last.to) == its.last.seen_from(its.last.to)
                     || own.heading == its.heading;
+                let is_alike = is_alike && own.turned_back == its.turned_back;
                 if !is_alike || own.whole != its.whole || own.moves < 2 || its.moves < 2 {
                     return None;
                 }
@@ -328,6 +305,12 @@ impl Scan {
         } else if is_again {
             self.against.soft += 1.5;
         }
+        if let Some(cut) = &mut self.cut
+            && std::mem::take(&mut cut.turned_back)
+        {
+            self.against.hard += 1;
+            self.against.slits += 1;
+        }
         let begins = self.cut.as_ref().map(|cut| (cut.last, cut.heading));
         let mut heading = None;
         let mut slack = TANGENT;
@@ -380,6 +363,7 @@ impl Scan {
                     last: *made,
                     heading,
                     whole,
+                    turned_back: false,
                 });
             }
         }
@@ -399,15 +383,22 @@ impl Scan {
         let has_arc = made.is_arc() || last.is_arc();
         // Two lines do so, an arc may, and a way in goes out and in.
         let is_way_in = self.cut.as_ref().is_some_and(|cut| cut.moves == 1);
-        if turned > BACK && (has_arc || is_way_in) {
+        let is_lead = made.switches.is_some() || last.switches.is_some();
+        let is_on_itself = turned > ON_ITSELF;
+        if turned > BACK && (has_arc || is_way_in || is_lead && !is_on_itself) {
             self.against.back += 1;
             self.against.soft += 1.2;
             self.against.vague += 3.8;
             return;
         }
         if turned > BACK {
-            self.against.hard += 1;
-            self.against.slits += 1;
+            match &mut self.cut {
+                Some(cut) if !is_on_itself => cut.turned_back = true,
+                _ => {
+                    self.against.hard += 1;
+                    self.against.slits += 1;
+                }
+            }
             return;
         }
         let slack = match last.center(reading.rule(last.incremental)) {

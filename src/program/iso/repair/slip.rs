@@ -2,7 +2,7 @@
 
 use super::scan::Line;
 use super::{Change, Suspect};
-use crate::program::iso::block::Motion;
+use crate::program::iso::block::{Block, Motion};
 
 impl Suspect<'_> {
     /// False of a change that is never sure: one that adds a way, or removes something that stands only once, and one that is as well
@@ -26,6 +26,26 @@ impl Suspect<'_> {
             // Out and back on one way may be a slit, and then nothing is wrong.
             Change::Exchange { .. } => total.hard > total.slits && total.radiusless == 0,
         }
+    }
+
+    /// True for a line that repeats the one before.
+    pub(super) fn is_twice(&self, index: usize) -> bool {
+        let said = |line: &Line| {
+            let Block {
+                x,
+                y,
+                i,
+                j,
+                r,
+                motion,
+                ..
+            } = line.block;
+            (x, y, i, j, r, motion)
+        };
+        let before = index.checked_sub(1).map(|before| &self.way.lines[before]);
+        before.is_some_and(|before| {
+            said(before) == said(&self.way.lines[index]) && !before.block.empty
+        })
     }
 
     /// Where a cut begins is told by nothing but itself.

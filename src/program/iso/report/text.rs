@@ -3,12 +3,12 @@
 use super::super::block::Stop;
 use super::super::document::{Document, Table};
 use super::super::evidence::FEW_BARE;
-use super::super::moves::micrometres;
+use super::super::moves::{FARTHEST_MM, micrometres};
 use super::super::numbers::number_word;
 use super::super::order::MOST_CALLS;
 use super::super::plain::{word_at, words_at};
 use super::super::stretch::Placed;
-use super::super::table::value;
+use super::super::table::{NoValue, value};
 use super::{Report, SWITCH_REACH, at};
 use crate::finding::{Detail, Fault, NotJudged, Rule, Severity};
 use crate::program::path::{absurd_size, size_of};
@@ -161,18 +161,25 @@ impl Report<'_> {
         word.map_or_else(|| self.limits.end.clone(), |word| self.shown(&word))
     }
 
-    /// Values for the table that depend on places which the program does not fill.
+    /// Values for the table that depend on places which the program does not fill, or are beyond any machine.
     pub(super) fn definitions(&mut self) {
         let mut table = Table::default();
         for placed in self.document.placed() {
             for definition in &placed.stretch.definitions {
                 match value(&table, definition, self.reading) {
-                    Some(value) => _ = table.insert(definition.offset, value),
-                    None => {
+                    Ok(value) => _ = table.insert(definition.offset, value),
+                    Err(why) => {
                         table.remove(&definition.offset);
                         let range = at(placed.offset, definition.range);
                         let word = self.shown(&range);
-                        self.add(range, Fault::UnknownValue { word });
+                        let fault = match why {
+                            NoValue::Unfilled => Fault::UnknownValue { word },
+                            NoValue::TooFar => {
+                                let sentence = say!(word_beyond_any_machine, word, FARTHEST_MM);
+                                Fault::said(Rule::TooManyDigits, sentence)
+                            }
+                        };
+                        self.add(range, fault);
                     }
                 }
             }

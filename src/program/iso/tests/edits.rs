@@ -66,6 +66,58 @@ fn a_line_that_leads_too_far_in_one_unit_only_is_read_as_if_afresh() {
 }
 
 #[test]
+fn what_stands_before_the_first_tape_mark_is_passed_over_however_the_text_was_edited() {
+    let cuts = "G01 X3. Y1.\n".repeat(60);
+    for remark in [
+        "PLATE 7 X 9 MM",
+        "WIRE .25; 2 PASSES",
+        "<A>\nN5 R#1 OF 2",
+        "G90",
+    ] {
+        for lines in [0, 1, 30, 70] {
+            let leader = format!("{remark}\n{}", "\n".repeat(lines));
+            let text = format!("{leader}%\nG92 X0 Y0\nG91\n{cuts}M02\n%\n");
+            let mut document = read(&text);
+            let is_near = text.lines().position(|line| line == "%") < Some(64);
+            let is_of_leader = |finding: &crate::finding::Finding| matches!(&finding.place, crate::finding::Place::Text { range } if range.start < leader.len());
+            let is_said = document.findings().iter().any(is_of_leader);
+            assert_eq!(is_said, !is_near && remark != "G90", "{text}");
+            assert_eq!(
+                document
+                    .trace()
+                    .steps
+                    .iter()
+                    .filter(|step| step.moves())
+                    .count(),
+                60
+            );
+            let tape = leader.len();
+            document.edit(tape..tape + 1, "");
+            assert_as_afresh(&document, "without the mark");
+            document.edit(tape..tape, "%");
+            assert_as_afresh(&document, "with it again");
+            document.edit(tape..tape, "G01 X5.\n");
+            assert_as_afresh(&document, "behind a cut");
+            document.edit(tape..tape + 8, "");
+            document.edit(0..0, "ANOTHER LINE\n");
+            assert_as_afresh(&document, "a line more");
+            document.edit(0..1, "");
+            let fresh = assert_as_afresh(&document, "a letter less");
+            let edits = crate::program::iso::format(
+                fresh.text(),
+                Some(crate::settings::Layout::Compact),
+                0..fresh.text().line_count(),
+            );
+            let leader = fresh.text().line_start(fresh.leader());
+            assert!(
+                edits.iter().all(|edit| edit.range.start >= leader),
+                "{text}"
+            );
+        }
+    }
+}
+
+#[test]
 fn the_first_centre_that_does_not_tell_is_where_it_is_however_the_text_was_edited() {
     // The first line with I and J follows one that cannot be read, so its arc is not known.
     for place in 0..60 {

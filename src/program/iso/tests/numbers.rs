@@ -427,3 +427,52 @@ fn a_line_that_leads_beyond_any_machine_is_named_and_not_followed() {
     let beyond = found.iter().filter(|(_, rule)| *rule == "too-many-digits");
     assert_eq!(beyond.collect::<Vec<_>>(), [&(3, "too-many-digits")]);
 }
+
+/// Lines with the number `#`, in a program in mm with points.
+const LENGTHS: [&str; 19] = [
+    "G01 X#",
+    "G01 Y-#",
+    "G02 X0. Y10. I# J0.",
+    "G02 X0. Y10. I0. J-#",
+    "G03 X0. Y10. R#",
+    "G03 X0. Y10. R-#",
+    "G01 X0. R#",
+    "G01 X0. ,R#",
+    "G01 X0. ,C#",
+    "G01 X0. U#",
+    "G01 X0. V-#",
+    "G01 X0. Z#",
+    "G01 X0. : X# Y0.",
+    "G01 X0. : G02 X0. Y5. I# J0.",
+    "TP#",
+    "TN-#",
+    "D1=#",
+    "H7=-#",
+    "H1=1.+#",
+];
+
+proptest::proptest! {
+    #[test]
+    fn every_length_beyond_any_machine_is_named_once(at in 0..LENGTHS.len(), whole in 10_000_001_u32..=999_999_999, decimals in "[0-9]{0,9}") {
+        let line = LENGTHS[at].replace('#', &format!("{whole}.{decimals}"));
+        let text = format!("G21\nG90\nG92 X0. Y0.\nG01 X10.\nY10.\n{line}\nG01 X5. Y0.\nX0. Y0.\nM02\n");
+        let document = Document::read_with(text.as_bytes().to_vec(), &Effective::default());
+        let named = faults(&text, &Effective::default());
+        let named: Vec<_> = named.iter().filter(|(_, rule)| *rule != "machine-dependent").collect();
+        proptest::prop_assert!(named.contains(&&(6, "too-many-digits")), "{line}: {named:?}");
+        proptest::prop_assert_eq!(named.iter().filter(|(row, _)| *row == 6).count(), 1, "{}: {:?}", line, named);
+        let trace = document.trace();
+        let is_sane = |step: &crate::program::path::Step| step.end.coords.abs().max() < 1e11;
+        proptest::prop_assert!(trace.steps.iter().all(is_sane), "{line}");
+        for way in document.taper().iter().flat_map(|taper| &taper.upper).flatten() {
+            proptest::prop_assert!(way.end().coords.abs().max() < 1e11, "{line}");
+        }
+    }
+
+    #[test]
+    fn a_number_that_counts_nothing_depends_on_the_machine(letter in "[NDHL]", number in "-[1-9]|[0-9]\\.[1-9]") {
+        let text = format!("G90 G92 X0. Y0.\n{letter}{number} G01 X5. Y0.\nY5.\nX0. Y0.\nM02\n");
+        let found = faults(&text, &Effective::default());
+        proptest::prop_assert!(found.contains(&(2, "machine-dependent")), "{text}{found:?}");
+    }
+}

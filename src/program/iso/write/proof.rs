@@ -5,7 +5,7 @@ use crate::geometry::Segment;
 use crate::program::encode::proved_aside;
 use crate::program::grid::point_of;
 use crate::program::iso::encode::Encoded;
-use crate::program::iso::machine::FARTHEST;
+use crate::program::iso::moves::FARTHEST;
 use crate::program::iso::moves::{Course, Move, Place, micrometres};
 use crate::program::write::{ProofError, Proved, scaled, too_far_out};
 

@@ -83,8 +83,16 @@ impl Suspect<'_> {
         let mut joints = joints(&items);
         let mut was_joined = self.joints;
         let is_mirrored = !self.is_mirrored && is_mirrored(&items);
-        if is_mirrored && self.is_replaced_end(change) {
-            // Either of the two ways may be the wrong one: how they meet the contour does not tell.
+        let restores = matches!(
+            change,
+            Change::Replace {
+                meant: (_, Slip::Unread { .. }),
+                ..
+            }
+        );
+        if (is_mirrored || restores) && self.is_replaced_end(change) {
+            // Either of the two ways may be the wrong one, or either of two quadrants: how a way in meets the contour does
+            // not tell.
             joints = was_joined;
         }
         if let Change::Delete { index } = change {
@@ -93,13 +101,6 @@ impl Suspect<'_> {
         }
         let joined = joints.without(&was_joined);
         let gain = joined.smooth - joined.split;
-        let restores = matches!(
-            change,
-            Change::Replace {
-                meant: (_, Slip::Unread { .. }),
-                ..
-            }
-        );
         let is_better = match change {
             // Where there is no other fault the exchange must make the joints better.
             Change::Exchange { .. } if was == 0 => left == 0 && gain >= 2 && joined.doubled <= 0,
@@ -148,12 +149,20 @@ impl Suspect<'_> {
         let lacks_a_number =
             after.out_of_turn > 0 && (2 * after.out_of_turn <= items.len() || items.len() == 1);
         let (plainness, speaks) = self.plainness(change);
+        // A way out that is the way in backwards says that both are right, unless another way in runs on smoothly.
+        let parts_leads = !is_stated
+            && !restores
+            && gain <= 0.0
+            && self.is_mirrored
+            && self.is_replaced_end(change)
+            && !self::is_mirrored(&items);
         Some(Verdict {
             left,
             cost,
             plainness,
             evidence: evidence + speaks,
             may_be_sure: !lacks_a_number
+                && !parts_leads
                 && (is_stated || plainness == Plainness::Slip)
                 && self.may_be_sure(change, left),
         })
