@@ -10,6 +10,7 @@ pub(super) mod found;
 mod lost;
 mod scan;
 mod slip;
+mod troubles;
 mod words;
 
 use super::block::Block;
@@ -19,9 +20,8 @@ use super::line::push_changed;
 use super::machine::Machine;
 use super::moves::{Move, distance};
 use super::plain::plain;
-use crate::finding::{Detail, Fault, Finding, FixKind, Place, Rule, Severity};
+use crate::finding::FixKind;
 use crate::geometry::{Segment, Vector};
-use crate::program::of_cut::OfCut;
 use crate::program::repair::crosses_itself;
 use crate::program::repair::search::{self, Contour, Plainness, Verdict, search};
 use crate::text::TextEdit;
@@ -33,6 +33,8 @@ use std::borrow::Cow;
 use std::cell::OnceCell;
 use std::ops::Range;
 use std::sync::Arc;
+pub(super) use troubles::Troubles;
+pub(crate) use troubles::{is_trouble, line_of};
 use words::{Meant, Pool, Words, prior};
 
 /// Longer cuts, in lines, are searched only near the fault.
@@ -61,22 +63,22 @@ impl Document {
     /// The slips that may explain the faults, by the lines of the cuts that they stand in.
     pub(super) fn repairs(&self) -> &Repairs {
         self.repairs
-            .get_or_init(|| Arc::new(repairs(self, &troubles(self, &self.plain_findings(), &[]))))
+            .get_or_init(|| Arc::new(repairs(self, &mut Troubles::of(self, &self.plain_findings(), None))))
     }
 
-    /// The same, with the first bytes of the faults that a slip may explain given.
-    pub(super) fn repairs_of(&self, troubles: &[usize]) -> &Repairs {
+    /// The same, with the faults that a slip may explain given.
+    pub(super) fn repairs_of(&self, troubles: &mut Troubles<'_>) -> &Repairs {
         self.repairs
             .get_or_init(|| Arc::new(repairs(self, troubles)))
     }
 }
 
 /// Searches the faulty cuts.
-fn repairs(document: &Document, troubles: &[usize]) -> Repairs {
+fn repairs(document: &Document, troubles: &mut Troubles<'_>) -> Repairs {
     let (mut found, mut too_long) = (Repairs::new(), Vec::<Range<usize>>::new());
     let mut left = MOST_RUNS;
     let text = document.text();
-    for &trouble in troubles {
+    while let Some(trouble) = troubles.next() {
         let line = text.line_of(trouble);
         let known = found.iter().map(|(lines, _)| lines).chain(&too_long);
         if known.clone().any(|lines| lines.contains(&line)) {
@@ -94,9 +96,7 @@ fn repairs(document: &Document, troubles: &[usize]) -> Repairs {
             too_long.push(lines);
             continue;
         };
-        let [first, behind] = [lines.start, lines.end]
-            .map(|line| troubles.partition_point(|trouble| text.line_of(*trouble) < line));
-        let own = troubles[first..behind].iter();
+        let own = troubles.within(&lines).iter();
         let own: Vec<usize> = own.map(|trouble| text.line_of(*trouble)).collect();
         // A single slip does not cause so many faults.
         let is_long = |line: usize| document.line_bytes(line).len() > LONGEST_LINE;
@@ -114,54 +114,6 @@ fn repairs(document: &Document, troubles: &[usize]) -> Repairs {
         found.push((lines, repairs));
     }
     found
-}
-
-/// The first bytes of the findings that one slip may explain, in the order of the text.
-pub(crate) fn troubles(document: &Document, findings: &[Finding], told: &[OfCut]) -> Vec<usize> {
-    let findings = findings.iter().filter(|one| is_trouble(one));
-    let findings = findings.filter_map(|one| match &one.place {
-        Place::Text { range } => Some(range.start),
-        _ => None,
-    });
-    let of_cut = |one: &&OfCut| may_be_slip(one.rule, one.severity, &one.detail);
-    let told = told
-        .iter()
-        .filter(of_cut)
-        .map(|one| one.range(document.chunks()).start);
-    let mut all: Vec<usize> = findings.chain(told).collect();
-    all.sort();
-    all
-}
-
-/// Whether one slip may explain a finding.
-pub(crate) fn is_trouble(finding: &Finding) -> bool {
-    may_be_slip(finding.rule, finding.severity, &finding.detail)
-}
-
-fn may_be_slip(rule: Rule, severity: Severity, detail: &Detail) -> bool {
-    match rule {
-        Rule::Syntax | Rule::NotClosed | Rule::MixedNumbers => severity <= Severity::Warning,
-        Rule::TooManyDigits
-        | Rule::ArcOffRadius
-        | Rule::ArcWithoutRadius
-        | Rule::PathCrossesItself
-        | Rule::ReversedArc
-        | Rule::CenterOnLine
-        | Rule::WordTwice
-        | Rule::Spur => true,
-        Rule::DoubledBlock => !matches!(
-            detail,
-            Detail::Program(fault) if matches!(**fault, Fault::DoubledBlock { arc: false })
-        ),
-        _ => false,
-    }
-}
-
-pub(crate) fn line_of(document: &Document, finding: &Finding) -> Option<usize> {
-    match &finding.place {
-        Place::Text { range } => Some(document.text().line_of(range.start)),
-        _ => None,
-    }
 }
 
 /// A faulty cut.

@@ -2,6 +2,7 @@
 
 use super::cuts::joined;
 use super::{At, Document, JoinedCut};
+use crate::program::by_chunk::Begun;
 use crate::program::contours::{Contour, Followed, PartAt};
 use crate::program::path::{BehindStops, Ends, HasCuts, KnownTabs, Way, goes_on};
 use std::ops::Range;
@@ -77,10 +78,6 @@ impl Followed for Document {
         None
     }
 
-    fn begin(&self, cut: &JoinedCut) -> PartAt {
-        cut.parts[0]
-    }
-
     fn behind(&self, cut: &JoinedCut) -> PartAt {
         self.part_behind(cut.parts[1])
     }
@@ -124,10 +121,20 @@ impl Followed for Document {
             },
         })
     }
+}
 
-    fn renumber(cut: &mut JoinedCut, moved: &dyn Fn(usize) -> usize) {
-        cut.parts = cut.parts.map(|(stretch, part)| (moved(stretch), part));
+impl Begun for JoinedCut {
+    type Sum = ();
+
+    fn begin(&self) -> PartAt {
+        self.parts[0]
     }
+
+    fn renumber(&mut self, moved: &dyn Fn(usize) -> usize) {
+        self.parts = self.parts.map(|(stretch, part)| (moved(stretch), part));
+    }
+
+    fn sum(_: &[JoinedCut]) {}
 }
 
 impl Document {

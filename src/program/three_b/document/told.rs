@@ -11,6 +11,7 @@ use super::super::rules;
 use super::{At, Document, JoinedCut, View};
 use crate::finding::{Axis, Fault, Finding};
 use crate::geometry::Vector;
+use crate::program::by_chunk::{Begun, ByChunk};
 use crate::program::chunks::Reread;
 use crate::program::contours::{PartAt, Touched};
 use crate::program::numbering;
@@ -31,14 +32,28 @@ struct Searched {
     blamed: Blamed,
 }
 
+impl Begun for Searched {
+    type Sum = ();
+
+    fn begin(&self) -> PartAt {
+        self.begin
+    }
+
+    fn renumber(&mut self, moved: &dyn Fn(usize) -> usize) {
+        self.begin.0 = moved(self.begin.0);
+    }
+
+    fn sum(_: &[Searched]) {}
+}
+
 /// The block to blame, by its number in the contour.
 type Blamed = Option<Box<(usize, Fault)>>;
 
 /// All findings about single contours, in the order in which the contours begin.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Told {
-    found: Vec<OfCut>,
-    searched: Vec<Searched>,
+    found: ByChunk<OfCut>,
+    searched: ByChunk<Searched>,
     /// How many contours were judged for the last edit, and in how many of them a block to blame
     /// was searched for.
     #[cfg(test)]
@@ -46,7 +61,7 @@ pub(super) struct Told {
 }
 
 impl Told {
-    pub(super) fn found(&self) -> &[OfCut] {
+    pub(super) fn found(&self) -> &ByChunk<OfCut> {
         &self.found
     }
 }
@@ -63,6 +78,8 @@ impl Document {
             ..
         } = before;
         let is_all = reread.before == 0 || numbers.step != self.view.numbers.step;
+        let all = Reread::all(&self.stretches);
+        let reread = if is_all { &all } else { reread };
         let [from, to] = if is_all {
             told = Told::default();
             [(0, 0), (self.stretches.len(), 0)]
@@ -78,21 +95,8 @@ impl Document {
             });
             [self.cuts_before(from), self.cuts_behind(to)]
         };
-        let touched = Touched {
-            from,
-            to,
-            ..touched
-        };
-        let before = |one: &Searched| one.begin < from;
-        let is_gone = |one: &Searched| {
-            let (stretch, part) = one.begin;
-            reread
-                .moved(stretch)
-                .is_none_or(|stretch| (stretch, part) < to)
-        };
-        let first = told.searched.partition_point(before);
-        let gone = told.searched[first..].iter();
-        let gone = gone.take_while(|one| is_gone(one));
+        let touched = Touched { reread, from, to };
+        let gone = told.searched.touched(&touched);
         let mut known: FxHashMap<u64, Blamed> =
             gone.map(|one| (one.mark, one.blamed.clone())).collect();
         let contours = &self.view.contours;
@@ -108,13 +112,8 @@ impl Document {
         });
         let kept = (&self.stretches, contours);
         let (found, asked) = OfCut::all(self, kept, from..to, judged, |cut| !self.is_odd(cut));
-        OfCut::splice(&mut told.found, &touched, found);
-        touched.splice(
-            &mut told.searched,
-            |one| one.begin,
-            |one, moved| one.begin.0 = moved(one.begin.0),
-            searched,
-        );
+        told.found.splice(&touched, found);
+        told.searched.splice(&touched, searched);
         #[cfg(test)]
         (told.judged = [asked, searches]);
         #[cfg(not(test))]
