@@ -321,20 +321,26 @@ impl Stretch {
         }
     }
 
-    /// The blocks of a part once more.
-    fn read_again(&self, part: &Part) -> Open {
-        let mut open = Open::at(part.entries().start);
+    fn blocks_of(&self, part: &Part) -> impl Iterator<Item = &BlockEntry> {
         let own = self.entries.get(part.entries()).unwrap_or_default();
-        let blocks = own.iter().filter_map(Entry::block);
-        blocks.for_each(|block| open.push(&block.block()));
-        open
+        own.iter().filter_map(Entry::block)
     }
 
     /// The totals of a part.
     pub(crate) fn sum(&self, part: &Part) -> Sum {
         match &part.whole {
             Some(whole) => whole.sum,
-            None => self.read_again(part).sum,
+            None => {
+                let mut sum = Sum::default();
+                for block in self.blocks_of(part).map(BlockEntry::block) {
+                    sum.push(
+                        &block,
+                        travel_of(&block),
+                        meant(&block, Point::origin()).as_ref(),
+                    );
+                }
+                sum
+            }
         }
     }
 
@@ -343,7 +349,9 @@ impl Stretch {
         match &part.whole {
             Some(whole) => Cow::Borrowed(&whole.lay),
             None => {
-                let open = self.read_again(part);
+                let mut open = Open::at(part.entries().start);
+                let blocks = self.blocks_of(part).map(BlockEntry::block);
+                blocks.for_each(|block| open.push(&block));
                 Cow::Owned(Lay::of(&open.way, open.sum.mark, false))
             }
         }
