@@ -100,9 +100,12 @@ impl<T: Begun> ByChunk<T> {
             chunks.iter_mut().for_each(|(list, _)| list.retain(is_kept));
         };
         let first = from.0.min(read.start);
-        keep(&mut self.chunks[first..read.start], &|one| one.begin() < from);
+        keep(&mut self.chunks[first..read.start], &|one| {
+            one.begin() < from
+        });
         let none = read.clone().map(|_| Default::default());
-        self.chunks.splice(read.start..read.start + reread.before, none);
+        self.chunks
+            .splice(read.start..read.start + reread.before, none);
         if read.len() != reread.before {
             let moved = |chunk: usize| reread.moved(chunk).unwrap_or(read.end);
             let behind = self.chunks[read.end..].iter_mut();

@@ -77,7 +77,9 @@ impl Begun for OfCut {
     fn renumber(&mut self, moved: &dyn Fn(usize) -> usize) {
         self.begin.0 = moved(self.begin.0 as usize) as u32;
         self.place.renumber(moved);
-        self.other.iter_mut().for_each(|other| other.renumber(moved));
+        self.other
+            .iter_mut()
+            .for_each(|other| other.renumber(moved));
     }
 
     fn sum(list: &[OfCut]) -> Tally {

@@ -55,6 +55,8 @@ pub struct Document {
     pub(crate) table: Box<Table>,
     /// The slips that may explain the findings, once somebody has asked for them.
     pub(super) repairs: OnceLock<Arc<Repairs>>,
+    /// Those before the last edit.
+    pub(super) repairs_before: Option<Arc<Repairs>>,
     /// Whether its words stand apart, once somebody has asked.
     is_parted: OnceLock<bool>,
 }
@@ -85,6 +87,7 @@ impl Document {
             limits: Box::new(limits),
             table: Box::default(),
             repairs: OnceLock::new(),
+            repairs_before: None,
             is_parted: OnceLock::new(),
         };
         document.guess_reading();
@@ -246,7 +249,7 @@ impl Document {
 
     /// Replaces a range of bytes and runs again what it touched.
     pub fn edit(&mut self, range: Range<usize>, replacement: &str) {
-        self.repairs = OnceLock::new();
+        self.repairs_before = self.repairs.take().or(self.repairs_before.take());
         // The byte before belongs to the edit: a CR there may become one line end with an inserted LF.
         let first = range.start.min(self.text.len()).saturating_sub(1);
         if self.text.line_of(first) < LOOKED_AT {

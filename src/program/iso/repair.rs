@@ -27,7 +27,7 @@ use crate::program::repair::search::{self, Contour, Plainness, Verdict, search};
 use crate::text::TextEdit;
 pub(super) use around::cut_around;
 use around::{LONGEST, begins_astray, is_way, stands_alone, with_numbers_kept};
-use found::{Repair, Repairs};
+use found::{LookedAt, Repair, Repairs, Searched};
 use scan::{Against, Line, Way};
 use std::borrow::Cow;
 use std::cell::OnceCell;
@@ -62,8 +62,18 @@ const MOST_RUNS: usize = 40_000;
 impl Document {
     /// The slips that may explain the faults, by the lines of the cuts that they stand in.
     pub(super) fn repairs(&self) -> &Repairs {
-        self.repairs
-            .get_or_init(|| Arc::new(repairs(self, &mut Troubles::of(self, &self.plain_findings(), None))))
+        self.repairs.get_or_init(|| {
+            Arc::new(repairs(
+                self,
+                &mut Troubles::of(self, &self.plain_findings(), None),
+            ))
+        })
+    }
+
+    /// The searches that were made before the last edit.
+    fn searched_before(&self) -> &[Searched] {
+        let before = self.repairs_before.as_ref();
+        before.map_or(&[], |before| &before.searched)
     }
 
     /// The same, with the faults that a slip may explain given.
@@ -75,16 +85,20 @@ impl Document {
 
 /// Searches the faulty cuts.
 fn repairs(document: &Document, troubles: &mut Troubles<'_>) -> Repairs {
-    let (mut found, mut too_long) = (Repairs::new(), Vec::<Range<usize>>::new());
+    let (mut found, mut too_long) = (Repairs::default(), Vec::<Range<usize>>::new());
     let mut left = MOST_RUNS;
     let text = document.text();
     while let Some(trouble) = troubles.next() {
         let line = text.line_of(trouble);
-        let known = found.iter().map(|(lines, _)| lines).chain(&too_long);
+        let known = found
+            .of_cuts
+            .iter()
+            .map(|(lines, _)| lines)
+            .chain(&too_long);
         if known.clone().any(|lines| lines.contains(&line)) {
             continue;
         }
-        if found.len() == MOST_CUTS || left == 0 {
+        if found.of_cuts.len() == MOST_CUTS || left == 0 {
             break;
         }
         let lines = cut_around(document, line);
@@ -101,17 +115,20 @@ fn repairs(document: &Document, troubles: &mut Troubles<'_>) -> Repairs {
         // A single slip does not cause so many faults.
         let is_long = |line: usize| document.line_bytes(line).len() > LONGEST_LINE;
         if own.len() > MOST_TROUBLES || lines.clone().any(is_long) {
-            found.push((lines, Vec::new()));
+            found.of_cuts.push((lines, Vec::new()));
             continue;
         }
         let suspect = Suspect::new(document, lines.clone(), before, &own);
         left = left.saturating_sub(lines.len());
         let mut repairs = Vec::new();
         if !suspect.way.tells_too_little() {
-            let some = search(&suspect, &mut left).into_iter();
+            let searched = suspect.searched(&own, left);
+            left = searched.left;
+            let some = searched.found.iter();
             repairs.extend(some.filter_map(|repair| suspect.repair(repair)));
+            found.searched.push(searched);
         }
-        found.push((lines, repairs));
+        found.of_cuts.push((lines, repairs));
     }
     found
 }
@@ -385,8 +402,38 @@ impl<'a> Suspect<'a> {
             .collect()
     }
 
+    /// The search through it for faults in some `places`, perhaps as it was made before the last edit, which changed nothing
+    /// that it looks at.
+    fn searched(&self, places: &[usize], left: usize) -> Searched {
+        let (document, lines) = (self.document, &self.lines);
+        let text = document.text();
+        let first = lines.start.saturating_sub(LOOKED_BACK);
+        let last = text.line_count().min(lines.end + LOOKED_BACK + 1);
+        let bytes = text.line_start(first)..text.line_range(last.saturating_sub(1)).end;
+        let of = LookedAt {
+            text: text.slice(bytes).unwrap_or_default().to_vec(),
+            lines_before: lines.start - first,
+            lines: lines.len(),
+            faults: places.iter().map(|line| line - lines.start).collect(),
+            before: *self.way.machine_before(0),
+            begins_astray: self.begins_astray,
+            reading: *document.reading(),
+            decimals: document.usual_decimals(),
+            pointed: document.pointed(),
+            is_parted: self.pool.is_parted,
+            styles: self.pool.styles,
+            left,
+        };
+        let mut before = document.searched_before().iter();
+        before.find(|one| one.of == of).cloned().unwrap_or_else(|| {
+            let mut left = left;
+            let found = search(self, &mut left);
+            Searched { of, found, left }
+        })
+    }
+
     /// A change as edits of the text.
-    fn repair(&self, repair: search::Repair<Meant>) -> Option<Repair> {
+    fn repair(&self, repair: &search::Repair<Meant>) -> Option<Repair> {
         let (text, change) = (self.document.text(), &repair.change);
         let line = self.lines.start + change.index();
         let start = text.line_start(line);

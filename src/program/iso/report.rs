@@ -170,7 +170,7 @@ fn suspects(document: &Document, mut troubles: Troubles<'_>) -> Vec<Finding> {
             .is_some_and(|byte| line_of(*byte) == line)
     };
     let first = |(_, repairs): &(Range<usize>, Vec<Repair>)| repairs.first().cloned();
-    let repairs = found.iter().filter_map(first);
+    let repairs = found.of_cuts.iter().filter_map(first);
     let suspect = |repair: Repair| {
         let range = document.words_of(repair.line);
         let fault = Fault::Suspect {

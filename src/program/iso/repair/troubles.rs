@@ -39,8 +39,8 @@ impl<'a> Troubles<'a> {
             own
         };
         let told = told.into_iter();
-        let told = told
-            .flat_map(move |told| (0..told.len()).flat_map(move |chunk| of_chunk(told, chunk)));
+        let told =
+            told.flat_map(move |told| (0..told.len()).flat_map(move |chunk| of_chunk(told, chunk)));
         let (mut findings, mut told) = (findings.into_iter().peekable(), told.peekable());
         let next = move || match (findings.peek(), told.peek()) {
             (Some(finding), Some(told_at)) if told_at < finding => told.next(),
@@ -72,7 +72,10 @@ impl<'a> Troubles<'a> {
     pub(super) fn within(&mut self, lines: &Range<usize>) -> &[usize] {
         let text = self.document.text();
         let is_before = |at: usize, line: usize| text.line_of(at) < line;
-        while self.known.last().is_none_or(|last| is_before(*last, lines.end))
+        while self
+            .known
+            .last()
+            .is_none_or(|last| is_before(*last, lines.end))
             && let Some(next) = self.rest.next()
         {
             self.known.push(next);
