@@ -61,6 +61,24 @@ pub(super) trait Report {
 
     /// At most `limit` findings, and how many there are in all.
     fn told(&self, settings: &Effective, limit: usize) -> (Vec<Finding>, usize) {
+        let First {
+            held: mut first,
+            count,
+            ..
+        } = self.first(settings, limit);
+        first.sort_unstable_by_key(|(key, _)| *key);
+        first.truncate(limit);
+        let worded = |(key, kept): (Key, Self::Kept)| Some(self.worded(kept)?.with(key.0));
+        (first.into_iter().filter_map(worded).collect(), count)
+    }
+
+    /// The number of findings that are looked at one by one to find the first `limit` of them.
+    #[cfg(test)]
+    fn looked_at(&self, settings: &Effective, limit: usize) -> usize {
+        self.first(settings, limit).looked_at
+    }
+
+    fn first(&self, settings: &Effective, limit: usize) -> First<Self::Kept> {
         let under_settings = |found: Found<Self::Kept>| {
             let severity = settings.severity_over(found.rule, found.severity)?;
             Some(Found { severity, ..found })
@@ -79,25 +97,19 @@ pub(super) trait Report {
                     .for_each(|found| first.push(found)),
             }
         }
-        let First {
-            held: mut first,
-            count,
-            ..
-        } = first;
-        first.sort_unstable_by_key(|(key, _)| *key);
-        first.truncate(limit);
-        let worded = |(key, kept): (Key, Self::Kept)| Some(self.worded(kept)?.with(key.0));
-        (first.into_iter().filter_map(worded).collect(), count)
+        first
     }
 }
 
 /// The first of many findings, in no order, and how many there are in all.
-struct First<K> {
+pub(super) struct First<K> {
     held: Vec<(Key, K)>,
     most: usize,
     /// Findings after it are not among the first.
     last: Option<Key>,
     count: usize,
+    #[cfg(test)]
+    looked_at: usize,
 }
 
 impl<K> First<K> {
@@ -107,12 +119,16 @@ impl<K> First<K> {
             most,
             last: None,
             count: 0,
+            #[cfg(test)]
+            looked_at: 0,
         }
     }
 
     fn push(&mut self, found: Found<K>) {
         let key: Key = (found.severity, found.place, found.rule, self.count);
         self.count += 1;
+        #[cfg(test)]
+        (self.looked_at += 1);
         if self.last.is_some_and(|last| key > last) {
             return;
         }

@@ -4,7 +4,7 @@
 use super::moves::{Place, added, apart};
 use super::part::{Part, SEVERAL, changes_side};
 use super::stretch::{StopAt, Stretch};
-use crate::program::by_chunk::Begun;
+use crate::program::by_chunk::{Begun, ByChunk};
 use crate::program::contours::PartAt;
 
 /// Bytes of a stretch, by its index.
@@ -33,7 +33,7 @@ pub(crate) struct JoinedCut {
 }
 
 impl Begun for JoinedCut {
-    /// Those of which not all that is said is kept.
+    /// How many there are of which not all that is said is kept.
     type Sum = usize;
 
     fn begin(&self) -> PartAt {
@@ -51,6 +51,16 @@ impl Begun for JoinedCut {
 
     fn sum(list: &[JoinedCut]) -> usize {
         list.iter().filter(|cut| !cut.is_told).count()
+    }
+}
+
+impl ByChunk<JoinedCut> {
+    /// Those of which not all that is said is kept.
+    pub(crate) fn untold(&self) -> impl Iterator<Item = &JoinedCut> {
+        let chunks = self.sums().enumerate();
+        let with_some = chunks.filter(|(_, untold)| **untold > 0);
+        let all = with_some.flat_map(|(chunk, _)| self.of(chunk));
+        all.filter(|cut| !cut.is_told)
     }
 }
 

@@ -42,7 +42,7 @@ impl Document {
     /// The findings of the program, in the order of the text.
     pub fn findings(&self) -> Vec<Finding> {
         let mut findings = self.plain_findings();
-        let suspects = suspects(self, Troubles::of(self, &findings, None));
+        let suspects = suspects(self, &mut Troubles::of(self, &findings, None));
         if !suspects.is_empty() {
             findings.extend(suspects);
             sort(&mut findings);
@@ -80,10 +80,7 @@ impl Document {
             }
         }
         report.spurs();
-        let untold = self.doubtful().sums().enumerate();
-        let untold = untold.filter(|(_, untold)| **untold > 0);
-        let of_chunks = untold.flat_map(|(chunk, _)| self.doubtful().of(chunk));
-        for cut in of_chunks.filter(|cut| !cut.is_told) {
+        for cut in self.doubtful().untold() {
             report.judge(cut, Some(self.doubtful()));
         }
         // With subprograms nothing is kept.
@@ -159,16 +156,9 @@ impl Document {
 }
 
 /// The blocks that may explain the findings by one slip, unless they have a finding already.
-fn suspects(document: &Document, mut troubles: Troubles<'_>) -> Vec<Finding> {
-    let found = document.repairs_of(&mut troubles);
-    let troubles = troubles.known();
-    let is_said = |line: usize| {
-        let line_of = |byte: usize| document.text().line_of(byte);
-        let next = troubles.partition_point(|byte| line_of(*byte) < line);
-        troubles
-            .get(next)
-            .is_some_and(|byte| line_of(*byte) == line)
-    };
+fn suspects(document: &Document, troubles: &mut Troubles<'_>) -> Vec<Finding> {
+    let found = document.repairs_of(troubles);
+    let mut is_said = |line: usize| !troubles.within(&(line..line + 1)).is_empty();
     let first = |(_, repairs): &(Range<usize>, Vec<Repair>)| repairs.first().cloned();
     let repairs = found.of_cuts.iter().filter_map(first);
     let suspect = |repair: Repair| {

@@ -6,8 +6,7 @@ use crate::program::iso::document::Document;
 use crate::program::of_cut::OfCut;
 use std::ops::Range;
 
-/// The first bytes of the findings that one slip may explain, in the order of the text. Of very many only those are looked up
-/// that are asked for.
+/// The first bytes of these findings, in the order of the text. Of very many only those are looked up that are asked for.
 pub(crate) struct Troubles<'a> {
     document: &'a Document,
     known: Vec<usize>,
@@ -55,9 +54,10 @@ impl<'a> Troubles<'a> {
         }
     }
 
-    /// Those that were looked up.
-    pub(crate) fn known(&self) -> &[usize] {
-        &self.known
+    /// How many were looked up.
+    #[cfg(test)]
+    pub(crate) fn looked_up(&self) -> usize {
+        self.known.len()
     }
 
     pub(super) fn next(&mut self) -> Option<usize> {
@@ -69,7 +69,7 @@ impl<'a> Troubles<'a> {
     }
 
     /// Those in some lines.
-    pub(super) fn within(&mut self, lines: &Range<usize>) -> &[usize] {
+    pub(crate) fn within(&mut self, lines: &Range<usize>) -> &[usize] {
         let text = self.document.text();
         let is_before = |at: usize, line: usize| text.line_of(at) < line;
         while self

@@ -35,10 +35,8 @@ impl report::Report for Document {
     fn found_in(&self, group: usize) -> impl Iterator<Item = Found<Kept>> {
         let not_kept = || {
             let mut others = self.report().finish();
-            others.extend(suspects(
-                self,
-                Troubles::of(self, &others, Some(self.told())),
-            ));
+            let mut troubles = Troubles::of(self, &others, Some(self.told()));
+            others.extend(suspects(self, &mut troubles));
             sort(&mut others);
             others
         };
@@ -78,6 +76,17 @@ impl report::Report for Document {
 }
 
 impl Document {
+    /// How many findings are looked up to find the slips that explain them.
+    #[cfg(test)]
+    pub(in crate::program) fn troubles_looked_up(&self) -> usize {
+        let others = self.report().finish();
+        let mut troubles = Troubles::of(self, &others, Some(self.told()));
+        let mut fresh = self.clone();
+        fresh.repairs = Default::default();
+        suspects(&fresh, &mut troubles);
+        troubles.looked_up()
+    }
+
     /// Judges and marks the `doubtful` cuts that begin in a range, where the verdict depends on
     /// nothing else, and reports where cuts there cross themselves.
     pub(in crate::program::iso) fn tell(
