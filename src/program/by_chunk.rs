@@ -1,8 +1,27 @@
 //! What is known of cuts, in their order, by the chunks in which they begin: what an edit changes costs what is known of
 //! its own chunks, however much is known of others.
 
-use super::contours::{PartAt, Touched};
+use super::chunks::Reread;
 use std::ops::Range;
+
+/// A part of a cut by its chunk and its index in there.
+pub(in crate::program) type PartAt = (usize, usize);
+
+/// The cuts that an edit may have changed: those from one place up to another. Both are the beginnings of cuts, and the
+/// cut before the first has nothing to do with those lines.
+#[derive(Clone, Copy)]
+pub(in crate::program) struct Touched<'a> {
+    pub(crate) reread: &'a Reread,
+    pub(crate) from: PartAt,
+    pub(crate) to: PartAt,
+}
+
+impl Touched<'_> {
+    /// Where a part stands now; `None` for one that is gone.
+    pub(crate) fn moved(&self, (chunk, place): PartAt) -> Option<PartAt> {
+        Some((self.reread.moved(chunk)?, place))
+    }
+}
 
 /// A cut, or something that is known of one.
 pub(in crate::program) trait Begun: Sized {

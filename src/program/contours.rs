@@ -6,13 +6,10 @@
 //! looked at again.
 
 use super::by_chunk::{Begun, ByChunk};
-use super::chunks::Reread;
+pub(in crate::program) use super::by_chunk::{PartAt, Touched};
 use super::path::{Found, HasCuts, Known, KnownTabs};
 use std::ops::Range;
 use std::sync::Arc;
-
-/// A part of a cut by its chunk and its index in there.
-pub(in crate::program) type PartAt = (usize, usize);
 
 /// A document whose cuts begin and end at parts of its chunks.
 pub(in crate::program) trait Followed: HasCuts<Cut: Begun + Clone> {
@@ -122,22 +119,6 @@ impl<C: Begun> Default for Contours<C> {
             #[cfg(test)]
             looked_at: 0,
         }
-    }
-}
-
-/// The cuts that an edit may have changed: those from one place up to another. Both are the beginnings of cuts, and the
-/// cut before the first has nothing to do with those lines.
-#[derive(Clone, Copy)]
-pub(in crate::program) struct Touched<'a> {
-    pub(crate) reread: &'a Reread,
-    pub(crate) from: PartAt,
-    pub(crate) to: PartAt,
-}
-
-impl Touched<'_> {
-    /// Where a part stands now; `None` for one that is gone.
-    pub(crate) fn moved(&self, (chunk, place): PartAt) -> Option<PartAt> {
-        Some((self.reread.moved(chunk)?, place))
     }
 }
 
