@@ -5,20 +5,16 @@
 //! went is kept. Everything from the first touched cut up to where contours begin as before is
 //! looked at again.
 
-use super::chunks::Reread;
+use super::by_chunk::{Begun, ByChunk};
+pub(in crate::program) use super::by_chunk::{PartAt, Touched};
 use super::path::{Found, HasCuts, Known, KnownTabs};
 use std::ops::Range;
 use std::sync::Arc;
 
-/// A part of a cut by its chunk and its index in there.
-pub(in crate::program) type PartAt = (usize, usize);
-
 /// A document whose cuts begin and end at parts of its chunks.
-pub(in crate::program) trait Followed: HasCuts<Cut: Clone> {
+pub(in crate::program) trait Followed: HasCuts<Cut: Begun + Clone> {
     /// The first cut that begins between two places and needs to be looked at.
     fn next_cut(&self, from: PartAt, before: PartAt) -> Option<Self::Cut>;
-
-    fn begin(&self, cut: &Self::Cut) -> PartAt;
 
     /// Where the cut after it begins.
     fn behind(&self, cut: &Self::Cut) -> PartAt;
@@ -26,9 +22,6 @@ pub(in crate::program) trait Followed: HasCuts<Cut: Clone> {
     /// The contour that an open cut forms with the cuts after its stops; `None` where it need not
     /// be looked for.
     fn follow(&self, cut: &Self::Cut, known: &mut KnownTabs) -> Option<Contour<Self::Cut>>;
-
-    /// Renumbers its chunks.
-    fn renumber(cut: &mut Self::Cut, moved: &dyn Fn(usize) -> usize);
 }
 
 /// The contour that an open cut forms with the cuts after its stops.
@@ -56,70 +49,80 @@ struct Head {
     is_open: bool,
 }
 
+/// What the heads of a chunk come to.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Heads {
+    /// The last chunk that was looked at for any of them.
+    reach: usize,
+    tabs: usize,
+}
+
+impl Begun for Head {
+    type Sum = Heads;
+
+    fn begin(&self) -> PartAt {
+        self.begin
+    }
+
+    fn renumber(&mut self, moved: &dyn Fn(usize) -> usize) {
+        let all = [&mut self.begin.0, &mut self.behind.0, &mut self.reach];
+        all.into_iter().for_each(|chunk| *chunk = moved(*chunk));
+    }
+
+    fn sum(list: &[Head]) -> Heads {
+        Heads {
+            reach: list.iter().map(|head| head.reach).max().unwrap_or(0),
+            tabs: tabs_of(list.iter()),
+        }
+    }
+}
+
+fn tabs_of<'a>(heads: impl Iterator<Item = &'a Head>) -> usize {
+    heads.map(|head| head.tabs as usize).sum()
+}
+
+/// A contour that crosses or coincides with itself, and where.
+type Crossing<C> = (C, Arc<Found>);
+
+impl<C: Begun> Begun for Crossing<C> {
+    type Sum = ();
+
+    fn begin(&self) -> PartAt {
+        self.0.begin()
+    }
+
+    fn renumber(&mut self, moved: &dyn Fn(usize) -> usize) {
+        self.0.renumber(moved);
+    }
+
+    fn sum(_: &[Crossing<C>]) {}
+}
+
 /// The contours of a program that stop, are open or cross themselves.
 #[derive(Clone, Debug, PartialEq)]
-pub(in crate::program) struct Contours<C> {
-    heads: Vec<Head>,
+pub(in crate::program) struct Contours<C: Begun> {
+    heads: ByChunk<Head>,
     /// The stops within contours, in the order of the text.
     tabs: Vec<(usize, usize)>,
-    /// Those that cross or coincide with themselves, and where.
-    crossing: Vec<(C, Arc<Found>)>,
+    crossing: ByChunk<Crossing<C>>,
     /// The cuts that the last look began with.
     #[cfg(test)]
     pub(crate) looked_at: usize,
 }
 
-impl<C> Default for Contours<C> {
+impl<C: Begun> Default for Contours<C> {
     fn default() -> Self {
         Contours {
-            heads: Vec::new(),
+            heads: ByChunk::default(),
             tabs: Vec::new(),
-            crossing: Vec::new(),
+            crossing: ByChunk::default(),
             #[cfg(test)]
             looked_at: 0,
         }
     }
 }
 
-/// The cuts that an edit may have changed: those from one place up to another. Both are the beginnings of cuts, and the
-/// cut before the first has nothing to do with those lines.
-#[derive(Clone, Copy)]
-pub(in crate::program) struct Touched<'a> {
-    pub(crate) reread: &'a Reread,
-    pub(crate) from: PartAt,
-    pub(crate) to: PartAt,
-}
-
-impl Touched<'_> {
-    fn moved(&self, (chunk, place): PartAt) -> Option<PartAt> {
-        Some((self.reread.moved(chunk)?, place))
-    }
-
-    /// Replaces what was known of the touched cuts, in a list of things in the order of cuts.
-    pub(crate) fn splice<T>(
-        &self,
-        list: &mut Vec<T>,
-        begin: impl Fn(&T) -> PartAt,
-        renumber: impl Fn(&mut T, &dyn Fn(usize) -> usize),
-        fresh: impl IntoIterator<Item = T>,
-    ) {
-        let first = list.partition_point(|one| begin(one) < self.from);
-        let is_gone = |one: &T| self.moved(begin(one)).is_none_or(|begin| begin < self.to);
-        let gone = list
-            .iter()
-            .skip(first)
-            .take_while(|one| is_gone(one))
-            .count();
-        if self.reread.chunks.len() != self.reread.before {
-            let moved = |chunk: usize| self.reread.moved(chunk).unwrap_or(self.reread.chunks.end);
-            let behind = list.iter_mut().skip(first + gone);
-            behind.for_each(|one| renumber(one, &moved));
-        }
-        list.splice(first..first + gone, fresh);
-    }
-}
-
-impl<C: Clone> Contours<C> {
+impl<C: Begun + Clone> Contours<C> {
     /// Looks at the cuts that were touched, and at those whose contours depend on them: each
     /// contour is handed out, with whether it crosses itself where that had to be found. Returns
     /// all that was looked at.
@@ -130,13 +133,9 @@ impl<C: Clone> Contours<C> {
         known: &mut Known,
         mut each: impl FnMut(C, Option<bool>),
     ) -> Touched<'a> {
-        let Touched { reread, .. } = touched;
-        let is_touched =
-            |head: &Head| head.reach >= reread.chunks.start || head.begin >= touched.from;
-        let kept = self.heads.iter().position(is_touched);
-        let kept = kept.unwrap_or(self.heads.len());
-        let own_behind = self.heads[..kept].last().map_or((0, 0), |head| head.behind);
-        let first = self.heads.get(kept).map(|head| head.begin);
+        let first = self.first_touched(&touched);
+        let kept = self.heads.before(first.unwrap_or((self.heads.len(), 0)));
+        let own_behind = kept.map_or((0, 0), |head| head.behind);
         let from = first.map_or(touched.from, |first| first.min(touched.from));
         let mut again = Touched {
             from: from.max(own_behind),
@@ -144,26 +143,27 @@ impl<C: Clone> Contours<C> {
         };
         let (mut heads, mut tabs, mut crossing) = (Vec::new(), Vec::new(), Vec::new());
         let (mut at, mut behind) = (again.from, again.from);
-        let mut gone = kept;
+        let gone = first.map(|first| self.heads.from(first));
+        let mut gone = gone.into_iter().flatten().peekable();
+        let mut gone_tabs = 0;
         known.begin();
         #[cfg(test)]
-        (self.looked_at = 0);
+        let mut looked_at = 0;
         loop {
             // Whatever belonged to a contour that is looked at again is looked at again, too.
-            while let Some(head) = self.heads.get(gone)
-                && touched
-                    .moved(head.begin)
-                    .is_none_or(|begin| begin < again.to)
-            {
+            while let Some(head) = gone.next_if(|head| {
+                let begin = touched.moved(head.begin);
+                begin.is_none_or(|begin| begin < again.to)
+            }) {
                 again.to = again.to.max(touched.moved(head.behind).unwrap_or(again.to));
-                gone += 1;
+                gone_tabs += head.tabs as usize;
             }
             let Some(mut cut) = document.next_cut(at, again.to) else {
                 break;
             };
             #[cfg(test)]
-            (self.looked_at += 1);
-            let begin = document.begin(&cut);
+            (looked_at += 1);
+            let begin = cut.begin();
             at = document.behind(&cut);
             let contour = (begin >= behind).then(|| document.follow(&cut, &mut known.tabs));
             if let Some(contour) = contour.flatten() {
@@ -187,41 +187,39 @@ impl<C: Clone> Contours<C> {
             crossing.extend(found.map(|found| (cut.clone(), found)));
             each(cut, crosses);
         }
+        drop(gone);
         known.tidy();
-        self.put(&again, kept..gone, heads, tabs);
-        let begin = |(cut, _): &(C, Arc<Found>)| document.begin(cut);
-        again.splice(
-            &mut self.crossing,
-            begin,
-            |(cut, _), moved| D::renumber(cut, moved),
-            crossing,
-        );
+        #[cfg(test)]
+        (self.looked_at = looked_at);
+        self.put_tabs(&again, gone_tabs, tabs);
+        self.heads.splice(&again, heads);
+        self.crossing.splice(&again, crossing);
         again
     }
 
-    /// Puts heads and their stops in the place of some.
-    fn put(
-        &mut self,
-        again: &Touched<'_>,
-        gone: Range<usize>,
-        heads: Vec<Head>,
-        tabs: Vec<(usize, usize)>,
-    ) {
-        let tabs_of = |heads: &[Head]| heads.iter().map(|head| head.tabs as usize).sum::<usize>();
-        let first = tabs_of(&self.heads[..gone.start]);
-        let gone_tabs = first..first + tabs_of(&self.heads[gone.clone()]);
+    /// Where the first contour begins that an edit may have changed; `None` where there is none.
+    fn first_touched(&self, touched: &Touched<'_>) -> Option<PartAt> {
+        let start = touched.reread.chunks.start;
+        let is_touched = |head: &&Head| head.reach >= start || head.begin >= touched.from;
+        let chunks = self.heads.sums().enumerate();
+        let may_be = chunks.filter(|(chunk, sum)| sum.reach >= start || *chunk >= touched.from.0);
+        let mut all = may_be.flat_map(|(chunk, _)| self.heads.of(chunk));
+        all.find(is_touched).map(|head| head.begin)
+    }
+
+    /// Puts stops in the place of some, those of the contours that are `gone`.
+    fn put_tabs(&mut self, again: &Touched<'_>, gone: usize, tabs: Vec<(usize, usize)>) {
+        let chunk = again.from.0;
+        let before = self.heads.of(chunk).iter();
+        let before = before.take_while(|head| head.begin < again.from);
+        let whole: usize = self.heads.sums().take(chunk).map(|sum| sum.tabs).sum();
+        let first = whole + tabs_of(before);
         if again.reread.chunks.len() != again.reread.before {
             let moved = |chunk: &mut usize| *chunk = again.reread.moved(*chunk).unwrap_or(*chunk);
-            for head in &mut self.heads[gone.end..] {
-                moved(&mut head.begin.0);
-                moved(&mut head.behind.0);
-                moved(&mut head.reach);
-            }
-            let behind = self.tabs[gone_tabs.end..].iter_mut();
+            let behind = self.tabs[first + gone..].iter_mut();
             behind.for_each(|(chunk, _)| moved(chunk));
         }
-        self.heads.splice(gone, heads);
-        self.tabs.splice(gone_tabs, tabs);
+        self.tabs.splice(first..first + gone, tabs);
     }
 
     /// Whether a stop stands within a contour.
@@ -237,34 +235,26 @@ impl<C: Clone> Contours<C> {
 
     /// The beginnings of the contours that do not close, from one place up to another.
     pub(crate) fn open_within(&self, places: Range<PartAt>) -> impl Iterator<Item = PartAt> {
-        let first = self.heads.partition_point(|head| head.begin < places.start);
-        let within = self.heads[first..].iter();
-        let within = within.take_while(move |head| head.begin < places.end);
+        let within = self.heads.within(places);
         within.filter(|head| head.is_open).map(|head| head.begin)
     }
 
     /// Whether the cut that begins at a place is such a contour.
     pub(crate) fn is_open(&self, begin: PartAt) -> bool {
-        let head = self.heads.binary_search_by_key(&begin, |head| head.begin);
-        head.ok()
-            .and_then(|at| self.heads.get(at))
-            .is_some_and(|head| head.is_open)
+        self.heads.at(begin).is_some_and(|head| head.is_open)
     }
 
     /// The contours that cross or coincide with themselves, and where, in the order of the text.
-    pub(crate) fn crossing(&self) -> &[(C, Arc<Found>)] {
-        &self.crossing
+    pub(crate) fn crossing(&self) -> impl Iterator<Item = &Crossing<C>> {
+        self.crossing.iter()
     }
 
     /// Those of them that begin from one place up to another.
     pub(crate) fn crossing_within(
         &self,
         places: Range<PartAt>,
-        begin: impl Fn(&C) -> PartAt,
-    ) -> &[(C, Arc<Found>)] {
-        let before = |to: PartAt| self.crossing.partition_point(|(cut, _)| begin(cut) < to);
-        let within = self.crossing.get(before(places.start)..before(places.end));
-        within.unwrap_or_default()
+    ) -> impl Iterator<Item = &Crossing<C>> {
+        self.crossing.within(places)
     }
 }
 

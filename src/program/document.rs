@@ -91,6 +91,19 @@ impl Document {
         }
     }
 
+    /// The findings that are looked at one by one to tell the first few, and to find those that a slip may explain.
+    #[cfg(test)]
+    pub(in crate::program) fn findings_looked_at(&self, limit: usize) -> [usize; 2] {
+        let settings = Effective::default();
+        match self {
+            Document::ThreeB(document) => [document.looked_at(&settings, limit), 0],
+            Document::Iso(document) => [
+                document.looked_at(&settings, limit),
+                document.troubles_looked_up(),
+            ],
+        }
+    }
+
     pub(crate) fn language(&self) -> Language {
         match self {
             Document::ThreeB(_) => Language::ThreeB,

@@ -4,6 +4,7 @@
 //! way. Everything about one language is in its own folder.
 
 pub(crate) mod block_words;
+mod by_chunk;
 mod chunks;
 mod content;
 mod contours;

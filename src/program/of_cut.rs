@@ -1,7 +1,9 @@
 //! A finding of a cut, kept by places that no edit elsewhere moves, in any language.
 
+use super::by_chunk::Begun;
 use super::chunks::Chunks;
-use super::contours::{Contours, Followed, PartAt, Touched};
+use super::contours::{Contours, Followed, PartAt};
+use super::report::{Counted, count};
 use super::steps::Program;
 use crate::finding::{Detail, Fault, Finding, Place, Rule, Severity};
 use crate::text::SourceText;
@@ -49,6 +51,51 @@ pub(in crate::program) struct OfCut {
     pub(in crate::program) detail: Detail,
 }
 
+/// What is found of the cuts that begin in a chunk.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(in crate::program) struct Tally {
+    counts: Vec<Counted>,
+    /// Where the first of them stands, by the chunk and the byte in there.
+    first: (u32, u32),
+}
+
+impl Tally {
+    /// A byte that none of them stands before, and how many there are of each kind.
+    pub(crate) fn told<C>(&self, chunks: &Chunks<C>) -> (usize, &[Counted]) {
+        let (chunk, byte) = self.first;
+        (chunks.byte(chunk as usize) + byte as usize, &self.counts)
+    }
+}
+
+impl Begun for OfCut {
+    type Sum = Tally;
+
+    fn begin(&self) -> PartAt {
+        (self.begin.0 as usize, self.begin.1 as usize)
+    }
+
+    fn renumber(&mut self, moved: &dyn Fn(usize) -> usize) {
+        self.begin.0 = moved(self.begin.0 as usize) as u32;
+        self.place.renumber(moved);
+        self.other
+            .iter_mut()
+            .for_each(|other| other.renumber(moved));
+    }
+
+    fn sum(list: &[OfCut]) -> Tally {
+        let mut tally = Tally::default();
+        for one in list {
+            let place = (one.place.chunk, one.place.bytes.0);
+            tally.first = match tally.counts.is_empty() {
+                true => place,
+                false => tally.first.min(place),
+            };
+            count(&mut tally.counts, one.rule, one.severity);
+        }
+        tally
+    }
+}
+
 impl OfCut {
     /// Of the cut that begins at a part; `None` where it is not about bytes of the text.
     pub(crate) fn new<C>(chunks: &Chunks<C>, begin: PartAt, finding: Finding) -> Option<OfCut> {
@@ -61,11 +108,6 @@ impl OfCut {
             other: finding.related.first().and_then(local),
             detail: finding.detail,
         })
-    }
-
-    /// The part that its cut begins with.
-    pub(crate) fn begin(&self) -> PartAt {
-        (self.begin.0 as usize, self.begin.1 as usize)
     }
 
     /// Its bytes in the text.
@@ -99,10 +141,9 @@ impl OfCut {
         judged: impl Iterator<Item = (PartAt, Vec<Finding>)>,
         is_said: impl Fn(&D::Cut) -> bool,
     ) -> (Vec<OfCut>, usize) {
-        let crossing = contours.crossing_within(places, |cut| Followed::begin(document, cut));
-        let crossing = crossing.iter().map(|(cut, found)| {
+        let crossing = contours.crossing_within(places).map(|(cut, found)| {
             let said = is_said(cut).then(|| document.crosses_itself(cut, found, document.text()));
-            (Followed::begin(document, cut), said.unwrap_or_default())
+            (cut.begin(), said.unwrap_or_default())
         });
         let (mut all, mut asked) = (Vec::new(), 0);
         for (begin, findings) in judged.chain(crossing) {
@@ -112,15 +153,5 @@ impl OfCut {
         }
         all.sort_by_key(OfCut::begin);
         (all, asked)
-    }
-
-    /// Puts what is found of the touched cuts in the place of what was, in a list in the order in which cuts begin.
-    pub(crate) fn splice(list: &mut Vec<OfCut>, touched: &Touched<'_>, fresh: Vec<OfCut>) {
-        let renumber = |one: &mut OfCut, moved: &dyn Fn(usize) -> usize| {
-            one.begin.0 = moved(one.begin.0 as usize) as u32;
-            one.place.renumber(moved);
-            one.other.iter_mut().for_each(|other| other.renumber(moved));
-        };
-        touched.splice(list, OfCut::begin, renumber, fresh);
     }
 }

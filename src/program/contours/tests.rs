@@ -314,3 +314,25 @@ fn an_edit_among_many_open_contours_judges_few() {
         }
     }
 }
+
+/// What is told of a program does not take longer where more is found, and an edit changes nothing of that.
+#[test]
+fn the_first_findings_are_told_without_a_look_at_all_others() {
+    for language in Language::ALL {
+        for count in [600, 2_400] {
+            let contours: Vec<(u8, i32)> = (0..count).map(|nth| (0, 5 + nth % 97)).collect();
+            let text = open_contours(language, &contours, false);
+            let settings = Effective::default();
+            let mut document = Document::read(language, text.clone().into_bytes(), &settings);
+            let (_, found) = document.findings(&settings, 7);
+            assert!(found >= count as usize / 3, "{language:?}: {found}");
+            let middle = text.len() / 2;
+            for word in ["", "1", "x"] {
+                document.edit(middle..middle, word);
+                let looked_at = document.findings_looked_at(7);
+                let few = looked_at.iter().all(|looked_at| *looked_at <= 80);
+                assert!(few, "{language:?} {count} {word:?}: {looked_at:?}");
+            }
+        }
+    }
+}

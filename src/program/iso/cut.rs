@@ -4,6 +4,7 @@
 use super::moves::{Place, added, apart};
 use super::part::{Part, SEVERAL, changes_side};
 use super::stretch::{StopAt, Stretch};
+use crate::program::by_chunk::{Begun, ByChunk};
 use crate::program::contours::PartAt;
 
 /// Bytes of a stretch, by its index.
@@ -29,6 +30,38 @@ pub(crate) struct JoinedCut {
     pub(crate) is_told: bool,
     /// How far its first stretch had been moved when it was put together.
     moved: Place,
+}
+
+impl Begun for JoinedCut {
+    /// How many there are of which not all that is said is kept.
+    type Sum = usize;
+
+    fn begin(&self) -> PartAt {
+        self.parts.first().copied().unwrap_or_default()
+    }
+
+    fn renumber(&mut self, moved: &dyn Fn(usize) -> usize) {
+        let parts = self.parts.iter_mut().map(|(stretch, _)| stretch);
+        let lines = [&mut self.first_line.0, &mut self.last_line.0];
+        let stop = self.stop.as_mut().map(|(stretch, _)| stretch);
+        let flip = self.flip.as_mut().map(|(_, (stretch, _))| stretch);
+        let all = parts.chain(lines).chain(stop).chain(flip);
+        all.for_each(|stretch| *stretch = moved(*stretch));
+    }
+
+    fn sum(list: &[JoinedCut]) -> usize {
+        list.iter().filter(|cut| !cut.is_told).count()
+    }
+}
+
+impl ByChunk<JoinedCut> {
+    /// Those of which not all that is said is kept.
+    pub(crate) fn untold(&self) -> impl Iterator<Item = &JoinedCut> {
+        let chunks = self.sums().enumerate();
+        let with_some = chunks.filter(|(_, untold)| **untold > 0);
+        let all = with_some.flat_map(|(chunk, _)| self.of(chunk));
+        all.filter(|cut| !cut.is_told)
+    }
 }
 
 impl JoinedCut {
@@ -75,25 +108,15 @@ impl JoinedCut {
         (self.stop, self.stops) = (next.stop, next.stops);
     }
 
-    /// Its first stretch, and its part in there.
-    pub(crate) fn begin(&self) -> PartAt {
-        self.parts.first().copied().unwrap_or_default()
-    }
-
     /// The stretch that holds all of it, and its part in it.
     pub(crate) fn only_place(&self) -> Option<PartAt> {
         let [at] = self.parts[..] else { return None };
         Some(at)
     }
 
-    /// Names its stretches again.
-    pub(crate) fn renumber(&mut self, moved: &dyn Fn(usize) -> usize) {
-        let parts = self.parts.iter_mut().map(|(stretch, _)| stretch);
-        let lines = [&mut self.first_line.0, &mut self.last_line.0];
-        let stop = self.stop.as_mut().map(|(stretch, _)| stretch);
-        let flip = self.flip.as_mut().map(|(_, (stretch, _))| stretch);
-        let all = parts.chain(lines).chain(stop).chain(flip);
-        all.for_each(|stretch| *stretch = moved(*stretch));
+    /// Whether its first stretch has been moved since.
+    pub(crate) fn is_elsewhere(&self, moved: Place) -> bool {
+        moved != self.moved
     }
 
     /// Takes it to where its first stretch has been moved.

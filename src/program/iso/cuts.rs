@@ -177,10 +177,6 @@ impl Followed for Document {
         None
     }
 
-    fn begin(&self, cut: &JoinedCut) -> PartAt {
-        cut.begin()
-    }
-
     fn behind(&self, cut: &JoinedCut) -> PartAt {
         let (stretch, part) = cut.parts.last().copied().unwrap_or_default();
         self.first_from((stretch, part + 1))
@@ -225,10 +221,6 @@ impl Followed for Document {
                 });
         }
         Some(contour)
-    }
-
-    fn renumber(cut: &mut JoinedCut, moved: &dyn Fn(usize) -> usize) {
-        cut.renumber(moved);
     }
 }
 

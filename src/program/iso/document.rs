@@ -14,6 +14,7 @@ use super::part::Hears;
 use super::read::words_of;
 use super::repair::found::Repairs;
 use super::stretch::{Placed, StopAt, Stretch};
+use crate::program::by_chunk::ByChunk;
 use crate::program::chunks::{ChunkReader, Chunks, Reread};
 use crate::program::contours::{Contours, PartAt, Touched};
 use crate::program::of_cut::OfCut;
@@ -42,10 +43,10 @@ pub struct Document {
     /// The stops within contours, before their tabs, and the contours that cross themselves.
     contours: Contours<JoinedCut>,
     /// The contours with possible findings, and those that may belong together with one of them.
-    doubtful: Vec<JoinedCut>,
+    doubtful: ByChunk<JoinedCut>,
     /// The findings about those that depend on them alone, and those about contours that cross
     /// themselves.
-    told: Vec<OfCut>,
+    told: ByChunk<OfCut>,
     /// The number of cuts that were judged last.
     #[cfg(test)]
     pub(in crate::program) judged: usize,
@@ -57,6 +58,8 @@ pub struct Document {
     pub(crate) table: Box<Table>,
     /// The slips that may explain the findings, once somebody has asked for them.
     pub(super) repairs: OnceLock<Arc<Repairs>>,
+    /// Those before the last edit.
+    pub(super) repairs_before: Option<Arc<Repairs>>,
     /// Whether its words stand apart, once somebody has asked.
     is_parted: OnceLock<bool>,
 }
@@ -80,14 +83,15 @@ impl Document {
             evidence: Evidence::default(),
             order: None,
             contours: Contours::default(),
-            doubtful: Vec::new(),
-            told: Vec::new(),
+            doubtful: ByChunk::default(),
+            told: ByChunk::default(),
             #[cfg(test)]
             judged: 0,
             known: Box::default(),
             limits: Box::new(limits),
             table: Box::default(),
             repairs: OnceLock::new(),
+            repairs_before: None,
             is_parted: OnceLock::new(),
         };
         document.read_all();
@@ -196,15 +200,11 @@ impl Document {
         &self.contours
     }
 
-    pub(super) fn doubtful(&self) -> &[JoinedCut] {
+    pub(super) fn doubtful(&self) -> &ByChunk<JoinedCut> {
         &self.doubtful
     }
 
-    pub(super) fn doubtful_mut(&mut self) -> &mut [JoinedCut] {
-        &mut self.doubtful
-    }
-
-    pub(super) fn told(&self) -> &[OfCut] {
+    pub(super) fn told(&self) -> &ByChunk<OfCut> {
         &self.told
     }
 
@@ -258,7 +258,7 @@ impl Document {
 
     /// Replaces a range of bytes and runs again what it touched.
     pub fn edit(&mut self, range: Range<usize>, replacement: &str) {
-        self.repairs = OnceLock::new();
+        self.repairs_before = self.repairs.take().or(self.repairs_before.take());
         // The byte before belongs to the edit: a CR there may become one line end with an inserted LF.
         let first = range.start.min(self.text.len()).saturating_sub(1);
         if self.text.line_of(first) < LOOKED_AT {
@@ -367,8 +367,8 @@ impl Document {
         let (reread, [from, to]) = match &reread {
             Some(reread) => self.touched(reread),
             None => {
-                (contours, doubtful) = (Contours::default(), Vec::new());
-                self.told.clear();
+                (contours, doubtful) = (Contours::default(), ByChunk::default());
+                self.told = ByChunk::default();
                 let all = Reread::all(&self.stretches);
                 (all, [(0, 0), (self.stretches.len(), 0)])
             }
@@ -385,13 +385,19 @@ impl Document {
             found.extend(is_kept.then_some(cut));
         });
         drop(is_doubtful);
-        looked_at.splice(&mut doubtful, JoinedCut::begin, JoinedCut::renumber, found);
-        for cut in &mut doubtful {
-            cut.follow(self.stretches[cut.begin().0].moved);
+        (self.contours, self.known) = (contours, known);
+        let told = self.tell(looked_at.from..looked_at.to, &mut found);
+        self.told.splice(&looked_at, told);
+        doubtful.splice(&looked_at, found);
+        // All that begin in a stretch stand where it stood, but for those that were looked at.
+        for (chunk, stretch) in self.stretches.iter().enumerate() {
+            let is_elsewhere = |cut: &JoinedCut| cut.is_elsewhere(stretch.moved);
+            let of = doubtful.of(chunk);
+            if of.first().is_some_and(is_elsewhere) || of.last().is_some_and(is_elsewhere) {
+                doubtful.change(chunk, |cut| cut.follow(stretch.moved));
+            }
         }
-        (self.contours, self.doubtful, self.known) = (contours, doubtful, known);
-        let told = self.tell(looked_at.from..looked_at.to);
-        OfCut::splice(&mut self.told, &looked_at, told);
+        self.doubtful = doubtful;
         let last = self.stretches.len().min(looked_at.to.0 + 1);
         for index in self.clean(looked_at.from.0..last) {
             self.stretches[index].let_go();

@@ -41,6 +41,7 @@ fn searched(document: &Document, finding: &Finding) -> Vec<TextFix> {
     };
     let Some((_, repairs)) = document
         .repairs()
+        .of_cuts
         .iter()
         .find(|(lines, _)| lines.contains(&line))
     else {

@@ -12,6 +12,7 @@ mod lost;
 mod passes;
 mod scan;
 mod slip;
+mod troubles;
 mod words;
 
 use super::block::Block;
@@ -21,21 +22,22 @@ use super::line::push_changed;
 use super::machine::Machine;
 use super::moves::{Move, distance};
 use super::plain::plain;
-use crate::finding::{Detail, Fault, Finding, FixKind, Place, Rule, Severity};
+use crate::finding::FixKind;
 use crate::geometry::{Segment, Vector};
-use crate::program::of_cut::OfCut;
 use crate::program::repair::crosses_itself;
 use crate::program::repair::search::{self, Contour, Plainness, Verdict, search};
 use crate::text::TextEdit;
 pub(super) use around::cut_around;
 use around::{LONGEST, begins_astray, is_way, stands_alone, with_numbers_kept};
-use found::{Repair, Repairs};
+use found::{LookedAt, Repair, Repairs, Searched};
 use passes::Passes;
 use scan::{Against, Line, Way};
 use std::borrow::Cow;
 use std::cell::OnceCell;
 use std::ops::Range;
 use std::sync::Arc;
+pub(super) use troubles::Troubles;
+pub(crate) use troubles::{is_trouble, line_of};
 use words::{Meant, Pool, Words, prior};
 
 /// Longer cuts, in lines, are searched only near the fault.
@@ -63,29 +65,43 @@ const MOST_RUNS: usize = 40_000;
 impl Document {
     /// The slips that may explain the faults, by the lines of the cuts that they stand in.
     pub(super) fn repairs(&self) -> &Repairs {
-        self.repairs
-            .get_or_init(|| Arc::new(repairs(self, &troubles(self, &self.plain_findings(), &[]))))
+        self.repairs.get_or_init(|| {
+            Arc::new(repairs(
+                self,
+                &mut Troubles::of(self, &self.plain_findings(), None),
+            ))
+        })
     }
 
-    /// The same, with the first bytes of the faults that a slip may explain given.
-    pub(super) fn repairs_of(&self, troubles: &[usize]) -> &Repairs {
+    /// The searches that were made before the last edit.
+    fn searched_before(&self) -> &[Searched] {
+        let before = self.repairs_before.as_ref();
+        before.map_or(&[], |before| &before.searched)
+    }
+
+    /// The same, with the faults that a slip may explain given.
+    pub(super) fn repairs_of(&self, troubles: &mut Troubles<'_>) -> &Repairs {
         self.repairs
             .get_or_init(|| Arc::new(repairs(self, troubles)))
     }
 }
 
 /// Searches the faulty cuts.
-fn repairs(document: &Document, troubles: &[usize]) -> Repairs {
-    let (mut found, mut too_long) = (Repairs::new(), Vec::<Range<usize>>::new());
+fn repairs(document: &Document, troubles: &mut Troubles<'_>) -> Repairs {
+    let (mut found, mut too_long) = (Repairs::default(), Vec::<Range<usize>>::new());
     let mut left = MOST_RUNS;
     let text = document.text();
-    for &trouble in troubles {
+    while let Some(trouble) = troubles.next() {
         let line = text.line_of(trouble);
-        let known = found.iter().map(|(lines, _)| lines).chain(&too_long);
+        let known = found
+            .of_cuts
+            .iter()
+            .map(|(lines, _)| lines)
+            .chain(&too_long);
         if known.clone().any(|lines| lines.contains(&line)) {
             continue;
         }
-        if found.len() == MOST_CUTS || left == 0 {
+        if found.of_cuts.len() == MOST_CUTS || left == 0 {
             break;
         }
         let lines = cut_around(document, line);
@@ -97,74 +113,27 @@ fn repairs(document: &Document, troubles: &[usize]) -> Repairs {
             too_long.push(lines);
             continue;
         };
-        let [first, behind] = [lines.start, lines.end]
-            .map(|line| troubles.partition_point(|trouble| text.line_of(*trouble) < line));
-        let own = troubles[first..behind].iter();
+        let own = troubles.within(&lines).iter();
         let own: Vec<usize> = own.map(|trouble| text.line_of(*trouble)).collect();
         // A single slip does not cause so many faults.
         let is_long = |line: usize| document.line_bytes(line).len() > LONGEST_LINE;
         if own.len() > MOST_TROUBLES || lines.clone().any(is_long) {
-            found.push((lines, Vec::new()));
+            found.of_cuts.push((lines, Vec::new()));
             continue;
         }
         let suspect = Suspect::new(document, lines.clone(), before, &own);
         left = left.saturating_sub(lines.len());
         let mut repairs = Vec::new();
         if !suspect.way.tells_too_little() {
-            let some = search(&suspect, &mut left).into_iter();
+            let searched = suspect.searched(&own, left);
+            left = searched.left;
+            let some = searched.found.iter();
             repairs.extend(some.filter_map(|repair| suspect.repair(repair)));
+            found.searched.push(searched);
         }
-        found.push((lines, repairs));
+        found.of_cuts.push((lines, repairs));
     }
     found
-}
-
-/// The first bytes of the findings that one slip may explain, in the order of the text.
-pub(crate) fn troubles(document: &Document, findings: &[Finding], told: &[OfCut]) -> Vec<usize> {
-    let findings = findings.iter().filter(|one| is_trouble(one));
-    let findings = findings.filter_map(|one| match &one.place {
-        Place::Text { range } => Some(range.start),
-        _ => None,
-    });
-    let of_cut = |one: &&OfCut| may_be_slip(one.rule, one.severity, &one.detail);
-    let told = told
-        .iter()
-        .filter(of_cut)
-        .map(|one| one.range(document.chunks()).start);
-    let mut all: Vec<usize> = findings.chain(told).collect();
-    all.sort();
-    all
-}
-
-/// Whether one slip may explain a finding.
-pub(crate) fn is_trouble(finding: &Finding) -> bool {
-    may_be_slip(finding.rule, finding.severity, &finding.detail)
-}
-
-fn may_be_slip(rule: Rule, severity: Severity, detail: &Detail) -> bool {
-    match rule {
-        Rule::Syntax | Rule::NotClosed | Rule::MixedNumbers => severity <= Severity::Warning,
-        Rule::TooManyDigits
-        | Rule::ArcOffRadius
-        | Rule::ArcWithoutRadius
-        | Rule::PathCrossesItself
-        | Rule::ReversedArc
-        | Rule::CenterOnLine
-        | Rule::WordTwice
-        | Rule::Spur => true,
-        Rule::DoubledBlock => !matches!(
-            detail,
-            Detail::Program(fault) if matches!(**fault, Fault::DoubledBlock { arc: false })
-        ),
-        _ => false,
-    }
-}
-
-pub(crate) fn line_of(document: &Document, finding: &Finding) -> Option<usize> {
-    match &finding.place {
-        Place::Text { range } => Some(document.text().line_of(range.start)),
-        _ => None,
-    }
 }
 
 /// A faulty cut.
@@ -176,7 +145,7 @@ struct Suspect<'a> {
     total: Against,
     order: Vec<usize>,
     /// Those beside it that tell which of its moves are right.
-    passes: Option<Passes>,
+    passes: Option<Arc<Passes>>,
     /// The block numbers of its lines and of those before it, once they were needed.
     numbers: Vec<OnceCell<Option<u32>>>,
     /// The cut before it has missed the place where this one should begin.
@@ -254,7 +223,7 @@ impl Contour for Suspect<'_> {
         let lines = self.lines_with(change);
         let (index, count) = (change.index(), change.replaced());
         let (after, runs) = self.way.with(index, count, &lines);
-        let told = |passes: &Passes| passes.against(&self.way, index, count, &lines);
+        let told = |passes: &Arc<Passes>| passes.against(&self.way, index, count, &lines);
         let (told, more) = self.passes.as_ref().map_or((0.0, 0), told);
         let cost = after.cost() + cost;
         let (was, is) = (self.total.faults(), after.faults());
@@ -358,7 +327,7 @@ impl<'a> Suspect<'a> {
             document,
             total: way.total(),
             begins_astray: begins_astray(document, &lines),
-            passes: Passes::beside(document, &lines, &way),
+            passes: Passes::beside(document, &lines, &way).map(Arc::new),
             numbers: vec![OnceCell::new(); lines.end - lines.start.saturating_sub(LOOKED_BACK)],
             lines,
             way,
@@ -423,8 +392,39 @@ impl<'a> Suspect<'a> {
             .collect()
     }
 
+    /// The search through it for faults in some `places`, perhaps as it was made before the last edit, which changed nothing
+    /// that it looks at.
+    fn searched(&self, places: &[usize], left: usize) -> Searched {
+        let (document, lines) = (self.document, &self.lines);
+        let text = document.text();
+        let first = lines.start.saturating_sub(LOOKED_BACK);
+        let last = text.line_count().min(lines.end + LOOKED_BACK + 1);
+        let bytes = text.line_start(first)..text.line_range(last.saturating_sub(1)).end;
+        let of = LookedAt {
+            text: text.slice(bytes).unwrap_or_default().to_vec(),
+            lines_before: lines.start - first,
+            lines: lines.len(),
+            faults: places.iter().map(|line| line - lines.start).collect(),
+            before: *self.way.machine_before(0),
+            begins_astray: self.begins_astray,
+            reading: *document.reading(),
+            decimals: document.usual_decimals(),
+            pointed: document.pointed(),
+            is_parted: self.pool.is_parted,
+            styles: self.pool.styles,
+            passes: self.passes.clone(),
+            left,
+        };
+        let mut before = document.searched_before().iter();
+        before.find(|one| one.of == of).cloned().unwrap_or_else(|| {
+            let mut left = left;
+            let found = search(self, &mut left);
+            Searched { of, found, left }
+        })
+    }
+
     /// A change as edits of the text.
-    fn repair(&self, repair: search::Repair<Meant>) -> Option<Repair> {
+    fn repair(&self, repair: &search::Repair<Meant>) -> Option<Repair> {
         let (text, change) = (self.document.text(), &repair.change);
         let line = self.lines.start + change.index();
         let start = text.line_start(line);

@@ -13,10 +13,11 @@ use super::moves::{Place as Spot, Reading, apart, meet, micrometres};
 use super::part::{Part, WireSide};
 use super::plain::word_at;
 use super::repair::found::Repair;
-use super::repair::{cut_around, line_of, troubles};
+use super::repair::{Troubles, cut_around, line_of};
 use super::stretch::Stretch;
 use crate::finding::{Detail, Fault, Finding, Place, Rule, Severity, Side};
 use crate::geometry::cross;
+use crate::program::by_chunk::ByChunk;
 use crate::program::path::{HasCuts, tolerance};
 use crate::program::repair::gate::Tried;
 use crate::program::report::place_of;
@@ -41,7 +42,7 @@ impl Document {
     /// The findings of the program, in the order of the text.
     pub fn findings(&self) -> Vec<Finding> {
         let mut findings = self.plain_findings();
-        let suspects = suspects(self, &troubles(self, &findings, &[]));
+        let suspects = suspects(self, &mut Troubles::of(self, &findings, None));
         if !suspects.is_empty() {
             findings.extend(suspects);
             sort(&mut findings);
@@ -79,15 +80,16 @@ impl Document {
             }
         }
         report.spurs();
-        for cut in self.doubtful().iter().filter(|cut| !cut.is_told) {
-            report.judge(cut, self.doubtful());
+        for cut in self.doubtful().untold() {
+            report.judge(cut, Some(self.doubtful()));
         }
         // With subprograms nothing is kept.
-        let crossing = self.contours().crossing().iter();
-        for (cut, found) in crossing.filter(|_| self.order().is_some()) {
-            report
-                .findings
-                .extend(self.crosses_itself(cut, found, self.text()));
+        if self.order().is_some() {
+            for (cut, found) in self.contours().crossing() {
+                report
+                    .findings
+                    .extend(self.crosses_itself(cut, found, self.text()));
+            }
         }
         report.taper();
         report.definitions();
@@ -129,7 +131,7 @@ impl Document {
     /// fault as a whole.
     pub(super) fn clean(&self, stretches: Range<usize>) -> Vec<usize> {
         let mut report = Report::new(self);
-        let crossing = self.contours().crossing().iter();
+        let crossing = self.contours().crossing();
         let places = crossing.flat_map(|(cut, _)| &cut.parts);
         let touched: FxHashSet<usize> = places.map(|(stretch, _)| *stretch).collect();
         let mut is_clean = |index: &usize| {
@@ -154,16 +156,11 @@ impl Document {
 }
 
 /// The blocks that may explain the findings by one slip, unless they have a finding already.
-fn suspects(document: &Document, troubles: &[usize]) -> Vec<Finding> {
-    let is_said = |line: usize| {
-        let line_of = |byte: usize| document.text().line_of(byte);
-        let next = troubles.partition_point(|byte| line_of(*byte) < line);
-        troubles
-            .get(next)
-            .is_some_and(|byte| line_of(*byte) == line)
-    };
+fn suspects(document: &Document, troubles: &mut Troubles<'_>) -> Vec<Finding> {
+    let found = document.repairs_of(troubles);
+    let mut is_said = |line: usize| !troubles.within(&(line..line + 1)).is_empty();
     let first = |(_, repairs): &(Range<usize>, Vec<Repair>)| repairs.first().cloned();
-    let repairs = document.repairs_of(troubles).iter().filter_map(first);
+    let repairs = found.of_cuts.iter().filter_map(first);
     let suspect = |repair: Repair| {
         let range = document.words_of(repair.line);
         let fault = Fault::Suspect {
@@ -315,7 +312,7 @@ impl<'a> Report<'a> {
     /// Whether a cut by itself has a finding.
     fn says(&mut self, cut: &JoinedCut) -> bool {
         let known = self.findings.len();
-        self.judge(cut, &[]);
+        self.judge(cut, None);
         let says = self.findings.len() > known;
         self.findings.truncate(known);
         says
@@ -340,7 +337,7 @@ impl<'a> Report<'a> {
 
     /// Checks a cut as a whole: does it close, does the wire run on the right side, is an arc too tight. `all` are
     /// those with which it may belong together.
-    fn judge(&mut self, cut: &JoinedCut, all: &[JoinedCut]) {
+    fn judge(&mut self, cut: &JoinedCut, all: Option<&ByChunk<JoinedCut>>) {
         let sum = &*cut.sum;
         if sum.open && !self.is_whole() {
             // A cut that was not read completely tells nothing about the whole.
@@ -401,7 +398,7 @@ impl<'a> Report<'a> {
 
     /// Twice the area of the contour of which a cut is the tab, or all but the tab, where both are cut from and to the
     /// thread hole.
-    fn area_with_tab(&self, cut: &JoinedCut, all: &[JoinedCut]) -> Option<i128> {
+    fn area_with_tab(&self, cut: &JoinedCut, all: Option<&ByChunk<JoinedCut>>) -> Option<i128> {
         let begins = |sum: &Part| sum.first.map(|step| step.to);
         let ends = |sum: &Part| sum.last.map(|step| step.from);
         let tolerance = self.document.tolerance(&cut.sum);
@@ -422,7 +419,7 @@ impl<'a> Report<'a> {
                 && tabs.any(|(from, to)| !meet(from, to));
             are_one.then_some(area)
         };
-        all.iter().find_map(|other| area(&other.sum))
+        all?.iter().find_map(|other| area(&other.sum))
     }
 
     /// A G41 that becomes G42 within a cut, at the word that does so.

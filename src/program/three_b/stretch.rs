@@ -17,6 +17,7 @@ use crate::finding::{Fault, Rule};
 use crate::geometry::{Bounds, Point, Segment, Vector};
 use crate::program::numbering::Numbering;
 use crate::program::path::{HeldWay, Lay, Node, Writing, may_be_odd, odd_joint};
+use crate::program::report::{Counted, count};
 use std::borrow::Cow;
 use std::ops::{Deref, Range};
 
@@ -174,7 +175,7 @@ pub(super) struct Stretch {
     pub(crate) entries: Vec<Entry>,
     pub(crate) faults: Vec<Local>,
     /// How many faults of each rule; `None` where one of them counts only under conditions.
-    pub(crate) tally: Option<Vec<(Rule, usize)>>,
+    pub(crate) tally: Option<Vec<Counted>>,
     pub(crate) parts: Vec<Part>,
     pub(crate) blocks: usize,
     pub(crate) arcs: usize,
@@ -294,14 +295,11 @@ impl Stretch {
         self.let_go();
     }
 
-    fn tallied(&self) -> Option<Vec<(Rule, usize)>> {
-        let mut tally: Vec<(Rule, usize)> = Vec::new();
+    fn tallied(&self) -> Option<Vec<Counted>> {
+        let mut tally = Vec::new();
         for fault in &self.faults {
             let rule = (fault.counts == Counts::Always).then_some(fault.rule)?;
-            match tally.iter_mut().find(|(own, _)| *own == rule) {
-                Some((_, count)) => *count += 1,
-                None => tally.push((rule, 1)),
-            }
+            count(&mut tally, rule, rule.default_severity());
         }
         Some(tally)
     }
@@ -323,20 +321,26 @@ impl Stretch {
         }
     }
 
-    /// The blocks of a part once more.
-    fn read_again(&self, part: &Part) -> Open {
-        let mut open = Open::at(part.entries().start);
+    fn blocks_of(&self, part: &Part) -> impl Iterator<Item = &BlockEntry> {
         let own = self.entries.get(part.entries()).unwrap_or_default();
-        let blocks = own.iter().filter_map(Entry::block);
-        blocks.for_each(|block| open.push(&block.block()));
-        open
+        own.iter().filter_map(Entry::block)
     }
 
     /// The totals of a part.
     pub(crate) fn sum(&self, part: &Part) -> Sum {
         match &part.whole {
             Some(whole) => whole.sum,
-            None => self.read_again(part).sum,
+            None => {
+                let mut sum = Sum::default();
+                for block in self.blocks_of(part).map(BlockEntry::block) {
+                    sum.push(
+                        &block,
+                        travel_of(&block),
+                        meant(&block, Point::origin()).as_ref(),
+                    );
+                }
+                sum
+            }
         }
     }
 
@@ -345,7 +349,9 @@ impl Stretch {
         match &part.whole {
             Some(whole) => Cow::Borrowed(&whole.lay),
             None => {
-                let open = self.read_again(part);
+                let mut open = Open::at(part.entries().start);
+                let blocks = self.blocks_of(part).map(BlockEntry::block);
+                blocks.for_each(|block| open.push(&block));
                 Cow::Owned(Lay::of(&open.way, open.sum.mark, false))
             }
         }

@@ -1,8 +1,16 @@
 //! The results of a search through the faulty cuts.
 
+use super::passes::Passes;
+use super::words::Meant;
 use crate::finding::FixKind;
+use crate::program::iso::evidence::UsualDecimals;
+use crate::program::iso::machine::Machine;
+use crate::program::iso::moves::Reading;
+use crate::program::iso::style::Style;
+use crate::program::repair::search;
 use crate::text::TextEdit;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// A change that makes a cut sound, or sounder.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,5 +37,41 @@ impl Repair {
     }
 }
 
-/// Repairs by the lines of the cuts that they belong to.
-pub(crate) type Repairs = Vec<(Range<usize>, Vec<Repair>)>;
+/// The repairs of a program.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Repairs {
+    /// By the lines of the cuts that they belong to.
+    pub(crate) of_cuts: Vec<(Range<usize>, Vec<Repair>)>,
+    /// The searches for them.
+    pub(super) searched: Vec<Searched>,
+}
+
+/// A search through a cut, and its result.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Searched {
+    pub(crate) of: LookedAt,
+    pub(crate) found: Vec<search::Repair<Meant>>,
+    /// Lines that may still be run after it.
+    pub(crate) left: usize,
+}
+
+/// All that a search looks at: equal searches have equal results.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct LookedAt {
+    /// The lines of the cut and those about it in which numbers of blocks are looked for, and how many of them stand before it.
+    pub(crate) text: Vec<u8>,
+    pub(crate) lines_before: usize,
+    pub(crate) lines: usize,
+    /// The lines of its faults, from its first.
+    pub(crate) faults: Vec<usize>,
+    pub(crate) before: Machine,
+    pub(crate) begins_astray: bool,
+    pub(crate) reading: Reading,
+    pub(crate) decimals: Option<UsualDecimals>,
+    pub(crate) pointed: Option<bool>,
+    pub(crate) is_parted: bool,
+    pub(crate) styles: [Style; 2],
+    pub(crate) passes: Option<Arc<Passes>>,
+    /// Lines that may be run for it.
+    pub(crate) left: usize,
+}

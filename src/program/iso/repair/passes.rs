@@ -21,6 +21,7 @@ const FEWEST: usize = 4;
 type Shape = (Place, Option<(Place, bool)>);
 
 /// The moves of a contour's other passes, in either direction.
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Passes {
     counts: FxHashMap<Shape, usize>,
     /// The moves of the cut itself are among them: its passes have no stop between them.

@@ -3,52 +3,68 @@
 
 use super::super::cut::JoinedCut;
 use super::super::document::Document;
-use super::super::repair::troubles;
+use super::super::repair::Troubles;
 use super::{Report, sort, suspects};
 use crate::finding::Finding;
+use crate::program::by_chunk::Begun;
 use crate::program::contours::PartAt;
 use crate::program::of_cut::OfCut;
 use crate::program::path::HasCuts;
-use crate::program::report::{self, Found, place_of};
+use crate::program::report::{self, Counted, Found, place_of};
 use std::ops::Range;
 
 /// The source of a finding.
 pub(in crate::program) enum Kept {
     Found(Finding),
-    OfCut { index: usize },
+    OfCut { stretch: usize, index: usize },
 }
 
 impl report::Report for Document {
     type Kept = Kept;
 
-    fn found(&self) -> impl Iterator<Item = Found<Kept>> {
-        let mut others = self.report().finish();
-        others.extend(suspects(self, &troubles(self, &others, self.told())));
-        sort(&mut others);
-        let found = |finding: Finding| Found {
+    /// Those that are not kept, and those of the cuts that begin in each stretch.
+    fn groups(&self) -> usize {
+        1 + self.told().len()
+    }
+
+    fn tally(&self, group: usize) -> Option<(usize, &[Counted])> {
+        let tally = self.told().sum(group.checked_sub(1)?)?;
+        Some(tally.told(self.chunks()))
+    }
+
+    fn found_in(&self, group: usize) -> impl Iterator<Item = Found<Kept>> {
+        let not_kept = || {
+            let mut others = self.report().finish();
+            let mut troubles = Troubles::of(self, &others, Some(self.told()));
+            others.extend(suspects(self, &mut troubles));
+            sort(&mut others);
+            others
+        };
+        let others = (group == 0).then(not_kept).into_iter().flatten();
+        let others = others.map(|finding: Finding| Found {
             rule: finding.rule,
             severity: finding.severity,
             place: place_of(&finding),
             kept: Kept::Found(finding),
-        };
-        let of_cut = |(index, told): (usize, &OfCut)| {
+        });
+        let stretch = group.wrapping_sub(1);
+        let of_cuts = self.told().of(stretch).iter().enumerate();
+        others.chain(of_cuts.map(move |(index, told)| {
             let Range { start, end } = told.range(self.chunks());
             Found {
                 rule: told.rule,
                 severity: told.severity,
                 place: (start, end),
-                kept: Kept::OfCut { index },
+                kept: Kept::OfCut { stretch, index },
             }
-        };
-        let of_cuts = self.told().iter().enumerate().map(of_cut);
-        others.into_iter().map(found).chain(of_cuts)
+        }))
     }
 
     fn worded(&self, kept: Kept) -> Option<Finding> {
         match kept {
             Kept::Found(finding) => Some(finding),
-            Kept::OfCut { index } => {
-                let told = self.told().get(index)?;
+            Kept::OfCut { stretch, index } => {
+                let told = self.told().of(stretch).get(index)?;
                 Some(told.finding(self.chunks(), self.text()))
             }
         }
@@ -60,35 +76,41 @@ impl report::Report for Document {
 }
 
 impl Document {
-    /// Judges and marks the doubtful cuts that begin in a range, where the verdict depends on
+    /// How many findings are looked up to find the slips that explain them.
+    #[cfg(test)]
+    pub(in crate::program) fn troubles_looked_up(&self) -> usize {
+        let others = self.report().finish();
+        let mut troubles = Troubles::of(self, &others, Some(self.told()));
+        let mut fresh = self.clone();
+        fresh.repairs = Default::default();
+        suspects(&fresh, &mut troubles);
+        troubles.looked_up()
+    }
+
+    /// Judges and marks the `doubtful` cuts that begin in a range, where the verdict depends on
     /// nothing else, and reports where cuts there cross themselves.
-    pub(in crate::program::iso) fn tell(&mut self, places: Range<PartAt>) -> Vec<OfCut> {
+    pub(in crate::program::iso) fn tell(
+        &mut self,
+        places: Range<PartAt>,
+        doubtful: &mut [JoinedCut],
+    ) -> Vec<OfCut> {
         if self.order().is_some() {
             return Vec::new();
         }
-        let mut alone = Vec::new();
         let mut report = Report::new(self);
-        let first = self
-            .doubtful()
-            .partition_point(|cut| cut.begin() < places.start);
-        let doubtful = self.doubtful().iter().enumerate().skip(first);
-        let doubtful = doubtful.take_while(|(_, cut)| cut.begin() < places.end);
-        let judged = doubtful.map(|(index, cut)| {
-            if report.stands_alone(cut) {
-                alone.push(index);
-                report.judge(cut, &[]);
+        let judged = doubtful.iter_mut().map(|cut| {
+            cut.is_told = report.stands_alone(cut);
+            if cut.is_told {
+                report.judge(cut, None);
             }
             (cut.begin(), std::mem::take(&mut report.findings))
         });
         let kept = (self.chunks(), self.contours());
-        let (told, asked) = OfCut::all(&*self, kept, places.clone(), judged, |_| true);
+        let (told, asked) = OfCut::all(self, kept, places, judged, |_| true);
         #[cfg(test)]
         (self.judged = asked);
         #[cfg(not(test))]
         let _ = asked;
-        for index in alone {
-            self.doubtful_mut()[index].is_told = true;
-        }
         told
     }
 }

@@ -2,6 +2,7 @@
 
 use super::cuts::joined;
 use super::{At, Document, JoinedCut};
+use crate::program::by_chunk::Begun;
 use crate::program::contours::{Contour, Followed, PartAt};
 use crate::program::path::{BehindStops, Ends, HasCuts, KnownTabs, Way, goes_on};
 use std::ops::Range;
@@ -9,41 +10,42 @@ use std::ops::Range;
 /// An open cut and the cuts after its stops.
 struct OpenCuts<'a> {
     document: &'a Document,
-    cuts: Vec<JoinedCut>,
-    /// All up to each of them as one.
-    wholes: Vec<JoinedCut>,
+    /// All as one, and all but the last, which is the first while there is no other.
+    whole: JoinedCut,
+    before: JoinedCut,
+    last: JoinedCut,
     /// The starts of the cuts after the first.
     begins: Vec<PartAt>,
 }
 
 impl BehindStops for OpenCuts<'_> {
     fn take_next(&mut self) -> Option<()> {
-        let whole = self.wholes.last()?;
-        let begin = self.document.part_behind(whole.parts[1]);
-        let next = self.document.cut_from(begin)?;
-        self.wholes.push(joined(whole.clone(), &next));
-        self.cuts.push(next);
+        let begin = self.document.part_behind(self.whole.parts[1]);
+        self.last = self.document.cut_from(begin)?;
+        let whole = joined(self.whole.clone(), &self.last);
+        self.before = std::mem::replace(&mut self.whole, whole);
         self.begins.push(begin);
         Some(())
     }
 
     fn ends(&self) -> Ends {
-        self.document.ends(&self.wholes[self.wholes.len() - 1])
+        self.document.ends(&self.whole)
     }
 
     fn way(&self, cuts: Range<usize>) -> impl Way {
-        self.document.way(match cuts.start {
-            0 => &self.wholes[cuts.end - 1],
-            single => &self.cuts[single],
+        self.document.way(match (cuts.start, cuts.end) {
+            (0, end) if end > self.begins.len() => &self.whole,
+            (0, _) => &self.before,
+            _ => &self.last,
         })
     }
 
     fn last_mark(&self) -> u64 {
-        self.document.mark(&self.cuts[self.cuts.len() - 1])
+        self.document.mark(&self.last)
     }
 
     fn last_stands_alone(&self) -> bool {
-        let last = &self.cuts[self.cuts.len() - 1];
+        let last = &self.last;
         last.sum.blocks > 0 && (last.is_jump || self.document.is_closed(last))
     }
 }
@@ -77,10 +79,6 @@ impl Followed for Document {
         None
     }
 
-    fn begin(&self, cut: &JoinedCut) -> PartAt {
-        cut.parts[0]
-    }
-
     fn behind(&self, cut: &JoinedCut) -> PartAt {
         self.part_behind(cut.parts[1])
     }
@@ -97,12 +95,13 @@ impl Followed for Document {
         }
         let mut open = OpenCuts {
             document: self,
-            cuts: vec![cut.clone()],
-            wholes: vec![cut.clone()],
+            whole: cut.clone(),
+            before: cut.clone(),
+            last: cut.clone(),
             begins: Vec::new(),
         };
         let is_tab = goes_on(&mut open, known);
-        let whole = open.wholes.pop()?;
+        let whole = open.whole;
         let behind = self.behind(&whole);
         let next = self.cut_from(behind);
         let reach = next.map_or(self.stretches.len(), |next| next.parts[1].0);
@@ -124,10 +123,20 @@ impl Followed for Document {
             },
         })
     }
+}
 
-    fn renumber(cut: &mut JoinedCut, moved: &dyn Fn(usize) -> usize) {
-        cut.parts = cut.parts.map(|(stretch, part)| (moved(stretch), part));
+impl Begun for JoinedCut {
+    type Sum = ();
+
+    fn begin(&self) -> PartAt {
+        self.parts[0]
     }
+
+    fn renumber(&mut self, moved: &dyn Fn(usize) -> usize) {
+        self.parts = self.parts.map(|(stretch, part)| (moved(stretch), part));
+    }
+
+    fn sum(_: &[JoinedCut]) {}
 }
 
 impl Document {

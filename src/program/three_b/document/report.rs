@@ -4,10 +4,9 @@ use super::super::fields::fields_of;
 use super::super::rules::{self, Counts};
 use super::super::stretch::Local;
 use super::{Document, JoinedCut};
-use crate::finding::{Detail, Finding, Rule, Severity};
-use crate::program::of_cut::OfCut;
+use crate::finding::{Detail, Finding, Severity};
 use crate::program::repair::gate::Tried;
-use crate::program::report::{Found, Report, place_of};
+use crate::program::report::{Counted, Found, Report, place_of};
 use crate::settings::SideSetting;
 use std::ops::Range;
 
@@ -15,49 +14,59 @@ use std::ops::Range;
 #[derive(Clone, Copy, Debug)]
 pub(in crate::program) enum Kept {
     InBlock { stretch: usize, index: usize },
-    OfCut { index: usize },
+    OfCut { stretch: usize, index: usize },
     OnWhole { index: usize },
 }
 
 impl Report for Document {
     type Kept = Kept;
 
-    fn found(&self) -> impl Iterator<Item = Found<Kept>> {
-        let of_cut = move |(index, told): (usize, &OfCut)| Found {
+    /// The faults of each stretch, those of the cuts that begin in each, and those of the whole.
+    fn groups(&self) -> usize {
+        2 * self.stretches.len() + 1
+    }
+
+    fn tally(&self, group: usize) -> Option<(usize, &[Counted])> {
+        match self.stretches.get(group) {
+            Some(of) => Some((self.stretches.byte(group), of.tally.as_deref()?)),
+            None => {
+                let tally = self.view.told.found().sum(group - self.stretches.len())?;
+                Some(tally.told(&self.stretches))
+            }
+        }
+    }
+
+    fn found_in(&self, group: usize) -> impl Iterator<Item = Found<Kept>> {
+        let faults = self.stretches.get(group).map_or(&[][..], |of| &of.faults);
+        let counting = faults.iter().enumerate();
+        let counting = counting.filter(move |(_, local)| self.counts(group, local));
+        let in_blocks = counting.map(move |(index, local)| Found {
+            rule: local.rule,
+            severity: self.own_severity(group, local),
+            place: (local.range.start + self.stretches.byte(group), 0),
+            kept: Kept::InBlock {
+                stretch: group,
+                index,
+            },
+        });
+        let stretch = group.wrapping_sub(self.stretches.len());
+        let of_cuts = self.view.told.found().of(stretch).iter().enumerate();
+        let of_cuts = of_cuts.map(move |(index, told)| Found {
             rule: told.rule,
             severity: told.severity,
             place: (told.range(&self.stretches).start, 0),
-            kept: Kept::OfCut { index },
-        };
-        let on_whole = move |(index, finding): (usize, &Finding)| Found {
+            kept: Kept::OfCut { stretch, index },
+        });
+        let is_last = group + 1 == self.groups();
+        let of_whole = self.view.findings.iter().enumerate();
+        let of_whole = of_whole.filter(move |_| is_last);
+        let on_whole = of_whole.map(|(index, finding)| Found {
             rule: finding.rule,
             severity: finding.severity,
             place: (place_of(finding).0, 0),
             kept: Kept::OnWhole { index },
-        };
-        let of_whole = self.view.findings.iter().enumerate().map(on_whole);
-        let of_cuts = self.view.told.found().iter().enumerate().map(of_cut);
-        of_cuts.chain(of_whole)
-    }
-
-    fn chunks(&self) -> usize {
-        self.stretches.len()
-    }
-
-    fn tally(&self, stretch: usize) -> Option<(usize, &[(Rule, usize)])> {
-        let tally = self.stretches.get(stretch)?.tally.as_deref()?;
-        Some((self.stretches.byte(stretch), tally))
-    }
-
-    fn found_in(&self, stretch: usize) -> impl Iterator<Item = Found<Kept>> {
-        let faults = self.stretches[stretch].faults.iter().enumerate();
-        let counting = faults.filter(move |(_, local)| self.counts(stretch, local));
-        counting.map(move |(index, local)| Found {
-            rule: local.rule,
-            severity: self.own_severity(stretch, local),
-            place: (local.range.start + self.stretches.byte(stretch), 0),
-            kept: Kept::InBlock { stretch, index },
-        })
+        });
+        in_blocks.chain(of_cuts).chain(on_whole)
     }
 
     fn worded(&self, kept: Kept) -> Option<Finding> {
@@ -66,8 +75,8 @@ impl Report for Document {
                 let local = self.stretches.get(stretch)?.faults.get(index)?;
                 Some(self.materialized(stretch, local))
             }
-            Kept::OfCut { index } => {
-                let told = self.view.told.found().get(index)?;
+            Kept::OfCut { stretch, index } => {
+                let told = self.view.told.found().of(stretch).get(index)?;
                 Some(told.finding(&self.stretches, &self.text))
             }
             Kept::OnWhole { index } => self.view.findings.get(index).cloned(),

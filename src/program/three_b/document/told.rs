@@ -11,16 +11,32 @@ use super::super::rules;
 use super::{At, Document, JoinedCut, View};
 use crate::finding::{Axis, Fault, Finding};
 use crate::geometry::Vector;
+use crate::program::by_chunk::{Begun, ByChunk};
 use crate::program::chunks::Reread;
 use crate::program::contours::{PartAt, Touched};
 use crate::program::numbering;
 use crate::program::of_cut::OfCut;
 use crate::program::path::{HasCuts, tolerance};
+use crate::toolpath::each;
 use rustc_hash::FxHashMap;
 
 /// The findings about a contour may depend on the lines of this many cuts with blocks on either
 /// side of it: on its stops, on those of the contour before, and on the cuts beside it.
 const CUTS_ABOUT: usize = 24;
+
+/// Contours that are judged together, and how many of them one core takes at a time: an edit touches fewer.
+const JUDGED_AT_ONCE: usize = 1024;
+const FEW_JUDGED: usize = 128;
+
+/// An open contour, and what is said of it.
+struct Opened {
+    cut: JoinedCut,
+    /// With the open ones beside it.
+    whole: Option<JoinedCut>,
+    /// Equal for equal searches for a block to blame; none is searched for where it is not there.
+    mark: Option<u64>,
+    findings: Vec<Finding>,
+}
 
 /// An open contour in which a block to blame was searched for.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,14 +47,28 @@ struct Searched {
     blamed: Blamed,
 }
 
+impl Begun for Searched {
+    type Sum = ();
+
+    fn begin(&self) -> PartAt {
+        self.begin
+    }
+
+    fn renumber(&mut self, moved: &dyn Fn(usize) -> usize) {
+        self.begin.0 = moved(self.begin.0);
+    }
+
+    fn sum(_: &[Searched]) {}
+}
+
 /// The block to blame, by its number in the contour.
 type Blamed = Option<Box<(usize, Fault)>>;
 
 /// All findings about single contours, in the order in which the contours begin.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Told {
-    found: Vec<OfCut>,
-    searched: Vec<Searched>,
+    found: ByChunk<OfCut>,
+    searched: ByChunk<Searched>,
     /// How many contours were judged for the last edit, and in how many of them a block to blame
     /// was searched for.
     #[cfg(test)]
@@ -46,7 +76,7 @@ pub(super) struct Told {
 }
 
 impl Told {
-    pub(super) fn found(&self) -> &[OfCut] {
+    pub(super) fn found(&self) -> &ByChunk<OfCut> {
         &self.found
     }
 }
@@ -63,6 +93,8 @@ impl Document {
             ..
         } = before;
         let is_all = reread.before == 0 || numbers.step != self.view.numbers.step;
+        let all = Reread::all(&self.stretches);
+        let reread = if is_all { &all } else { reread };
         let [from, to] = if is_all {
             told = Told::default();
             [(0, 0), (self.stretches.len(), 0)]
@@ -78,43 +110,20 @@ impl Document {
             });
             [self.cuts_before(from), self.cuts_behind(to)]
         };
-        let touched = Touched {
-            from,
-            to,
-            ..touched
-        };
-        let before = |one: &Searched| one.begin < from;
-        let is_gone = |one: &Searched| {
-            let (stretch, part) = one.begin;
-            reread
-                .moved(stretch)
-                .is_none_or(|stretch| (stretch, part) < to)
-        };
-        let first = told.searched.partition_point(before);
-        let gone = told.searched[first..].iter();
-        let gone = gone.take_while(|one| is_gone(one));
+        let touched = Touched { reread, from, to };
+        let gone = told.searched.touched(&touched);
         let mut known: FxHashMap<u64, Blamed> =
             gone.map(|one| (one.mark, one.blamed.clone())).collect();
         let contours = &self.view.contours;
-        let (mut searched, mut searches) = (Vec::new(), 0);
-        let judged = contours.open_within(from..to).map(|begin| {
-            let before = known.len();
-            let cut = self.cut_from(begin);
-            let (findings, own) =
-                cut.map_or_else(Default::default, |cut| self.judge_open(&cut, &mut known));
-            searched.extend(own);
-            searches += known.len() - before;
-            (begin, findings)
-        });
+        let (mut searched, known_before) = (Vec::new(), known.len());
+        let begins: Vec<PartAt> = contours.open_within(from..to).collect();
+        let some = begins.chunks(JUDGED_AT_ONCE);
+        let judged = some.flat_map(|some| self.judge_open(some, &mut known, &mut searched));
         let kept = (&self.stretches, contours);
         let (found, asked) = OfCut::all(self, kept, from..to, judged, |cut| !self.is_odd(cut));
-        OfCut::splice(&mut told.found, &touched, found);
-        touched.splice(
-            &mut told.searched,
-            |one| one.begin,
-            |one, moved| one.begin.0 = moved(one.begin.0),
-            searched,
-        );
+        let searches = known.len() - known_before;
+        told.found.splice(&touched, found);
+        told.searched.splice(&touched, searched);
         #[cfg(test)]
         (told.judged = [asked, searches]);
         #[cfg(not(test))]
@@ -195,61 +204,89 @@ impl Document {
         })
     }
 
-    /// `not-closed`, and the block to blame where that is plain, with the search for it.
+    /// `not-closed` of the contours that begin at some parts, and the blocks to blame where that is plain, with the searches
+    /// for them, of which the results of some are `known`.
     fn judge_open(
         &self,
-        cut: &JoinedCut,
+        begins: &[PartAt],
         known: &mut FxHashMap<u64, Blamed>,
-    ) -> (Vec<Finding>, Option<Searched>) {
-        let is_fragment = self.view.end.is_none() || self.is_fragment(cut);
-        if cut.sum.unread > 0 || (is_fragment && self.leads_out(cut)) {
-            return (Vec::new(), None);
-        }
-        let mut findings: Vec<Finding> = self.not_closed(cut, is_fragment).into_iter().collect();
-        let may_be_one_field =
-            cut.sum.errors == 0 && cut.sum.blocks >= FEWEST_BLAMED && !self.lacks_a_number(cut);
-        if is_fragment || !may_be_one_field {
-            return (findings, None);
-        }
-        let searched = self.searched_for_blame(cut, known);
-        if let Some(Searched {
-            blamed: Some(blamed),
+        searched: &mut Vec<Searched>,
+    ) -> Vec<(PartAt, Vec<Finding>)> {
+        let opened = each(begins.len(), FEW_JUDGED, |nth| self.opened(begins[nth]));
+        let mut opened: Vec<Opened> = opened.into_iter().flatten().collect();
+        // Equal searches are made once.
+        let asked = opened.iter().flat_map(|one| Some((one.mark?, one)));
+        let mut unknown: Vec<(u64, &Opened)> = asked
+            .filter(|(mark, _)| !known.contains_key(mark))
+            .collect();
+        unknown.sort_by_key(|(mark, _)| *mark);
+        unknown.dedup_by_key(|(mark, _)| *mark);
+        let blamed = each(unknown.len(), FEW_JUDGED, |nth| {
+            let (mark, Opened { cut, whole, .. }) = unknown[nth];
+            let blamed = self.blamed(cut, whole.as_ref().unwrap_or(cut));
+            (mark, blamed.map(Box::new))
+        });
+        known.extend(blamed);
+        for Opened {
+            cut,
+            mark,
+            findings,
             ..
-        }) = &searched
-            && let Some(at) = self.blocks_of(cut).nth(blamed.0)
+        } in &mut opened
         {
-            let fault = blamed.1.clone();
-            let spot = match &fault {
-                Fault::QuadrantKeepsOpen { .. } => rules::Spot::Motion,
-                Fault::AxisKeepsOpen { .. } => rules::Spot::Axis,
-                Fault::JKeepsOpen { .. } => rules::Spot::J,
-                Fault::NumberKeepsOpen { axis: Axis::X, .. } => rules::Spot::X,
-                Fault::NumberKeepsOpen { axis: Axis::Y, .. } => rules::Spot::Y,
-                _ => rules::Spot::Block,
+            let Some((mark, blamed)) = mark.and_then(|mark| Some((mark, known.get(&mark)?))) else {
+                continue;
             };
-            let block = self.range_of(at);
-            let range = fields_of(self.text.bytes(), block.clone())
-                .map_or(block.clone(), |fields| spot.range(&fields, block));
-            findings.push(Finding::of(fault, range));
+            findings.extend(blamed.as_ref().and_then(|blamed| self.blame(cut, blamed)));
+            searched.push(Searched {
+                begin: cut.parts[0],
+                mark,
+                blamed: blamed.clone(),
+            });
         }
-        (findings, searched)
+        let told = |one: Opened| (one.cut.parts[0], one.findings);
+        opened.into_iter().map(told).collect()
     }
 
-    /// Searches an open contour for the block to blame, where the result is not `known`.
-    fn searched_for_blame(
-        &self,
-        cut: &JoinedCut,
-        known: &mut FxHashMap<u64, Blamed>,
-    ) -> Option<Searched> {
-        let whole = self.with_open_beside(cut);
-        let whole = whole.as_ref().unwrap_or(cut);
-        let mark = self.mark_of_search(cut, whole)?;
-        let search = || self.blamed(cut, whole).map(Box::new);
-        Some(Searched {
-            begin: cut.parts[0],
-            mark,
-            blamed: known.entry(mark).or_insert_with(search).clone(),
-        })
+    /// What is known of the open contour that begins at a part without a search.
+    fn opened(&self, begin: PartAt) -> Option<Opened> {
+        let cut = self.cut_from(begin)?;
+        let is_fragment = self.view.end.is_none() || self.is_fragment(&cut);
+        let mut opened = Opened {
+            whole: None,
+            mark: None,
+            findings: Vec::new(),
+            cut,
+        };
+        let cut = &opened.cut;
+        if cut.sum.unread > 0 || (is_fragment && self.leads_out(cut)) {
+            return Some(opened);
+        }
+        opened.findings.extend(self.not_closed(cut, is_fragment));
+        let may_be_one_field =
+            cut.sum.errors == 0 && cut.sum.blocks >= FEWEST_BLAMED && !self.lacks_a_number(cut);
+        if may_be_one_field && !is_fragment {
+            opened.whole = self.with_open_beside(cut);
+            opened.mark = self.mark_of_search(cut, opened.whole.as_ref().unwrap_or(cut));
+        }
+        Some(opened)
+    }
+
+    /// The finding of the block to blame.
+    fn blame(&self, cut: &JoinedCut, (nth, fault): &(usize, Fault)) -> Option<Finding> {
+        let at = self.blocks_of(cut).nth(*nth)?;
+        let spot = match fault {
+            Fault::QuadrantKeepsOpen { .. } => rules::Spot::Motion,
+            Fault::AxisKeepsOpen { .. } => rules::Spot::Axis,
+            Fault::JKeepsOpen { .. } => rules::Spot::J,
+            Fault::NumberKeepsOpen { axis: Axis::X, .. } => rules::Spot::X,
+            Fault::NumberKeepsOpen { axis: Axis::Y, .. } => rules::Spot::Y,
+            _ => rules::Spot::Block,
+        };
+        let block = self.range_of(at);
+        let range = fields_of(self.text.bytes(), block.clone())
+            .map_or(block.clone(), |fields| spot.range(&fields, block));
+        Some(Finding::of(fault.clone(), range))
     }
 
     /// Whether the numbers of a cut have a gap: a block is lost then.

@@ -51,11 +51,15 @@ pub(super) struct Wanted {
 
 impl Wanted {
     pub(crate) fn is_met(&self, block: &Block) -> bool {
+        self.is_met_by(travel_of(block))
+    }
+
+    fn is_met_by(&self, travel: Move) -> bool {
         let own = Move {
             machine: self.by.map(|um| um.round() as i64),
             meant: self.by.map(|um| (um * 1e3).round() as i64),
         };
-        travel_of(block).minus(own).is_within(self.near)
+        travel.minus(own).is_within(self.near)
     }
 
     /// How far a block ends from there, µm.
@@ -96,25 +100,37 @@ pub(super) fn is_usual(block: &Block) -> bool {
     (x, y) == (0, 0) || quadrant == usual
 }
 
-/// The sound blocks that differ from one by a slip and lead to the intended end. `digits` are its numbers as they are
-/// written.
-pub(super) fn blocks_to(
+/// Blocks with the numbers of another one, and where each leads, whatever end is wanted.
+fn of_same_numbers(block: &Block) -> Vec<(Block, Slip, Move)> {
+    let (axis, x, y) = (block.axis.other(), block.y, block.x);
+    let motions = Motion::all().map(|motion| (Block { motion, ..*block }, Slip::Motion));
+    let others = [
+        (Block { axis, ..*block }, Slip::Axis),
+        (Block { x, y, ..*block }, Slip::Exchanged),
+    ];
+    let all = motions.chain(others).filter(|(other, _)| other != block);
+    all.map(|(other, slip)| (other, slip, travel_of(&other)))
+        .collect()
+}
+
+/// The sound blocks that differ from one by a slip and lead to the intended end: those `of_same_numbers`, and others.
+/// `digits` are its numbers as they are written.
+fn blocks_to(
     (block, part): (&Block, Option<PartArc>),
+    of_same_numbers: &[(Block, Slip, Move)],
     digits: &[String; 3],
     wanted: &Wanted,
     limits: &Limits,
 ) -> Vec<(Block, Slip)> {
-    let mut found = Vec::new();
+    let same = of_same_numbers.iter();
+    let same = same
+        .filter(|(other, _, travel)| wanted.is_met_by(*travel) && is_sound(other, part, limits));
+    let mut found: Vec<(Block, Slip)> = same.map(|(other, slip, _)| (*other, *slip)).collect();
     let mut take = |changed: Block, slip: Slip| {
         if changed != *block && wanted.is_met(&changed) && is_sound(&changed, part, limits) {
             found.push((changed, slip));
         }
     };
-    Motion::all().for_each(|motion| take(Block { motion, ..*block }, Slip::Motion));
-    let axis = block.axis.other();
-    take(Block { axis, ..*block }, Slip::Axis);
-    let (x, y) = (block.y, block.x);
-    take(Block { x, y, ..*block }, Slip::Exchanged);
     for number in [Number::X, Number::Y, Number::J] {
         for (value, how) in values(block, number, digits, wanted) {
             let changed = with(block, number, value);
@@ -265,9 +281,14 @@ impl Suspect<'_> {
         let mut found = Vec::new();
         // What is written like a line is one.
         let is_like_line = block.j == block.x.max(block.y);
+        let same = match wanted {
+            [] => Vec::new(),
+            _ => of_same_numbers(block),
+        };
         for (wanted, is_stated) in wanted {
             let own = (block, piece.item.part);
-            for (changed, slip) in blocks_to(own, &piece.digits, wanted, self.path.limits) {
+            let limits = self.path.limits;
+            for (changed, slip) in blocks_to(own, &same, &piece.digits, wanted, limits) {
                 if self.lacks_a_part(&changed, own.1) {
                     continue;
                 }
