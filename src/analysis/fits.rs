@@ -83,6 +83,7 @@ impl Analysis {
         };
         let of = |(key, index): (ContourKey, usize)| (key, &paired.outlines[index]);
         for &pair in &paired.pairs {
+            self.report_roles(drawing, pair.map(of), report);
             self.report_pair(drawing, pair.map(of), report);
         }
         for &index in &paired.alone {
@@ -140,6 +141,37 @@ impl Analysis {
             }
         }
         Some(paired)
+    }
+
+    /// Partners of which one has been given the role of the other.
+    fn report_roles(
+        &self,
+        drawing: &Drawing,
+        both: [(ContourKey, &Outline); 2],
+        report: &mut Report,
+    ) {
+        let mildest = Some(Severity::Warning);
+        if both[0].0 == both[1].0 || !report.counts(Rule::DoesNotFit, mildest) {
+            return;
+        }
+        for ((key, outline), role) in both.into_iter().zip(ROLES) {
+            let stated = self.known.get(&key).and_then(|known| known.stated);
+            let is_other = stated.is_some_and(|stated| ROLES.contains(&stated) && stated != role);
+            if is_other && let Some(first) = outline.contour.segment(drawing, 0) {
+                let handle = outline.name(drawing);
+                let detail = Detail::Said(match role {
+                    Role::Punch => say!(lies_within_its_partner_and_is_no_opening, handle),
+                    _ => say!(lies_about_its_partner_and_is_no_punch, handle),
+                });
+                report.add(
+                    Rule::DoesNotFit,
+                    mildest,
+                    Place::from(&first),
+                    detail,
+                    Vec::new(),
+                );
+            }
+        }
     }
 
     fn report_alone(

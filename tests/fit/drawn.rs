@@ -105,6 +105,34 @@ fn a_punch_has_a_partner_in_each_of_the_other_workpieces() {
     assert!(fit_of(&drawing, &own).fits());
 }
 
+/// Layers that make the inner contour an opening and the outer one a punch: that is said of both, and they are laid in each other as they lie.
+#[test]
+fn partners_with_each_others_roles_are_said() {
+    let with = |punch: &str, plate: &str| {
+        let roles = DRAWN.replace("PU = \"punch\"", &format!("PU = \"{punch}\""));
+        settings(&roles.replace("PL = \"opening\"", &format!("PL = \"{plate}\"")))
+    };
+    let drawing = drawing(vec![
+        polyline("PU", "A", grown(20.0, 10.0, 0.0, 0.5)),
+        polyline("PL", "B", grown(20.0, 10.0, 0.01, 0.51)),
+    ]);
+    for (punch, plate, said) in [
+        ("punch", "opening", 0),
+        ("opening", "punch", 2),
+        ("opening", "opening", 1),
+        ("punch", "punch", 1),
+        ("both", "both", 0),
+    ] {
+        let found = findings(&drawing, &with(punch, plate), Rule::DoesNotFit);
+        assert_eq!(found.len(), said, "{punch} in {plate}: {found:?}");
+        assert!(
+            found
+                .iter()
+                .all(|finding| finding.severity == Severity::Warning)
+        );
+    }
+}
+
 /// Parts that are looser than they should be: what is left is the true distance, not the clearance that was asked for.
 #[test]
 fn more_than_the_clearance_is_said_as_it_is() {

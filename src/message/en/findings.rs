@@ -291,6 +291,8 @@ declare! {
     the_parts_bind_here(of, partner, depth, corner_of, wanted) => "{of} and {partner} bind here by {depth:.1} µm: the wire leaves too much in this corner of the {corner_of} for a clearance of {wanted:.1} µm";
     the_parts_bind_along_a_wall(of, partner, depth, wanted) => "{of} and {partner} bind here by {depth:.1} µm along a wall, where there should be a clearance of {wanted:.1} µm: no radius of a corner mends that; the wall is drawn, or its wire led, too near to its partner";
     the_parts_bind_along_an_arc(of, partner, depth, own, other, wanted) => "{of} and {partner} bind here by {depth:.1} µm along an arc: R {own} mm of the {of} is beside R {other} mm of the {partner}, which should differ by the clearance of {wanted:.1} µm";
+    lies_within_its_partner_and_is_no_opening(handle) => "contour {handle} lies within its partner: it is the punch of the two, and has been given the role of an opening";
+    lies_about_its_partner_and_is_no_punch(handle) => "contour {handle} lies about its partner: it is the opening of the two, and has been given the role of a punch";
     the_contour_has_no_partner(of) => "no contour of another workpiece runs beside this one of {of} within five clearances: it has no partner";
     nothing_is_drawn_of(names) => "; nothing is drawn on the layers of {names}";
     touches_itself_or_another => "touches itself or another";

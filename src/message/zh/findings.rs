@@ -291,6 +291,8 @@ translate! {
     the_parts_bind_here(of, partner, depth, corner_of, wanted) => "{of} 与 {partner} 在此卡住 {depth:.1} µm：{corner_of} 的这个角残留过多，留不出 {wanted:.1} µm 的间隙";
     the_parts_bind_along_a_wall(of, partner, depth, wanted) => "{of} 与 {partner} 在此沿壁卡住 {depth:.1} µm，这里应有 {wanted:.1} µm 的间隙：改角的半径无济于事；是这段壁画得、或其丝走得离配对件太近";
     the_parts_bind_along_an_arc(of, partner, depth, own, other, wanted) => "{of} 与 {partner} 在此沿圆弧卡住 {depth:.1} µm：{of} 的 R {own} mm 旁边是 {partner} 的 R {other} mm，两者应相差 {wanted:.1} µm 的间隙";
+    lies_within_its_partner_and_is_no_opening(handle) => "轮廓 {handle} 位于配对轮廓之内，应是凸模，却设成了型孔";
+    lies_about_its_partner_and_is_no_punch(handle) => "轮廓 {handle} 包围配对轮廓，应是型孔，却设成了凸模";
     the_contour_has_no_partner(of) => "{of} 的这个轮廓在五倍间隙内没有其他工件的轮廓与它并行：没有配对";
     nothing_is_drawn_of(names) => "；{names} 的图层上什么也没有画";
     touches_itself_or_another => "与自身或其他轮廓相碰";
