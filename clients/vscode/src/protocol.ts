@@ -1219,7 +1219,7 @@ export interface PairProgram {
   warnings: Diagnostic[];
 }
 /**
- * Drift that a controller which only counts J accumulates on the way round, µm.
+ * The rounding of J in all arcs of a program, added up, µm: `wedm/simulate` says where a controller stops that counts it.
  */
 export interface Closure {
   x: number;
