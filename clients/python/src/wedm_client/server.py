@@ -693,8 +693,10 @@ class Server:
             if params["uri"] not in self._documents:
                 self._warn_of(params)
             elif connection is self._connection:
-                self._resent.discard(params["uri"])
-                self._refused.pop(params["uri"], None)
+                # Findings for an older state say nothing of one that was refused.
+                if params.get("version") == self._documents[params["uri"]].version:
+                    self._resent.discard(params["uri"])
+                    self._refused.pop(params["uri"], None)
                 self._published[params["uri"]] = _Published(params.get("version"), params["diagnostics"])
                 self._state.notify_all()
 
