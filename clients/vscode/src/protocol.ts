@@ -655,7 +655,7 @@ export interface ProgramSettings {
    */
   profile?: string;
   /**
-   * Word of letters and digits that ends the program.
+   * Word of letters and digits that ends a 3B or 4B program; what ends one in ISO is in its profile.
    */
   end?: string;
   /**
