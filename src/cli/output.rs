@@ -211,13 +211,11 @@ fn escaped(json: &str) -> String {
 
 fn accepted(written: io::Result<()>, target: &str) -> Result<(), Failure> {
     match written {
-        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
-            Err(Failure(say!(
-                could_not_be_written,
-                target,
-                disk::plain(&error)
-            )))
-        }
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Failure(say!(
+            could_not_be_written,
+            target,
+            disk::plain(&error)
+        ))),
         _ => Ok(()),
     }
 }
