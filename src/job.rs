@@ -217,6 +217,7 @@ pub(crate) fn picture(
         outlines: &snapshot.outlines,
         findings,
         paths: planned.as_ref().map_or(&[], |planned| &planned.paths),
+        holes: planned.as_ref().map_or(&[], |planned| &planned.holes),
         why: why
             .as_ref()
             .map(|(severity, why)| (*severity, why.as_str())),

@@ -105,6 +105,17 @@ pub(crate) fn is_utf_16(bytes: &[u8]) -> bool {
     all * 5 > head.len() * 2 && odd * 10 > head.len() * 4 && all * 10 < head.len() * 6
 }
 
+/// Whether bytes are no text at all: many of them are control characters that no text has. A punched tape begins with
+/// zeros.
+pub(crate) fn is_binary(bytes: &[u8]) -> bool {
+    let head = head(bytes, 1024);
+    let blank = head.iter().take_while(|&&byte| byte == 0).count();
+    let head = head.get(blank..).unwrap_or_default();
+    let is_control = |byte: &&u8| matches!(byte, 0..=8 | 11 | 14..=25 | 27..=31 | 127);
+    let controls = head.iter().filter(is_control).count();
+    controls > 3 && controls * 20 > head.len()
+}
+
 /// The first items of a list, at most this many.
 pub(crate) fn head<T>(all: &[T], most: usize) -> &[T] {
     all.get(..most).unwrap_or(all)

@@ -119,7 +119,7 @@ fn at_a_tenth_two_fillets_of_the_plate_are_too_tight() {
             "gone: 2A segment 2",
             "becomes R 0.090",
             "plate and punch bind here by 27.3 µm",
-            "Of 10.0 µm of clearance, -27.3 µm are left",
+            "The parts overlap by 27.3 µm where it is tightest",
             "Of 10.0 µm of clearance, 0.4 µm are left",
             "program of the plate: correction 0.0900 mm",
             "preferred: Replace the arc by one of R 0.101 mm",

@@ -222,6 +222,8 @@ def neovim_package(program: str, native: bool, editor: str) -> None:
     )
     said = place.run([program, "--headless", "-i", "NONE", "-n", str(place.drawing), "-S", str(script)])
     saw(said, "type: dxf", FAULT)
+    # What the server says of the settings that were sent.
+    expect("expected a table" not in said, said)
 
 
 def neovim_without_server(program: str, native: bool, editor: str) -> None:

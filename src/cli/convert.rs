@@ -2,7 +2,7 @@
 
 use super::options::{Common, Corrected, FileLanguage, Written};
 use super::output::{self, styled};
-use super::{Failure, Verdict, files, report};
+use super::{Failure, Verdict, ending, files, report};
 use crate::job::{self, Converted, Target};
 use crate::program::Format;
 use crate::settings::Settings;
@@ -35,7 +35,7 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
-    let path = &arguments.path;
+    let path = files::shown(&arguments.path);
     let target = target(arguments)?;
     let last = arguments.corrected.0.overlaid(&arguments.written.0);
     let idle = idle(&last, target);
@@ -49,7 +49,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     };
     let files::Opened {
         document, writing, ..
-    } = files::open_to_use(path, arguments.output.as_deref(), &common, &last)?;
+    } = files::open_to_use(&arguments.path, arguments.output.as_deref(), &common, &last)?;
     if document.program().is_none() {
         return Err(Failure::of(
             path,
@@ -117,7 +117,8 @@ fn target(arguments: &Arguments) -> Result<Target, Failure> {
         .and_then(Path::extension)
         .map(|ending| ending.to_string_lossy().into_owned());
     match (&arguments.format, &arguments.output, ending) {
-        (Some(format), ..) => Ok(*format),
+        (Some(format), Some(out), _) => ending::of_conversion(*format, out).map(|()| *format),
+        (Some(format), None, _) => Ok(*format),
         (None, Some(out), Some(ending)) => {
             Target::of(&ending).map_err(|reason| Failure::of(out, reason))
         }

@@ -66,7 +66,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
 /// The path of the wire in a program.
 fn draw_program(arguments: &Arguments, document: &Document) -> Result<Verdict, Failure> {
     let Some(form) = form_of(arguments.output.as_deref()) else {
-        let path = arguments.path.display();
+        let path = files::shown(&arguments.path).display();
         return Err(Failure(say!(
             a_program_is_drawn_as_svg,
             path,

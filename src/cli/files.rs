@@ -1,6 +1,6 @@
 //! Input files: which there are, the kind of each, and its settings.
 
-use super::options::{Common, FileLanguage};
+use super::options::{Common, FileLanguage, at_fault};
 use super::report::Row;
 use super::{Failure, output};
 use crate::disk::{self, Seen, Unchanged, ending_of, plain};
@@ -8,6 +8,7 @@ use crate::document::{Document, FileKind, Snapshot};
 use crate::drawing::Unit;
 use crate::finding;
 use crate::finding::{Detail, Finding, Place, Severity};
+use crate::message::readable;
 use crate::program::{self, Language};
 use crate::protocol::FindingData;
 use crate::settings;
@@ -22,8 +23,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 pub(crate) struct Opened {
     pub(crate) path: PathBuf,
     pub(crate) document: Document,
-    /// The file as it was: only this one may be overwritten.
-    pub(crate) seen: Seen,
+    /// The file as it was: only this one may be overwritten. `None` of stdin.
+    pub(crate) seen: Option<Seen>,
     /// The encoding of a program, which is kept.
     pub(crate) writing: Writing,
     /// Faults in settings files; the other settings apply.
@@ -42,6 +43,9 @@ impl From<FileLanguage> for FileKind {
 
 /// Reads one file with its settings: `wedm.toml` upwards from it, `--config`, then the options.
 pub(crate) fn open(path: &Path, common: &Common, last: &Settings) -> Result<Opened, Failure> {
+    if path == Path::new(output::STDIN) {
+        return stdin(None, shown(path), common, last);
+    }
     let (kind, settings, settings_rows) = kind_and_settings(path, common, last)?;
     let read = || {
         let (file, is_regular) = regular(path)?;
@@ -54,10 +58,18 @@ pub(crate) fn open(path: &Path, common: &Common, last: &Settings) -> Result<Open
     Ok(Opened {
         path: path.to_path_buf(),
         document,
-        seen,
+        seen: Some(seen),
         writing,
         settings_rows,
     })
+}
+
+/// The name of an input for people.
+pub(crate) fn shown(path: &Path) -> &Path {
+    match path == Path::new(output::STDIN) {
+        true => Path::new("stdin"),
+        false => path,
+    }
 }
 
 /// The same for a file that is only checked. The text of a large drawing is not kept but read again where it is needed; by then it may be gone.
@@ -99,20 +111,38 @@ fn kind_and_settings(
 
 /// The text from stdin, read as a file of the given name, and the faults in its settings. Without a name it is a
 /// drawing unless it reads as a program.
+fn stdin(
+    given: Option<&Path>,
+    name: &Path,
+    common: &Common,
+    last: &Settings,
+) -> Result<Opened, Failure> {
+    let kind = kind_of(name, common);
+    let (settings, settings_rows) = settings_for(name, common, last)?;
+    let bytes = disk::read_stream_at_most(std::io::stdin().lock(), LARGEST_STREAM, Vec::new())
+        .map_err(|reason| Failure::of(name, reason))?;
+    let of_content =
+        || kind_of_content(name, &bytes).or(given.is_none().then_some(FileKind::Drawing));
+    let kind = kind.or_else(|failure| of_content().ok_or(failure))?;
+    let (document, writing) = document(kind, bytes, Arc::new(settings), None);
+    Ok(Opened {
+        path: name.to_path_buf(),
+        document,
+        seen: None,
+        writing,
+        settings_rows,
+    })
+}
+
+/// The same for `wedm check`.
 pub(crate) fn open_stdin(
     given: Option<&Path>,
     name: &Path,
     common: &Common,
     last: &Settings,
 ) -> Result<(Document, Vec<Row>), Failure> {
-    let kind = kind_of(name, common);
-    let (settings, rows) = settings_for(name, common, last)?;
-    let bytes = disk::read_stream_at_most(std::io::stdin().lock(), LARGEST_STREAM, Vec::new())
-        .map_err(|reason| Failure::of(name, reason))?;
-    let of_content =
-        || kind_of_content(name, &bytes).or(given.is_none().then_some(FileKind::Drawing));
-    let kind = kind.or_else(|failure| of_content().ok_or(failure))?;
-    Ok((document(kind, bytes, Arc::new(settings), None).0, rows))
+    let opened = stdin(given, name, common, last)?;
+    Ok((opened.document, opened.settings_rows))
 }
 
 /// Refuses a text that is too large to hold: anything written from it would lack its end.
@@ -150,7 +180,10 @@ pub(crate) fn open_to_use(
     }
     let opened = open(path, common, last)?;
     let faults = &opened.settings_rows;
-    faults.iter().for_each(|row| output::say(&row.rendered()));
+    // Several drawings may share one faulty settings file.
+    faults
+        .iter()
+        .for_each(|row| output::say_once(&row.rendered()));
     if faults.iter().any(|row| row.severity == Severity::Error) {
         return Err(Failure(say!(nothing_is_made_with_such_settings).into()));
     }
@@ -262,9 +295,20 @@ fn settings_for(
         rows.extend(by_itself.map(|error| settings_row(file, &source, error)));
         sources.push((file, text, source));
     }
+    let of_files = settings.contradictions(&|_| None);
     let settings = settings.overlaid(last);
-    // Faults of the passes show once all levels are merged: in the last file that sets them.
+    // Faults of the passes show once all levels are merged: in the last file that sets them, or in the options.
     for error in settings.contradictions(&|_| None) {
+        let is_of_files = of_files.iter().any(|own| own.message == error.message);
+        if !is_of_files && let Some(options) = at_fault(last, &error.key) {
+            let sentence = say!(says, options, error.message);
+            if error.severity == Severity::Error {
+                return Err(Failure(sentence));
+            }
+            let warning = output::styled(output::WARNING, say!(warning));
+            output::say_once(&say!(says, warning, readable(&sentence)));
+            continue;
+        }
         let place = |(file, text, source): &(&PathBuf, String, SourceText)| {
             let mut own = settings
                 .contradictions(&|fault| settings::place_in(text, fault))

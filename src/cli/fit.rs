@@ -8,6 +8,7 @@ use crate::job;
 use crate::message::readable;
 use crate::picture::{self, Image};
 use crate::protocol::Fit;
+use crate::settings::part_title;
 use clap::Args;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -33,7 +34,7 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
-    let path = &arguments.path;
+    let path = files::shown(&arguments.path);
     let target = arguments.output.as_deref();
     if let Some(target) = target.filter(|target| form_of(target).is_none()) {
         return Err(Failure::of(target, say!(the_fit_is_drawn_as_svg)));
@@ -41,7 +42,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let last = arguments
         .pairing
         .beside(&arguments.common.settings_with(&arguments.program));
-    let (opened, snapshot) = files::drawing_to_use(path, target, &arguments.common, &last)?;
+    let (opened, snapshot) =
+        files::drawing_to_use(&arguments.path, target, &arguments.common, &last)?;
+    if let Err(missing) = snapshot.settings.fit() {
+        let missing = say!(whether_it_fits_needs, missing.listed());
+        return Err(Failure::of(path, missing));
+    }
     let unit_mm = opened.document.unit_mm();
     let fit = match job::fit(&opened.document, &snapshot, &()) {
         Ok(fit) => fit,
@@ -81,8 +87,8 @@ fn table(fit: &Fit) -> String {
         };
         let _ = writeln!(
             text,
-            "{um}  {:<10} {:<10} {:>7}  {x:.4}, {y:.4}",
-            readable(&place.of),
+            "{um}  {} {:<10} {:>7}  {x:.4}, {y:.4}",
+            output::flush_left(&readable(&part_title(&place.of)), 10),
             readable(&place.handle),
             place.segment
         );
@@ -106,7 +112,10 @@ pub(super) fn of_least(fit: &Fit, verdict: &str) -> String {
     }
     let (least, wanted) = (fit.least * 1e3, fit.clearance * 1e3);
     let places = say!(places, fit.places.len());
-    let mut sentence = say!(verdict_of_the_fit, verdict, least, wanted, places);
+    let mut sentence = match least < 0.0 {
+        true => say!(verdict_of_an_overlap, verdict, -least, wanted, places),
+        false => say!(verdict_of_the_fit, verdict, least, wanted, places),
+    };
     // As it is printed.
     if least - wanted >= 0.1 {
         sentence += &say!(everywhere_more_is_left, least - wanted);

@@ -4,7 +4,7 @@ use super::changes::print_diff;
 use super::options::Common;
 use super::output::{self, styled};
 use super::report::{self, Row};
-use super::{Failure, Verdict, files};
+use super::{Failure, Verdict, ending, files};
 use crate::disk::Seen;
 use crate::document::{Document, Source};
 use crate::finding::{Edit, Finding, Fix, Place, Rule, Severity};
@@ -74,8 +74,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         common,
         &common.settings(),
     )?;
+    if let Some(target) = &arguments.target.output {
+        ending::as_read(&opened, target)?;
+    }
+    let path = files::shown(path);
     let repair = repair(path, opened.document)?;
-    deliver(arguments, &repair, &opened.seen, opened.writing)?;
+    deliver(arguments, &repair, opened.seen.as_ref(), opened.writing)?;
     summarise(path, &repair);
     let errors_left = repair
         .after
@@ -219,7 +223,7 @@ fn choices(document: &Document) -> Vec<(usize, String)> {
 fn deliver(
     arguments: &Arguments,
     repair: &Repair,
-    seen: &Seen,
+    seen: Option<&Seen>,
     writing: Writing,
 ) -> Result<(), Failure> {
     let target = &arguments.target;

@@ -3,7 +3,7 @@
 use super::changes::print_diff;
 use super::options::{Common, Words, parser, row};
 use super::output::{self, STRONG, styled};
-use super::{Failure, Verdict, files};
+use super::{Failure, Verdict, ending, files};
 use crate::beside::is_program;
 use crate::finding::Rule;
 use crate::program;
@@ -59,6 +59,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     } = files::search(&arguments.paths, &files::Search::default());
     // Folders hold drawings, too; a drawing that is named explicitly is refused.
     files.retain(|path| arguments.paths.contains(path) || is_program(path));
+    if target.is_one() && !failures.is_empty() {
+        failures
+            .iter()
+            .for_each(|Failure(sentence)| output::complain(sentence));
+        return Ok(Verdict::Failed);
+    }
     if target.is_one() && (files.len() != 1 || arguments.paths.len() != 1) {
         return Err(Failure(say!(
             several_files_are_found,
@@ -76,7 +82,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
             Ok(true) => changed += 1,
             Ok(false) => unchanged += 1,
             Err(Failure(sentence)) => {
-                output::complain(&sentence);
+                output::complain_once(&sentence);
                 verdict = Verdict::Failed;
             }
         }
@@ -105,6 +111,9 @@ fn format(arguments: &Arguments, path: &Path) -> Result<bool, Failure> {
     let layout = arguments.layout.clone().unwrap_or_default();
     let last = arguments.words.0.overlaid(&layout);
     let opened = files::open_to_use(path, arguments.target.output.as_deref(), &common, &last)?;
+    if let Some(target) = &arguments.target.output {
+        ending::as_read(&opened, target)?;
+    }
     let settings = opened.document.settings().clone();
     let program = opened.program()?;
     let text = program.text();
@@ -127,7 +136,7 @@ fn format(arguments: &Arguments, path: &Path) -> Result<bool, Failure> {
     } else if !target.in_place {
         output::write(target.output.as_deref(), &opened.writing.written(&after))?;
     } else if is_changed {
-        output::write_over(path, &opened.seen, &opened.writing.written(&after))?;
+        output::write_over(path, opened.seen.as_ref(), &opened.writing.written(&after))?;
     }
     if let Some(sentence) = left {
         output::say(&say!(says, output::name(path), sentence));

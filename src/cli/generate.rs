@@ -2,7 +2,7 @@
 
 use super::options::{Common, Program};
 use super::output::{self, styled};
-use super::{Failure, Verdict, files, report};
+use super::{Failure, Verdict, ending, files, report};
 use crate::document::Snapshot;
 use crate::finding::{Detail, Finding, Rule, sentence};
 use crate::job::{self, Wanted};
@@ -11,7 +11,7 @@ use crate::program::{Format, ProvedProgram};
 use crate::protocol::{Milling, Work};
 use crate::toolpath;
 use clap::Args;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 #[derive(Args, Debug)]
 #[command(after_help = "\
@@ -24,8 +24,8 @@ Examples:
 pub(crate) struct Arguments {
     #[arg(value_name = "PATH")]
     path: PathBuf,
-    #[arg(long, default_value = "3b", value_parser = Format::of)]
-    format: Format,
+    #[arg(long, value_parser = Format::of)]
+    format: Option<Format>,
     #[arg(short, long, value_name = "OUT")]
     output: Option<PathBuf>,
     #[arg(long, value_name = "HANDLE")]
@@ -41,13 +41,18 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
-    let path = &arguments.path;
+    let path = files::shown(&arguments.path);
     let last = arguments.common.settings_with(&arguments.program);
     let target = arguments.output.as_deref();
-    let (mut opened, snapshot) = files::drawing_to_use(path, target, &arguments.common, &last)?;
+    if let Some(target) = target {
+        output::refuse_input(target, path)?;
+    }
+    let format = ending::format(arguments.format, target)?;
+    let (mut opened, snapshot) =
+        files::drawing_to_use(&arguments.path, target, &arguments.common, &last)?;
     let document = &opened.document;
     let wanted = Wanted {
-        format: arguments.format,
+        format,
         handles: (!arguments.handle.is_empty()).then_some(&arguments.handle),
         layers: (!arguments.layer.is_empty()).then_some(&arguments.layer),
         force: arguments.force,
@@ -70,7 +75,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     };
     let said: Vec<Finding> = made.warnings.iter().filter(of_program).cloned().collect();
     report::say(path, document, &said);
-    summarise(arguments, &made.program, made.contours);
+    summarise((target, format), &made.program, made.contours);
     for finding in made.left_out.iter().take(CUTS) {
         output::say(&say!(
             left_out_of_the_program,
@@ -144,8 +149,8 @@ fn told(snapshot: &Snapshot, work: &toolpath::Work) {
     }
 }
 
-fn summarise(arguments: &Arguments, program: &ProvedProgram, contours: usize) {
-    let target = output::target_name(arguments.output.as_deref());
+fn summarise((target, format): (Option<&Path>, Format), program: &ProvedProgram, contours: usize) {
+    let target = output::target_name(target);
     // A drift that rounds to zero has no sign.
     let [x, y] = program
         .closure
@@ -158,9 +163,9 @@ fn summarise(arguments: &Arguments, program: &ProvedProgram, contours: usize) {
         say!(contours, contours),
         lengths(program.length, program.jumps, say!(comma))
     ));
-    let drift = match arguments.format {
+    let drift = match format {
         Format::ThreeB | Format::FourB => {
-            say!(a_controller_that_counts_j_drifts, x, y)
+            say!(the_rounding_of_j_adds_up, x, y)
         }
         Format::Iso | Format::Milling => String::new(),
     };

@@ -42,6 +42,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         let last = arguments.common.settings_with(&arguments.program);
         let target = arguments.output.as_deref();
         let (opened, snapshot) = files::drawing_to_use(path, target, &arguments.common, &last)?;
+        let path = files::shown(path);
         let findings = opened.document.all_findings();
         let of_holes = findings
             .iter()

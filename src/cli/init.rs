@@ -24,12 +24,17 @@ pub(crate) struct Arguments {
     fine_gap: Option<f64>,
     #[arg(long, value_name = "MM", value_parser = super::options::positive, default_value = "0.06")]
     stock: f64,
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=9))]
+    #[arg(long, value_name = "N", value_parser = passes)]
     passes: Option<u8>,
     #[arg(long, value_parser = machines())]
     machine: Option<String>,
     #[arg(long)]
     force: bool,
+}
+
+fn passes(text: &str) -> Result<u8, String> {
+    let count = text.parse().ok().filter(|count| (1..=9).contains(count));
+    count.ok_or_else(|| say!(expected, say!(a_whole_number_from_to, 1, 9)))
 }
 
 /// The schema beside a `wedm.toml`, as `wedm config schema` prints it: editors with taplo read the line that names it.
@@ -63,10 +68,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let gap = number(arguments.gap, say!(spark_gap_mm), defaults.gap())?;
     let passes = match arguments.passes {
         Some(passes) => passes,
-        None if asks => ask(say!(passes_along_each_contour), "1", |text| {
-            let count = text.parse().ok().filter(|count| (1..=9).contains(count));
-            count.ok_or_else(|| say!(a_whole_number_from_to, 1, 9))
-        })?,
+        None if asks => ask(say!(passes_along_each_contour), "1", passes)?,
         None => 1,
     };
     let names: Vec<&str> = std::iter::once("3b").chain(shipped_profiles()).collect();

@@ -160,7 +160,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
 
 fn inspected(arguments: &Arguments, mut opened: Opened) -> Printed {
     let mut diagnostics = opened.settings_rows;
-    diagnostics.extend(report::rows(&arguments.path, &mut opened.document));
+    diagnostics.extend(report::rows(&opened.path, &mut opened.document));
     let inspection = Inspection::of(&opened.document, arguments.handle.as_deref());
     let (settings, gaps) = (
         opened.document.settings(),
@@ -252,7 +252,13 @@ fn table(printed: &Printed) -> String {
         .iter()
         .flat_map(|entity| &entity.segments)
         .filter(|segment| segment.verdict != "ok");
+    let any_errors = printed
+        .diagnostics
+        .iter()
+        .any(|row| row.severity == Severity::Error);
     let result = match faulty.count() {
+        // What could not be read is no praise for the rest.
+        0 if any_errors || segments == 0 => styled(output::WARNING, say!(see_wedm_check)),
         0 => styled(output::GOOD, say!(all_of_them_can_be_cut)),
         count => styled(output::ERROR, say!(not_ok, count)),
     };

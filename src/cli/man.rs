@@ -16,8 +16,13 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments, command: clap::Command) -> Result<Verdict, Failure> {
     let folder = &arguments.folder;
-    std::fs::create_dir_all(folder)
-        .map_err(|error| Failure(say!(could_not_be_made, folder.display(), error)))?;
+    std::fs::create_dir_all(folder).map_err(|error| {
+        Failure(say!(
+            could_not_be_made,
+            folder.display(),
+            crate::disk::plain(&error)
+        ))
+    })?;
     let mut command = command.disable_help_subcommand(true);
     command.build();
     let mut pages = vec![command.clone()];

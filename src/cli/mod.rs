@@ -12,6 +12,7 @@ mod contours;
 mod convert;
 mod demo;
 mod draw;
+mod ending;
 mod explain;
 mod files;
 mod fit;

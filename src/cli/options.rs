@@ -1,7 +1,7 @@
 //! Options that several commands share. Those for keys of the settings are declared in `settings`;
 //! here they are only listed.
 
-use crate::settings::{LARGEST, Row, Settings, rows};
+use crate::settings::{LARGEST, Row, Settings, camel_case, rows};
 use clap::builder::{PossibleValuesParser, TypedValueParser, ValueParser};
 use clap::{Arg, ArgMatches, Args, Command, FromArgMatches, ValueEnum};
 use std::path::PathBuf;
@@ -203,6 +203,31 @@ pub(super) fn row_of_option(option: &str) -> Option<&'static Row> {
     all.into_iter()
         .find(|(name, _)| *name == option)
         .map(|(_, row)| row)
+}
+
+/// The options that are given and set this key, else all of those that may contradict a file; `None` without any.
+pub(super) fn at_fault(given: &Settings, key: &str) -> Option<String> {
+    let json = serde_json::to_value(given).ok()?;
+    let is_given = |row: &Row| {
+        let pointer: String = row
+            .key
+            .split('.')
+            .map(|key| format!("/{}", camel_case(key)))
+            .collect();
+        json.pointer(&pointer).is_some_and(|value| !value.is_null())
+    };
+    let mut names: Vec<&str> = Vec::new();
+    for (name, row) in (0..GROUPS.len()).flat_map(options) {
+        if is_given(row) && !names.contains(&name) {
+            if row.key == key {
+                return Some(format!("--{name}"));
+            }
+            names.push(name);
+        }
+    }
+    // Those about how a program is written contradict nothing in a file.
+    let names: Vec<String> = names.iter().map(|name| format!("--{name}")).collect();
+    (!names.is_empty()).then(|| names.join(say!(comma)))
 }
 
 /// Reads the value of a key as the settings do.

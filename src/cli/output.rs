@@ -8,8 +8,10 @@ use crate::toolpath::StartHole;
 use anstyle::{AnsiColor, Style};
 use serde::Serialize;
 use std::borrow::Cow;
+use std::collections::BTreeSet;
 use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::path::Path;
+use std::sync::{Mutex, PoisonError};
 
 pub(crate) const ERROR: Style = AnsiColor::Red.on_default().bold();
 pub(crate) const WARNING: Style = AnsiColor::Yellow.on_default().bold();
@@ -17,6 +19,9 @@ pub(crate) const NOTE: Style = AnsiColor::Cyan.on_default();
 pub(crate) const GOOD: Style = AnsiColor::Green.on_default();
 pub(crate) const FAINT: Style = Style::new().dimmed();
 pub(crate) const STRONG: Style = Style::new().bold();
+
+/// What stands for stdin among the inputs.
+pub(crate) const STDIN: &str = "-";
 
 /// `text` in a style; the streams of this module drop the style where no terminal reads it.
 pub(crate) fn styled(style: Style, text: impl std::fmt::Display) -> String {
@@ -93,6 +98,15 @@ pub(crate) fn say(text: &str) {
     let _ = writeln!(anstream::stderr().lock(), "{}", shown(text, true));
 }
 
+/// The same, once in a process: files of one command may share what it is about.
+pub(crate) fn say_once(text: &str) {
+    static SAID: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
+    let mut said = SAID.lock().unwrap_or_else(PoisonError::into_inner);
+    if said.insert(text.to_owned()) {
+        say(text);
+    }
+}
+
 /// The corrections that have to be entered at the control, where it offsets the contour.
 pub(crate) fn offsets(program: &ProvedProgram) -> Option<String> {
     let offsets = &program.offsets;
@@ -121,6 +135,11 @@ pub(crate) fn say_thread_hole(holes: &[StartHole], unit_mm: f64) {
 /// The failure, to stderr.
 pub(crate) fn complain(sentence: &str) {
     say(&say!(says, styled(ERROR, say!(error)), readable(sentence)));
+}
+
+/// The same of one that several files of a command may share.
+pub(crate) fn complain_once(sentence: &str) {
+    say_once(&say!(says, styled(ERROR, say!(error)), readable(sentence)));
 }
 
 /// Text of several lines with our own colours, or without any, and no other control characters, even where a caller forgot
@@ -192,9 +211,11 @@ fn escaped(json: &str) -> String {
 
 fn accepted(written: io::Result<()>, target: &str) -> Result<(), Failure> {
     match written {
-        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
-            Err(Failure(say!(could_not_be_written, target, error)))
-        }
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Failure(say!(
+            could_not_be_written,
+            target,
+            disk::plain(&error)
+        ))),
         _ => Ok(()),
     }
 }
@@ -210,8 +231,12 @@ pub(crate) fn write(target: Option<&Path>, bytes: &[u8]) -> Result<(), Failure> 
 }
 
 /// Overwrites the file that was read; an error, with nothing written, where the file has changed.
-pub(crate) fn write_over(path: &Path, read: &disk::Seen, bytes: &[u8]) -> Result<(), Failure> {
-    said_of(path, disk::replace(path, Some(read), bytes))
+pub(crate) fn write_over(
+    path: &Path,
+    read: Option<&disk::Seen>,
+    bytes: &[u8],
+) -> Result<(), Failure> {
+    said_of(path, disk::replace(path, read, bytes))
 }
 
 /// Warns if the file that was replaced has other names (hard links).
@@ -237,8 +262,9 @@ fn said_of(path: &Path, written: Result<u64, String>) -> Result<(), Failure> {
 
 /// An error where `path` is no regular file: nothing else can be changed in place.
 pub(crate) fn refuse_irregular(path: &Path) -> Result<(), Failure> {
-    match std::fs::metadata(path) {
-        Ok(metadata) if !metadata.is_file() => Err(Failure(say!(
+    let is_stdin = path == Path::new(STDIN);
+    match std::fs::metadata(path).map(|metadata| metadata.is_file()) {
+        is_file if is_stdin || matches!(is_file, Ok(false)) => Err(Failure(say!(
             it_is_no_regular_file_expected_one_to_be_changed_in_its_place,
             path.display()
         ))),
@@ -259,6 +285,24 @@ pub(crate) fn refuse_input(target: &Path, input: &Path) -> Result<(), Failure> {
         )));
     }
     Ok(())
+}
+
+/// How much of a file is read to find whether wedm wrote it.
+const MARKED_WITHIN: u64 = 1024;
+
+/// An error where `target` is a file that does not begin as wedm's own do: `mark` stands in what wedm writes there.
+pub(crate) fn refuse_foreign(target: &Path, mark: &str) -> Result<(), Failure> {
+    if std::fs::symlink_metadata(target).is_err() {
+        return Ok(());
+    }
+    let mut head = Vec::new();
+    let read = std::fs::File::open(target).and_then(|file| {
+        io::Read::read_to_end(&mut io::Read::take(file, MARKED_WITHIN), &mut head)
+    });
+    match read.is_ok() && memchr::memmem::find(&head, mark.as_bytes()).is_some() {
+        true => Ok(()),
+        false => Err(Failure::of(target, say!(it_is_of_somebody_else))),
+    }
 }
 
 /// The text, left-aligned in this many columns of a terminal, where a Chinese character takes two.

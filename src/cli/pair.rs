@@ -2,11 +2,12 @@
 
 use super::options::{Common, Pairing, Program};
 use super::output::{self, styled};
-use super::{Failure, Verdict, files, report};
+use super::{Failure, Verdict, ending, files, report};
 use crate::finding::{Detail, Finding};
 use crate::job::{self, Wanted};
 use crate::message::lengths;
 use crate::program::Format;
+use crate::settings::part_title;
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -37,11 +38,18 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
-    let path = &arguments.path;
+    let path = files::shown(&arguments.path);
+    if let Some(folder) = &arguments.output {
+        ending::folder(folder)?;
+    }
     let last = arguments
         .pairing
         .beside(&arguments.common.settings_with(&arguments.program));
-    let (mut opened, snapshot) = files::drawing_to_use(path, None, &arguments.common, &last)?;
+    let (mut opened, snapshot) =
+        files::drawing_to_use(&arguments.path, None, &arguments.common, &last)?;
+    if let (Err(missing), true) = (snapshot.settings.fit(), arguments.format != Format::Milling) {
+        return Err(Failure::of(path, say!(a_pair_needs, missing.listed())));
+    }
     let document = &opened.document;
     let wanted = Wanted {
         format: arguments.format,
@@ -71,7 +79,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         }
     }
     if !folder.as_os_str().is_empty() {
-        std::fs::create_dir_all(&folder).map_err(|error| Failure::of(&folder, error))?;
+        std::fs::create_dir_all(&folder)
+            .map_err(|error| Failure::of(&folder, crate::disk::plain(&error)))?;
     }
     for (part, target) in made.iter().zip(&targets) {
         let program = &part.made.program;
@@ -85,7 +94,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
             the_program_of_a_part_is_written,
             styled(output::GOOD, say!(written)),
             output::target_name(Some(target)),
-            part.part,
+            part_title(&part.part),
             corrections.join(" / "),
             say!(blocks, program.blocks),
             lengths(program.length, program.jumps, say!(comma))
@@ -95,7 +104,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         }
         output::say_thread_hole(&part.made.holes, document.unit_mm());
         if part.is_other_side {
-            output::say(&say!(the_wire_runs_on_the_other_side, part.part));
+            output::say(&say!(
+                the_wire_runs_on_the_other_side,
+                part_title(&part.part)
+            ));
         }
     }
     Ok(Verdict::Clean)

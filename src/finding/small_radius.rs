@@ -79,6 +79,11 @@ impl SmallRadius {
             no_fix: None,
         }
     }
+    /// True where the wire cuts beyond the contour; else it leaves stock, for later passes or for good.
+    pub(crate) fn overcuts(&self, unit_mm: f64) -> bool {
+        !self.taken_by_skims && self.overcut * unit_mm >= 0.5e-6
+    }
+
     /// What is too small, what it does to the part, and why there is no fix.
     pub(super) fn sentence(&self, telling: Telling) -> String {
         let unit_mm = telling.unit_mm;
@@ -94,7 +99,7 @@ impl SmallRadius {
                 Some(stock) => say!(the_later_passes_find_mm_more_stock, stock),
                 None => say!(the_later_passes_find_more_stock).to_owned(),
             };
-        } else if self.overcut * unit_mm >= 0.5e-6 {
+        } else if self.overcuts(unit_mm) {
             let overcut = telling.mm(self.overcut);
             text += &say!(the_wire_overcuts_the_contour_by_mm, overcut, telling.tool());
             text += &stock_left.map_or_else(String::new, |stock| say!(or_leaves_stock, stock));

@@ -85,7 +85,7 @@ const MEANINGS: &[(&str, &str)] = &[
     ("program.units = inch", "英寸。"),
     ("program.drawing", "程序所依据的图形文件，路径从程序所在文件夹算起，用来与图形对照：[`not-the-drawing`](rules/not-the-drawing.md)。未设置时，取程序注释中写明的，否则取同名的 DXF。"),
     ("program.profile", "ISO 程序的写法：{profiles}，或 `profiles` 中的一个。"),
-    ("program.end", "结束程序的代码，由字母和数字组成。"),
+    ("program.end", "结束 3B 或 4B 程序的代码，由字母和数字组成；ISO 程序的结束在 profile 中。"),
     ("program.pause", "使机床停下以便剪丝、穿丝的代码，由字母和数字组成。"),
     ("job.thickness", "工件高度，mm。"),
     ("job.slug-limit", "废料质量的限度，g，超过它的型孔留下 `program.tab` 那么长的暂留段。需要 `thickness`：7.85 g/cm³ × 面积 × 厚度。"),

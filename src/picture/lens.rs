@@ -72,13 +72,19 @@ fn lens(sheet: &mut Sheet, subject: &Subject, fault: &Fault, lens: &Window) {
     }
     contents(sheet, subject, &frame, &window);
     marks(sheet, fault, disc, &frame);
-    let [radius, required, overcut] = [
-        fault.detail.radius,
-        fault.detail.required,
-        fault.detail.overcut,
+    let detail = fault.detail;
+    let [radius, required, overcut, stock] = [
+        detail.radius,
+        detail.required,
+        detail.overcut,
+        detail.stock_left,
     ]
     .map(|length| subject.mm(length));
-    let place = say!(segment_overcut, fault.handle, fault.segment, overcut);
+    let place = match (detail.overcuts(subject.unit_mm), stock.is_finite()) {
+        (true, _) => say!(segment_overcut, fault.handle, fault.segment, overcut),
+        (false, true) => say!(segment_stock, fault.handle, fault.segment, stock),
+        (false, false) => say!(segment, fault.handle, fault.segment),
+    };
     let figures = format!("R {radius:.3} < {required:.3} mm");
     lens.close(sheet, &figures, &place);
 }

@@ -151,7 +151,7 @@ pub(super) fn thread_holes(sheet: &mut Sheet, frame: &Frame, subject: &Subject) 
         sheet.line(format_args!(
             r#"<g class="thread"><title>{title}</title><circle cx="{x}" cy="{y}" r="5"/><path d="M{left} {y}h16M{x} {below}v16"/></g>"#
         ));
-        if let Some(radius) = subject.hole {
+        if let Some(radius) = subject.drill.radius_at(hole) {
             let middle = frame.local(hole);
             sheet.circle(r#"class="hole""#, middle, radius * frame.scale, "");
         }

@@ -28,7 +28,7 @@ pub(crate) use sheet::escaped;
 use crate::drawing::{Drawing, Outline};
 use crate::finding::{Detail, Finding, Severity};
 use crate::settings::Effective;
-use crate::toolpath::{WirePath, lengths};
+use crate::toolpath::{StartHole, WirePath, lengths};
 use sheet::{FIGURE_TOP, Frame, MARGIN, SHEET_WIDTH};
 use subject::{Subject, is_other};
 
@@ -42,6 +42,8 @@ pub struct View<'a> {
     pub findings: &'a [Finding],
     /// In the order in which they are cut.
     pub paths: &'a [WirePath],
+    /// Where the wire is threaded for them.
+    pub holes: &'a [StartHole],
     /// Why there are none, and how severe that is.
     pub why: Option<(Severity, &'a str)>,
     pub settings: &'a Effective,
@@ -60,7 +62,7 @@ pub fn svg(view: &View) -> String {
         settings,
         ..
     } = *view;
-    let Some(subject) = Subject::new(view.drawing, view.outlines, findings, paths, settings) else {
+    let Some(subject) = Subject::new(view) else {
         return style::empty(say!(the_drawing_has_no_lines));
     };
     let unit_mm = subject.unit_mm;

@@ -1,9 +1,9 @@
 //! The subject of a picture: the drawing with its contours, its faults and the paths of the wire.
 
+use super::View;
 use crate::drawing::{Drawing, EntityId, Outline};
 use crate::finding::{Detail, Finding, Place, Severity, SmallRadius};
 use crate::geometry::{Arc, Bounds, Point};
-use crate::settings::Effective;
 use crate::toolpath::WirePath;
 use rustc_hash::FxHashSet;
 
@@ -22,11 +22,25 @@ pub(super) struct Subject<'a> {
     pub(crate) corrections: Vec<f64>,
     /// For each path the half width of its kerf, drawing units; `None` where the control offsets it.
     pub(crate) half_kerfs: Vec<Option<f64>>,
-    /// Radius of the start holes, drawing units, where one is set.
-    pub(crate) hole: Option<f64>,
+    pub(crate) drill: Drill,
     /// The paths are those of an electrode.
     pub(crate) mills: bool,
     pub(crate) unit_mm: f64,
+}
+
+/// The start holes that are drilled.
+pub(super) struct Drill {
+    /// Drawing units, where a diameter is set.
+    radius: Option<f64>,
+    /// Where a hole would cut into a contour: none is drilled.
+    impossible: Vec<Point>,
+}
+
+impl Drill {
+    /// The radius of the hole in `at`, if one is drilled there.
+    pub(crate) fn radius_at(&self, at: Point) -> Option<f64> {
+        self.radius.filter(|_| !self.impossible.contains(&at))
+    }
 }
 
 /// An arc that is too tight, and the name of its segment.
@@ -40,13 +54,16 @@ pub(super) struct Fault<'a> {
 
 impl<'a> Subject<'a> {
     /// `None` where nothing finite is drawn.
-    pub(crate) fn new(
-        drawing: &'a Drawing,
-        outlines: &'a [Outline],
-        findings: &'a [Finding],
-        paths: &'a [WirePath],
-        settings: &Effective,
-    ) -> Option<Subject<'a>> {
+    pub(crate) fn new(view: &View<'a>) -> Option<Subject<'a>> {
+        let View {
+            drawing,
+            outlines,
+            findings,
+            paths,
+            holes,
+            settings,
+            ..
+        } = *view;
         let unit_mm = settings.unit_of(drawing).mm;
         let corrections = paths.iter().map(|path| path.correction);
         let last = corrections.fold(f64::INFINITY, f64::min);
@@ -56,10 +73,18 @@ impl<'a> Subject<'a> {
             (path.side.is_none() && half.is_finite() && half > 0.0).then_some(half)
         };
         let correction = |path: &WirePath| path.offset(settings, unit_mm) / unit_mm;
+        let drill = Drill {
+            radius: settings.start_hole.map(|diameter| diameter / 2.0 / unit_mm),
+            impossible: holes
+                .iter()
+                .filter(|hole| hole.cuts)
+                .map(|hole| hole.at)
+                .collect(),
+        };
         let pieces = outlines.iter().flat_map(|outline| &outline.contour.pieces);
         Some(Subject {
             drawing,
-            bounds: extents(drawing, paths)?,
+            bounds: extents(drawing, paths, &drill)?,
             outlines,
             mills: settings.mills,
             cut: pieces.map(|piece| piece.entity).collect(),
@@ -68,7 +93,7 @@ impl<'a> Subject<'a> {
             paths,
             corrections: paths.iter().map(correction).collect(),
             half_kerfs: paths.iter().map(half_kerf).collect(),
-            hole: settings.start_hole.map(|diameter| diameter / 2.0 / unit_mm),
+            drill,
             unit_mm,
         })
     }
@@ -146,13 +171,14 @@ fn tight_arcs<'a>(drawing: &Drawing, findings: &'a [Finding]) -> Vec<Fault<'a>> 
 }
 
 /// The box of the drawing and the paths; `None` where nothing finite is drawn.
-fn extents(drawing: &Drawing, paths: &[WirePath]) -> Option<Bounds> {
+fn extents(drawing: &Drawing, paths: &[WirePath], drill: &Drill) -> Option<Bounds> {
     let mut bounds = Bounds::EMPTY;
     for (_, entity) in drawing.entities() {
         bounds.merge(&entity.geometry.bounds(drawing.flat()));
     }
     for path in paths {
-        bounds.include(path.thread_hole);
+        let radius = drill.radius_at(path.thread_hole).unwrap_or(0.0);
+        bounds.merge(&Bounds::of_disc(path.thread_hole, radius));
         path.segments
             .iter()
             .for_each(|segment| bounds.merge(&segment.geometry.bounds()));

@@ -24,6 +24,7 @@ fn drawn(
         outlines,
         findings,
         paths,
+        holes: &[],
         why: None,
         settings,
     })

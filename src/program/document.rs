@@ -10,9 +10,12 @@ use super::whereabouts::Whereabouts;
 use super::{iso, three_b};
 use crate::finding::{Fault, Finding, Rule, Severity, TextFix};
 use crate::settings::Effective;
-use crate::text::{SourceText, TextEdit, is_utf_16};
+use crate::text::{SourceText, TextEdit, is_binary, is_utf_16};
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use std::ops::Range;
+
+/// Bytes of a text that tell what it is.
+const HEAD: usize = 1024;
 
 /// The languages of programs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -147,16 +150,29 @@ impl Document {
     }
 
     /// The one finding of bytes that are read as none of our texts: each of their lines would be another.
-    fn is_no_text(&self) -> Option<Finding> {
+    pub(super) fn is_no_text(&self) -> Option<Finding> {
         let text = self.text();
-        let head = text.slice(0..text.len().min(1024)).unwrap_or_default();
-        let fault = || Fault::said(Rule::Syntax, say!(the_text_is_utf_16));
-        is_utf_16(head).then(|| Finding::of(fault(), text.line_range(0)))
+        let head = text.slice(0..text.len().min(HEAD)).unwrap_or_default();
+        let found =
+            |sentence: &str| Finding::of(Fault::said(Rule::Syntax, sentence), text.line_range(0));
+        // 3B says so itself.
+        let is_blank = matches!(self, Document::Iso(_)) && text.len() <= HEAD;
+        match head {
+            _ if is_utf_16(head) => Some(found(say!(the_text_is_utf_16))),
+            _ if is_binary(head) => Some(found(say!(the_file_is_binary_not_a_program))),
+            _ if is_blank && head.iter().all(u8::is_ascii_whitespace) => {
+                Some(found(say!(no_word_is_found)).with(Severity::Information))
+            }
+            _ => None,
+        }
     }
 
     /// The fixes of one finding as edits of the text, the preferred one first. A fix that might
     /// spoil the program is neither preferred nor made by "fix all".
     pub(crate) fn fixes(&self, finding: &Finding) -> Vec<TextFix> {
+        if self.is_no_text().is_some() {
+            return Vec::new();
+        }
         let offered = self.offered(finding);
         match self {
             Document::ThreeB(document) => gate::gated(document, finding, offered),

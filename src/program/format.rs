@@ -2,7 +2,7 @@
 
 use super::notes::Notes;
 use super::write::{Proved, ProvedProgram};
-use super::{iso, three_b};
+use super::{Language, iso, three_b};
 use crate::settings::{Compensation, Effective};
 use crate::toolpath::WirePath;
 use std::borrow::Cow;
@@ -28,6 +28,31 @@ impl Format {
             Format::Iso => "iso",
             Format::Milling => "milling",
         }
+    }
+
+    /// How people write it.
+    pub(crate) fn title(self) -> &'static str {
+        match self {
+            Format::ThreeB => "3B",
+            Format::FourB => "4B",
+            Format::Iso => "ISO",
+            Format::Milling => "ISO (milling)",
+        }
+    }
+
+    /// Endings of the names of its files, lower-case, the usual one first.
+    pub(crate) fn endings(self) -> &'static [&'static str] {
+        match self {
+            Format::ThreeB => &["3b"],
+            Format::FourB => &["4b"],
+            Format::Iso | Format::Milling => Language::Iso.endings(),
+        }
+    }
+
+    /// The format that an ending in lower case alone says.
+    pub(crate) fn of_ending(ending: &str) -> Option<Format> {
+        let mut all = Format::ALL.into_iter();
+        all.find(|format| format.endings().contains(&ending))
     }
 
     /// The format of a name, in either letter case. The error lists them.

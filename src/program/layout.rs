@@ -21,6 +21,9 @@ pub(crate) fn format_saying(
     settings: &Effective,
     lines: Range<usize>,
 ) -> (Vec<TextEdit>, Option<String>) {
+    if document.is_no_text().is_some() {
+        return (Vec::new(), None);
+    }
     let layout = settings.stated_layout;
     match document {
         Document::ThreeB(program) => {

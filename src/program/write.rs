@@ -20,7 +20,8 @@ pub struct ProvedProgram {
     pub length: f64,
     /// Length of the ways without a cut in mm.
     pub(crate) jumps: f64,
-    /// Drift in µm of a controller which only counts J on the way round; 0 where ends are written.
+    /// The rounding of J in all blocks, added up, µm, of exact arcs; 0 where ends are written. A controller that counts
+    /// steps of whole micrometres stops elsewhere.
     pub(crate) closure: [f64; 2],
     /// Largest distance in µm of the decoded blocks from the path, over their whole length.
     pub(crate) deviation: f64,

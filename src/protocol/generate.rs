@@ -32,7 +32,7 @@ pub(crate) struct Generate {
     pub(crate) force: Option<bool>,
 }
 
-/// Drift that a controller which only counts J accumulates on the way round, µm.
+/// The rounding of J in all arcs of a program, added up, µm: `wedm/simulate` says where a controller stops that counts it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub(crate) struct Closure {
     pub(crate) x: f64,

@@ -98,6 +98,8 @@ pub struct Effective {
     pub drawing: Option<String>,
     /// How ISO programs are written; for an unknown profile the sentence that lists the known ones.
     pub profile: Result<Profile, String>,
+    /// The name that was stated for it, known or not.
+    pub profile_name: String,
     pub end: String,
     pub pause: String,
     pub tolerances: Tolerances,
@@ -239,6 +241,7 @@ impl Effective {
             program_units: program.units,
             drawing: program.drawing.clone(),
             profile: Profile::of(&program.profile(), settings.profiles.as_ref()),
+            profile_name: program.profile(),
             end: program.end(),
             pause: program.pause(),
             tolerances: Tolerances {

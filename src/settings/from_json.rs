@@ -9,9 +9,9 @@ use super::{Settings, SettingsError};
 ///
 /// An object that holds the section `wedm` stands for that section: editors send either.
 pub(crate) fn from_json(json: &serde_json::Value) -> (Settings, Vec<SettingsError>) {
-    let section = json
-        .get("wedm")
-        .filter(|section| section.is_object() || section.is_null());
+    let section = json.get("wedm").filter(|section| {
+        section.is_object() || section.is_null() || *section == &serde_json::json!([])
+    });
     level::read(&node(section.unwrap_or(json)))
 }
 

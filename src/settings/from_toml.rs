@@ -34,13 +34,7 @@ pub fn from_toml(text: &str) -> (Settings, Vec<SettingsError>) {
     let (root, faults) = tree(text);
     let mut errors: Vec<SettingsError> = faults
         .into_iter()
-        .map(|fault| {
-            SettingsError::new(
-                "",
-                say!(not_toml, fault.message().replace('\n', ", ")),
-                fault.span(),
-            )
-        })
+        .map(|fault| SettingsError::new("", say!(not_toml, told(fault.message())), fault.span()))
         .collect();
     // After a fault the rest of the line is the parser's guess.
     let line_ends: Vec<usize> = memchr::memchr_iter(b'\n', text.as_bytes()).collect();
@@ -53,6 +47,34 @@ pub fn from_toml(text: &str) -> (Settings, Vec<SettingsError>) {
     errors.extend(misfits);
     errors.sort_by_key(|error| error.range.as_ref().map_or(0, |range| range.start));
     (settings, errors)
+}
+
+/// What the parser found, in our words where it is common.
+fn told(message: &str) -> String {
+    let first = message.lines().next().unwrap_or_default();
+    // By a word of the parser's, the rarer ones first.
+    let known: [(&str, &str); 15] = [
+        ("empty", say!(a_sign_without_a_key)),
+        ("unquoted", say!(a_key_of_other_letters)),
+        ("quoted", say!(a_value_without_quotes)),
+        ("duplicate", say!(a_key_that_is_repeated)),
+        ("zero", say!(a_number_that_is_none)),
+        ("unexpected", say!(text_behind_a_value)),
+        ("unclosed", say!(a_bracket_that_is_open)),
+        ("basic", say!(a_quote_that_is_open)),
+        ("literal", say!(a_quote_that_is_open)),
+        ("escaped", say!(a_backslash_that_stands_for_nothing)),
+        ("mantissa", say!(a_number_that_is_none)),
+        ("fraction", say!(a_number_that_is_none)),
+        ("float", say!(a_number_that_is_none)),
+        ("integer", say!(a_number_that_is_none)),
+        ("value", say!(a_key_without_a_sign)),
+    ];
+    let found = known.iter().find(|(word, _)| first.contains(word));
+    found.map_or_else(
+        || message.replace('\n', ", "),
+        |(_, words)| (*words).to_owned(),
+    )
 }
 
 /// The place in a `wedm.toml` of a fault of the passes; `None` where the file does not set it.

@@ -205,7 +205,7 @@ tables! {
         drawing: String => path;
         /// How ISO programs are written: {profiles}, or one of `profiles`.
         profile: String = "generic" => profile_name;
-        /// Word of letters and digits that ends the program.
+        /// Word of letters and digits that ends a 3B or 4B program; what ends one in ISO is in its profile.
         end: String = "DD" => word;
         /// Word of letters and digits that stops the machine so that the wire can be cut or threaded.
         pause: String = "D" => word;

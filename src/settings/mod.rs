@@ -45,7 +45,8 @@ pub(crate) use keys::{
 };
 pub use keys::{Settings, rows};
 pub use milling::Electrode;
-pub(crate) use pair::{Partners, Use};
+pub(crate) use pair::{Partners, Use, part_title};
+use passes::kerf_faults;
 pub(crate) use passes::{PassFault, pass_faults, passes_table};
 pub(crate) use row::LARGEST;
 pub use row::Row;
@@ -154,7 +155,12 @@ impl Settings {
             }
             (None, None) => return Vec::new(),
         };
-        let error = |fault: PassFault| SettingsError {
+        let beyond = match (&passes.corrections, self.correction) {
+            (Some(list), _) => kerf_faults(list, &passes, self.wire_diameter, self.gap),
+            (None, Some(single)) => kerf_faults(&[single], &passes, self.wire_diameter, self.gap),
+            (None, None) => Vec::new(),
+        };
+        let error = |fault: PassFault, severity| SettingsError {
             key: fault.key.into(),
             range: place(&fault),
             message: fault.message,
@@ -162,7 +168,14 @@ impl Settings {
             severity,
             of_levels: true,
         };
-        faults.into_iter().map(error).collect()
+        // The part is cut, but smaller than it is drawn.
+        let slight = match stated {
+            Some(_) => severity,
+            None => Severity::Warning,
+        };
+        let faults = faults.into_iter().map(|fault| error(fault, severity));
+        let beyond = beyond.into_iter().map(|fault| error(fault, slight));
+        faults.chain(beyond).collect()
     }
 }
 

@@ -39,6 +39,19 @@ impl Use {
     }
 }
 
+/// The name of a part for people: one of [`Use`], or that of a workpiece, which stays as it is.
+pub(crate) fn part_title(name: &str) -> String {
+    let known = Use::ALL.into_iter().find(|of| of.name() == name);
+    let title = match known {
+        Some(Use::Punch) => say!(part_punch),
+        Some(Use::Plate) => say!(part_plate),
+        Some(Use::Stripper) => say!(part_stripper),
+        Some(Use::Holder) => say!(part_holder),
+        None => name,
+    };
+    title.to_owned()
+}
+
 impl From<DrawnAs> for Use {
     fn from(drawn_as: DrawnAs) -> Use {
         match drawn_as {

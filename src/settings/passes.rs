@@ -28,6 +28,9 @@ impl Passes {
 /// Two lengths in mm that differ by less are equal: halving a diameter may round.
 const ROUNDING: f64 = 1e-9;
 
+/// No part is the worse for less than this beyond its contour, mm.
+const BEYOND: f64 = 1e-4;
+
 /// A pass that cannot follow the one before it, or that no wire can cut.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct PassFault {
@@ -101,6 +104,41 @@ pub(crate) fn pass_faults(
         }
     }
     faults
+}
+
+/// The faults of passes that cut beyond the contour: the wire's radius and the spark gap of the pass reach farther than
+/// its correction. Nothing where one of them is not stated, or the correction is below the radius, which is worse.
+pub(super) fn kerf_faults(
+    corrections: &[f64],
+    passes: &Passes,
+    wire_diameter: Option<f64>,
+    gap: Option<f64>,
+) -> Vec<PassFault> {
+    let Some(radius) = wire_diameter.map(|diameter| diameter / 2.0) else {
+        return Vec::new();
+    };
+    let key = match passes.corrections {
+        Some(_) => "passes.corrections",
+        None => "correction",
+    };
+    let fault = |(pass, &correction): (usize, &f64)| {
+        let own = passes
+            .gaps
+            .as_ref()
+            .map_or(gap, |gaps| gaps.get(pass).copied())?;
+        let beyond = radius + own - correction;
+        let name = match passes.corrections {
+            Some(_) => format!("{key}[{pass}]"),
+            None => key.into(),
+        };
+        let reaches = beyond > BEYOND && correction >= radius - ROUNDING;
+        reaches.then(|| PassFault {
+            key,
+            pass,
+            message: say!(is_less_than_the_kerf, name, correction, radius, own, beyond),
+        })
+    };
+    corrections.iter().enumerate().filter_map(fault).collect()
 }
 
 /// The corrections of a rough pass and `skims` skims for a wire of radius `wire`, mm: the rough one leaves the `stock`,

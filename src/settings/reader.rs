@@ -306,6 +306,8 @@ impl Reader {
                 return true;
             }
             Value::Null => {}
+            // An empty table of Lua or PHP is sent as a list; what was sent has no place in a text.
+            Value::List(items) if items.is_empty() && node.range.is_none() => return true,
             _ => {
                 let key = if key.is_empty() { "settings" } else { key };
                 self.misfit::<()>(key, node, say!(a_table));
@@ -333,7 +335,7 @@ impl Reader {
         match &node.value {
             Value::Null => None,
             Value::Text(text)
-                if !text.is_empty() && text.chars().all(|c| c.is_ascii_alphanumeric()) =>
+                if !is_of_a_block(text) && text.chars().all(|c| c.is_ascii_alphanumeric()) =>
             {
                 Some(text.clone())
             }
@@ -419,6 +421,18 @@ impl Reader {
         };
         self.errors
             .push(SettingsError::new(key, message, entry.key_range.clone()));
+    }
+}
+
+/// True of what a block of 3B consists of: a program could not be told from its end.
+fn is_of_a_block(word: &str) -> bool {
+    let word = word.to_ascii_uppercase();
+    let letters = word.trim_end_matches(|letter: char| letter.is_ascii_digit());
+    let digits = word.get(letters.len()..).unwrap_or_default();
+    match letters {
+        "" | "B" | "J" | "N" | "G" | "GX" | "GY" => true,
+        "L" | "SR" | "NR" => digits.len() == 1,
+        _ => false,
     }
 }
 

@@ -46,10 +46,14 @@ fn distance(one: &str, other: &str) -> usize {
 /// The words of a closed set's type.
 pub(super) fn words_of<T: DeserializeOwned>() -> Vec<String> {
     let names = named::<T>("").err().unwrap_or_default();
-    let names = names.trim_start_matches("one of ");
-    let names = names.split(", ").flat_map(|names| names.split(" or "));
-    names.map(str::to_owned).collect()
+    let is_letter = |letter: char| letter.is_ascii_alphanumeric() || "-_".contains(letter);
+    let words = names.split(|letter| !is_letter(letter));
+    let words = words.filter(|word| !word.is_empty() && !["one", "of", "or"].contains(word));
+    words.map(str::to_owned).collect()
 }
+
+/// Begins the list of more than two words.
+const ONE_OF: &str = "one of ";
 
 /// A word out of a closed set; the error lists the words.
 pub(super) fn named<T: DeserializeOwned>(word: &str) -> Result<T, String> {
@@ -57,7 +61,11 @@ pub(super) fn named<T: DeserializeOwned>(word: &str) -> Result<T, String> {
     T::deserialize(deserializer).map_err(|error| {
         let error = error.to_string();
         let names = error.split_once("expected ").map_or("", |(_, names)| names);
-        names.replace('`', "")
+        let names = names.replace('`', "");
+        match names.strip_prefix(ONE_OF) {
+            Some(words) => say!(one_of, words.replace(", ", say!(comma_between_words))),
+            None => names.replace(" or ", say!(or_between_words)),
+        }
     })
 }
 

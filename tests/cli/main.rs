@@ -12,6 +12,7 @@ mod reports;
 mod search;
 mod settings;
 mod table;
+mod targets;
 mod told;
 mod untrusted;
 mod words;

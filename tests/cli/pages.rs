@@ -177,7 +177,67 @@ fn a_contour_on_a_page_has_its_handle() {
     desk.run("report clean.dxf --side opening -o pages");
     let page = String::from_utf8(desk.read("pages/clean.html")).unwrap();
     assert!(
-        page.contains("<td class=\"number\">0</td><td class=\"\">2A</td>"),
+        page.contains("<td class=\"number\">1</td><td class=\"\">2A</td>"),
         "{page}"
+    );
+}
+
+/// Where no hole has room, none is listed and none is drawn; the page says what it was made with.
+#[test]
+fn a_page_has_the_holes_of_the_drill_list_and_says_what_it_was_made_with() {
+    let desk = Desk::new();
+    let slot = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/pictures/slot.dxf");
+    desk.write("slot.dxf", std::fs::read(slot).unwrap());
+    desk.write(
+        "wedm.toml",
+        "side = \"opening\"\nwire-diameter = 0.18\ngap = 0.01\n[program]\nstart-hole = 2.0\nprofile = \"robofil\"\n",
+    );
+    let listed = desk.run("holes slot.dxf");
+    assert_eq!(listed.stdout.lines().count(), 1, "{listed:?}");
+    desk.run("report slot.dxf clean.dxf --format iso -o pages");
+    let page = |name: &str| String::from_utf8(desk.read(&format!("pages/{name}"))).unwrap();
+    let slot = page("slot.html");
+    assert!(
+        !slot.contains("Start holes") && !slot.contains("class=\"hole\""),
+        "{slot}"
+    );
+    let clean = page("clean.html");
+    for part in [
+        "Start holes",
+        "class=\"hole\"",
+        concat!("wedm ", env!("CARGO_PKG_VERSION")),
+        "wire Ø 0.18 mm · gap 0.01 mm · profile robofil",
+        "<a href=\"index.html\">all drawings</a>",
+        "<p>ISO: ",
+    ] {
+        assert!(clean.contains(part), "{part} in {clean}");
+    }
+}
+
+/// A severity has one colour on a page, and a fault of settings that all drawings share is said once.
+#[test]
+fn a_warning_looks_like_one_everywhere_and_shared_faults_are_said_once() {
+    let desk = Desk::new();
+    desk.write(
+        "wedm.toml",
+        "side = \"opening\"\n[rules]\nsmall-radius = \"warning\"\n",
+    );
+    desk.run("report tight.dxf -o pages");
+    let page = String::from_utf8(desk.read("pages/tight.html")).unwrap();
+    assert!(
+        page.contains("<td class=\"warning\">small-radius</td>"),
+        "{page}"
+    );
+    desk.write("wedm.toml", "side = 3\n");
+    let ended = desk.run("report clean.dxf tight.dxf inch.dxf -o pages");
+    assert_eq!(ended.code, Some(2), "{ended:?}");
+    assert_eq!(ended.stderr.matches("side is 3").count(), 1, "{ended:?}");
+    assert_eq!(
+        ended
+            .stderr
+            .matches("nothing is made with settings")
+            .count(),
+        1,
+        "{ended:?}"
     );
 }

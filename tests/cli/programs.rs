@@ -288,7 +288,9 @@ fn a_pair_is_held_in_each_other_and_its_programs_are_written_once() {
     let bound = desk.run(&format!("fit tight_fillet.dxf {thick} -o fit.svg"));
     assert_eq!(bound.code, Some(1), "{bound:?}");
     assert!(
-        bound.stdout.contains("does not fit: -6.6 µm of 10.0"),
+        bound
+            .stdout
+            .contains("does not fit: the parts overlap by 6.6 µm"),
         "{bound:?}"
     );
     let svg = String::from_utf8(desk.read("fit.svg")).unwrap();
@@ -342,7 +344,7 @@ fn a_pair_is_held_in_each_other_and_its_programs_are_written_once() {
     );
     let missing = desk.run("fit tight_fillet.dxf");
     assert!(
-        missing.code == Some(1)
+        missing.code == Some(2)
             && missing
                 .stderr
                 .contains("pair.drawn-as, pair.clearance, wire-diameter and gap"),

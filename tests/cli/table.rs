@@ -277,8 +277,8 @@ fn commands_print_and_end_as_they_say() {
             0,
             &[
                 "R 9.900 mm, +360.000\u{b0}",
-                "3 blocks, cut 82.0 mm, 41.0 min, ends 0, 0 \u{b5}m from its start",
-                "19.800 x 19.800 mm",
+                "3 blocks, cut 82.0 mm, 41.0 min, counted step by step it ends 0, 0 \u{b5}m from its start",
+                "19.800 \u{d7} 19.800 mm",
             ],
         ),
         (

@@ -119,6 +119,41 @@ fn misfits_are_shown_by_name_and_the_other_keys_hold() {
     client.shut_down();
 }
 
+/// Lua and PHP send an empty table as an empty list.
+#[test]
+fn an_empty_list_is_an_empty_table() {
+    for options in [
+        json!([]),
+        json!({ "wedm": [] }),
+        json!({ "layers": [], "program": [], "passes": [], "rules": [], "drawings": [], "pair": [] }),
+        json!({ "drawings": { "a.dxf": [] }, "profiles": { "mine": [] } }),
+    ] {
+        let mut client = Client::start_with(capabilities(), options);
+        for settings in [
+            json!([]),
+            json!({ "wedm": [] }),
+            json!({ "wedm": { "milling": [] } }),
+        ] {
+            client.notify(
+                "workspace/didChangeConfiguration",
+                json!({ "settings": settings }),
+            );
+        }
+        // A message would come before the one about this.
+        client.notify(
+            "workspace/didChangeConfiguration",
+            json!({ "settings": { "wedm": { "layers": [1] } } }),
+        );
+        let told = client.told("window/showMessage")["message"].clone();
+        let told = told.as_str().unwrap();
+        assert!(
+            told.contains("layers is a list, expected a table"),
+            "{told}"
+        );
+        client.shut_down();
+    }
+}
+
 #[test]
 fn the_file_upwards_wins_and_is_read_again_when_it_changes() {
     let folder = tempfile::tempdir().unwrap();

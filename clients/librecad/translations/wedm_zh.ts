@@ -624,8 +624,8 @@
         <translation>已写出：%1，%2 段，切割 %3 mm，空走 %4 mm。每段均已重新解码：偏离路线最多 %5 µm。</translation>
     </message>
     <message>
-        <source>A control that counts J drifts by %1, %2 µm.</source>
-        <translation>按 J 计数的控制器漂移 %1, %2 µm。</translation>
+        <source>Rounding of J, added up: %1, %2 µm.</source>
+        <translation>J 取整误差合计 %1, %2 µm。</translation>
     </message>
     <message>
         <source>%1 layers; simulated: the floor %2 to %3 mm deep, the electrode %4 mm shorter.</source>

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import json
+import math
+import re
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from wedm_client import Circle, Outdated, Polyline, Put, Refused, RequestFailed, Server, Settings, TextDocument
+from wedm_client import Action, Arc, Circle, Line, Outdated, Polyline, Put, Refused, RequestFailed, Server, Settings, TextDocument
+from wedm_client.documents import program_of
 
 from .plates import ROUND, TIGHT
 
@@ -197,3 +201,86 @@ def test_an_edit_of_the_server_for_an_older_text_is_refused(server: Server, hole
     assert (hole.text, hole.version) == before
     with pytest.raises(Outdated):
         server._apply_text_edit(hole, edit)
+
+
+def test_what_stands_in_a_text_says_what_it_is(server: Server, data: Path, root: Path, tmp_path: Path) -> None:
+    cases = json.loads((root / "clients/languages.json").read_text("utf-8"))["cases"]
+    assert [program_of(case["text"]) for case in cases] == [case["language"] for case in cases]
+    for name in ("prog.txt", "prog.cnc", "prog"):
+        (tmp_path / name).write_bytes((data / "hole.3b").read_bytes())
+        program = text_of(server, tmp_path / name)
+        assert program.language == "3b"
+        assert program.simulate().length > 0
+    (tmp_path / "drawing.txt").write_bytes((data / "clean.dxf").read_bytes())
+    assert text_of(server, tmp_path / "drawing.txt").language == "dxf"
+
+
+def test_a_document_can_be_asked_itself(server: Server, hole: TextDocument, data: Path) -> None:
+    """Every question of the server about a document is one of the document."""
+    asked = {name for name, call in vars(Server).items() if callable(call) and not name.startswith("_")}
+    of_server = {"close", "open", "open_text", "close_document", "version", "pid"}
+    assert {name for name in asked - of_server if not hasattr(TextDocument, name)} == set()
+    drawing = text_of(server, data / "tight.dxf")
+    (fault,) = drawing.diagnostics().errors
+    assert fault.line is not None and fault.handle is not None
+    assert drawing.locate(fault.line, 3) == server.locate(drawing, fault.line, 3)
+    assert drawing.repairs(fault.rule, fault.handle, 1) == server.repairs(drawing, fault.rule, fault.handle, 1)
+    drawing.apply(drawing.actions(fault)[0])
+    assert not drawing.diagnostics().errors
+    assert drawing.export("svg").startswith(b"<svg") and drawing.rule_page("gap").startswith("# gap")
+    assert drawing.holes(options={"side": "opening"}).startswith(b"drawing,")
+    assert hole.simulate().length > 0 and "EOF" in hole.convert("dxf")
+    hole.scale(2.0)
+    hole.change(hole.text.lower())
+    assert hole.format()
+    with pytest.raises(ValueError, match="not for"):
+        hole.apply(Action("x", True, drawing, 1, {}))
+
+
+def test_a_drawing_without_text_has_no_places(server: Server) -> None:
+    with pytest.raises(Refused):
+        server.locate(server.open([Circle((0, 0), 5)]), 1, 1)
+
+
+def test_what_was_stated_is_shown_as_it_was_stated(tmp_path: Path) -> None:
+    with Server(folder=tmp_path, settings={"wire_diameter": 0.18, "gap": 0.01}) as server:
+        assert server.open([Circle((0, 0), 5)]).settings().correction == 0.1
+
+
+@pytest.mark.parametrize(
+    ("entity", "said"),
+    [
+        (Circle((0, 0), -1), "radius is -1, expected a finite number above 0"),
+        (Circle((0, 0), math.nan), "radius is nan"),
+        (Circle((math.inf, 0), 1), "center is inf, expected a finite number"),
+        (Circle(("a", 0), 1), "center is 'a', expected a finite number"),  # type: ignore[arg-type]
+        (Polyline([(0, 0), (1, math.nan), (1, 1)]), "vertex 1 is nan"),
+        (Arc((0, 0), 1, 0, math.inf), "end_angle is inf"),
+        (Line((0, 0), (1,)), "end is (1,), expected two finite numbers"),  # type: ignore[arg-type]
+    ],
+)
+def test_an_unsound_drawing_is_refused_at_once(server: Server, entity: Any, said: str) -> None:
+    with pytest.raises(ValueError, match=re.escape(said)):
+        server.open([entity])
+    drawing = server.open([Circle((0, 0), 5, "C")])
+    with pytest.raises(ValueError, match=re.escape(said)):
+        server.change(drawing, Put(Polyline(entity.vertices, handle="C") if isinstance(entity, Polyline) else replace(entity, handle="C")))
+    assert drawing["C"] == Circle((0, 0), 5, "C") and drawing.diagnostics() == []
+
+
+def test_what_only_the_server_refuses_is_said_at_once(server: Server) -> None:
+    drawing = server.open([Circle((0, 0), 5, role="inside")])  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="inside"):
+        drawing.diagnostics()
+
+
+def test_numbers_that_are_none_are_refused_before_they_are_sent(server: Server, hole: TextDocument) -> None:
+    drawing = server.open([Circle((0, 0), 5)])
+    with pytest.raises(ValueError, match="correction is nan, expected a finite number"):
+        server.generate(drawing, options={"correction": math.nan})
+    with pytest.raises(ValueError, match="passes.corrections is inf"):
+        server.toolpath(drawing, options={"passes": {"corrections": [math.inf]}})
+    with pytest.raises(ValueError, match="feed is nan"):
+        server.simulate(hole, math.nan)
+    with pytest.raises(ValueError, match="factor is inf"):
+        server.scale(hole, math.inf)

@@ -655,7 +655,7 @@ export interface ProgramSettings {
    */
   profile?: string;
   /**
-   * Word of letters and digits that ends the program.
+   * Word of letters and digits that ends a 3B or 4B program; what ends one in ISO is in its profile.
    */
   end?: string;
   /**
@@ -1219,7 +1219,7 @@ export interface PairProgram {
   warnings: Diagnostic[];
 }
 /**
- * Drift that a controller which only counts J accumulates on the way round, µm.
+ * The rounding of J in all arcs of a program, added up, µm: `wedm/simulate` says where a controller stops that counts it.
  */
 export interface Closure {
   x: number;

@@ -118,28 +118,33 @@ fn escaped(text: &str, is_property: bool) -> String {
     out
 }
 
-/// JUnit's XML: a suite for each file, a failed case for each finding.
-pub(super) fn junit(survey: &Survey) -> String {
-    let (files, findings) = (survey.files, survey.rows.len());
+/// JUnit's XML: a suite for each file, a case for each finding. Failed are those that decide how the command ends, of
+/// severities up to `limit`; the others are printed by cases that passed.
+pub(super) fn junit(survey: &Survey, limit: Severity) -> String {
+    let failed = |rows: &[Row]| rows.iter().filter(|row| row.severity <= limit).count();
+    let (files, findings, failures) = (survey.files, survey.rows.len(), failed(&survey.rows));
     let mut text = format!(
-        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"wedm\" tests=\"{}\" failures=\"{findings}\" errors=\"{}\">\n",
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"wedm\" tests=\"{}\" failures=\"{failures}\" errors=\"{}\">\n",
         files.max(findings),
         survey.failures.len()
     );
     for rows in survey.rows.chunk_by(|one, other| one.path == other.path) {
-        let (path, count) = (xml(&rows[0].path), rows.len());
+        let (path, count, failed) = (xml(&rows[0].path), rows.len(), failed(rows));
         let _ = writeln!(
             text,
-            "  <testsuite name=\"{path}\" tests=\"{count}\" failures=\"{count}\">"
+            "  <testsuite name=\"{path}\" tests=\"{count}\" failures=\"{failed}\">"
         );
         for row in rows {
             let (rule, severity) = (row.rule.name(), name(row.severity));
+            let said = xml(&said(row));
+            let result = match row.severity <= limit {
+                true => format!("<failure type=\"{severity}\" message=\"{said}\"/>"),
+                false => format!("<system-out>{severity}: {said}</system-out>"),
+            };
             let _ = writeln!(
                 text,
-                "    <testcase classname=\"{path}\" name=\"{rule}\" line=\"{}\" column=\"{}\"><failure type=\"{severity}\" message=\"{}\"/></testcase>",
-                row.line,
-                row.column,
-                xml(&said(row))
+                "    <testcase classname=\"{path}\" name=\"{rule}\" line=\"{}\" column=\"{}\">{result}</testcase>",
+                row.line, row.column
             );
         }
         text.push_str("  </testsuite>\n");

@@ -155,7 +155,7 @@ fn report(arguments: &Arguments) -> Result<Verdict, Failure> {
         Format::Concise => output::print(lines::concise(&survey) + &text::summary(&survey))?,
         Format::Grouped => output::print(lines::grouped(&survey) + &text::summary(&survey))?,
         Format::Github => output::print(lines::github(&survey))?,
-        Format::Junit => output::print(lines::junit(&survey))?,
+        Format::Junit => output::print(lines::junit(&survey, limit(arguments.deny)))?,
         Format::Json => output::print_json(&Printed {
             diagnostics: &survey.rows,
             suppressed: survey.shows_suppressed.then_some(&survey.suppressed),
@@ -177,11 +177,16 @@ fn report(arguments: &Arguments) -> Result<Verdict, Failure> {
     Ok(verdict(&survey, arguments.deny))
 }
 
-fn verdict(survey: &Survey, deny: Option<Deny>) -> Verdict {
-    let limit = match deny {
+/// The slightest severity that the command ends with 1 for.
+fn limit(deny: Option<Deny>) -> Severity {
+    match deny {
         Some(Deny::Warning) => Severity::Warning,
         None => Severity::Error,
-    };
+    }
+}
+
+fn verdict(survey: &Survey, deny: Option<Deny>) -> Verdict {
+    let limit = limit(deny);
     let worst = survey.rows.iter().map(|row| row.severity).min();
     match worst {
         _ if !survey.failures.is_empty() => Verdict::Failed,
@@ -214,7 +219,11 @@ fn survey(arguments: &Arguments) -> Survey {
     };
     for (path, file) in found.files.into_iter().zip(checked) {
         survey.files += usize::from(file.failure.is_none());
-        survey.failures.extend(file.failure);
+        // An option that does not fit is the fault of no file, and said once.
+        let failure = file
+            .failure
+            .filter(|failure| !survey.failures.contains(failure));
+        survey.failures.extend(failure);
         survey.rows.extend(file.rows);
         survey.suppressed.extend(file.suppressed);
         survey.docs_url = survey.docs_url.or(file.docs_url);

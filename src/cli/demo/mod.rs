@@ -13,11 +13,12 @@ mod punch;
 
 use super::options::Common;
 use super::{Failure, Verdict, output};
+use crate::settings::FILE_NAME;
 use clap::Args;
 use client::Client;
 use narrator::Narrator;
 use serde_json::{Value, json};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 #[derive(Args, Debug)]
 #[command(mut_arg("language", |language| language.hide(true)), after_help = "\
@@ -27,12 +28,36 @@ Examples:
 pub(crate) struct Arguments {
     #[arg(value_name = "DIR", default_value = "wedm-demo")]
     folder: PathBuf,
+    #[arg(long)]
+    force: bool,
     #[command(flatten)]
     common: Common,
 }
 
 /// mm. Below, no fillet of the plate is too tight; above, its slots are too narrow.
 const CORRECTIONS: std::ops::RangeInclusive<f64> = 0.02..=0.5;
+
+/// Begins the settings of a demonstration: a folder with them is one of an earlier run.
+const MARK: &str = "# wedm demo\n";
+const DRAWING: &str = "demo.dxf";
+const PROGRAM: &str = "demo.3b";
+const PICTURE: &str = "demo.svg";
+
+/// Refuses to overwrite files that no demonstration has written.
+fn refuse_foreign(folder: &Path) -> Result<(), Failure> {
+    let settings = folder.join(FILE_NAME);
+    output::refuse_foreign(&settings, MARK)?;
+    if settings.exists() {
+        return Ok(());
+    }
+    let mut others = [DRAWING, PROGRAM, PICTURE]
+        .map(|name| folder.join(name))
+        .into_iter();
+    match others.find(|other| other.exists()) {
+        Some(other) => Err(Failure::of(&other, say!(it_is_of_somebody_else))),
+        None => Ok(()),
+    }
+}
 
 pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let stated = arguments.common.settings();
@@ -51,8 +76,16 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
             say!(the_demonstration_brings_its_own_settings_expected_correction_alone).into(),
         ));
     }
-    std::fs::create_dir_all(&arguments.folder)
-        .map_err(|error| Failure(say!(could_not_be_made, arguments.folder.display(), error)))?;
+    if !arguments.force {
+        refuse_foreign(&arguments.folder)?;
+    }
+    std::fs::create_dir_all(&arguments.folder).map_err(|error| {
+        Failure(say!(
+            could_not_be_made,
+            arguments.folder.display(),
+            crate::disk::plain(&error)
+        ))
+    })?;
 
     let mut narrator = Narrator::default();
     narrator.heading(&say!(
@@ -68,19 +101,19 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
 
     // The settings of the session, so that commands in this folder see the drawing as the session did.
     let settings = format!(
-        "correction = {correction}\n\n[layers]\nDIE = \"opening\"\nHOLES = \"opening\"\nPLATE = \"ignore\"\n"
+        "{MARK}correction = {correction}\n\n[layers]\nDIE = \"opening\"\nHOLES = \"opening\"\nPLATE = \"ignore\"\n"
     );
     narrator.step(say!(the_server_has_ended_as_it_should));
     for (name, bytes, what) in [
-        ("demo.dxf", made.dxf.as_bytes(), say!(the_plate_repaired)),
-        ("demo.3b", made.program.as_bytes(), say!(its_program)),
+        (DRAWING, made.dxf.as_bytes(), say!(the_plate_repaired)),
+        (PROGRAM, made.program.as_bytes(), say!(its_program)),
         (
-            crate::settings::FILE_NAME,
+            FILE_NAME,
             settings.as_bytes(),
             say!(the_settings_of_this_session),
         ),
         (
-            "demo.svg",
+            PICTURE,
             made.picture.as_bytes(),
             say!(contour_faults_and_wire_path),
         ),
@@ -90,7 +123,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         narrator.say(&format!("{}  {what}", output::name(&path)));
     }
     narrator.step(say!(next_steps));
-    let drawing = output::word(&arguments.folder.join("demo.dxf"));
+    let drawing = output::word(&arguments.folder.join(DRAWING));
     let program = output::word(&arguments.folder.join("plate.3b"));
     for words in [
         &["check", &drawing][..],

@@ -4,6 +4,7 @@ use super::client::Client;
 use super::narrator::{Behind, Narrator};
 use super::punch::{ask_for_edit, change};
 use super::{Failure, holds};
+use crate::settings::part_title;
 use serde_json::{Value, json};
 
 const URI: &str = "cad:pair";
@@ -67,7 +68,7 @@ pub(crate) fn session(
         let own = program["corrections"][0].as_f64().unwrap_or(f64::NAN);
         narrator.good(&say!(
             the_program_of_a_part,
-            part,
+            part_title(part),
             own,
             say!(blocks, blocks)
         ));
@@ -81,10 +82,13 @@ fn fit(narrator: &mut Narrator, client: &mut Client, fits: bool) -> Result<f64, 
     let number = |key: &str| fit[key].as_f64().unwrap_or(f64::NAN);
     let (least, clearance) = (number("least"), number("clearance"));
     holds(fit["fits"] == fits, || say!(the_fit_is_of, least * 1e3))?;
-    narrator.say(&say!(
-        what_is_left_of_the_clearance,
-        least * 1e3,
-        clearance * 1e3
-    ));
+    narrator.say(&match least < 0.0 {
+        true => say!(
+            the_parts_overlap_of_a_clearance,
+            -least * 1e3,
+            clearance * 1e3
+        ),
+        false => say!(what_is_left_of_the_clearance, least * 1e3, clearance * 1e3),
+    });
     Ok(least)
 }

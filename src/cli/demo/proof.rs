@@ -102,6 +102,7 @@ pub(crate) fn of(
         outlines: &snapshot.outlines,
         findings: &faults,
         paths: &planned,
+        holes: &[],
         why: None,
         settings: &snapshot.settings,
     });

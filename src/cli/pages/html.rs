@@ -15,12 +15,15 @@ p.under{margin:0 0 1rem;color:var(--faint)}p.fact{margin:.1rem 0}
 svg{box-sizing:border-box;max-width:100%;height:auto;border:1px solid var(--line)}
 table{border-collapse:collapse;width:100%;font-variant-numeric:tabular-nums}
 th,td{text-align:left;padding:.2rem .6rem .2rem 0;border-bottom:1px solid var(--line);vertical-align:top}
-th{color:var(--faint);font-weight:600}td.number,th.number{text-align:right;white-space:nowrap}span{white-space:nowrap}
+th{color:var(--faint);font-weight:600}td.number,th.number{text-align:right;white-space:nowrap}td.number+td:not(.number),th.number+th:not(.number){padding-left:1rem}span{white-space:nowrap}
 .error{color:var(--error)}.warning{color:var(--warning)}.good{color:var(--good)}.faint{color:var(--faint)}
 pre{background:var(--band);padding:.6rem;overflow:auto;font-size:12px;white-space:pre-wrap;overflow-wrap:anywhere}
 a{color:inherit}tr,h2,h3{break-inside:avoid}h2,h3{break-after:avoid}
 @media print{body{max-width:none;padding:0;font-size:11px}details:not([open])>pre{display:none}}
 ";
+
+/// Stands in the head of each page: who wrote it, and so may write it again.
+pub(super) const MARK: &str = "<meta name=\"generator\" content=\"wedm ";
 
 /// Escapes text for HTML.
 pub(super) fn text(text: impl Display) -> String {
@@ -30,8 +33,9 @@ pub(super) fn text(text: impl Display) -> String {
 /// A whole page.
 pub(super) fn page(language: &str, title: &str, body: &str) -> String {
     let title = text(title);
+    let version = env!("CARGO_PKG_VERSION");
     format!(
-        "<!doctype html>\n<html lang=\"{language}\">\n<head>\n<meta charset=\"utf-8\">\n\
+        "<!doctype html>\n<html lang=\"{language}\">\n<head>\n<meta charset=\"utf-8\">\n{MARK}{version}\">\n\
          <meta name=\"viewport\" content=\"width=device-width\">\n<title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n\
          <body>\n{body}</body>\n</html>\n"
     )

@@ -6,6 +6,7 @@ use crate::document::{Document, Snapshot};
 use crate::job;
 use crate::picture;
 use crate::protocol::{Fit, StartHole, Work};
+use crate::settings::part_title;
 
 /// The most start holes and slugs on a page: other commands list them all.
 const MOST: usize = 500;
@@ -118,7 +119,7 @@ pub(super) fn fit_part(fit: &Result<Fit, String>) -> String {
     let rows = fit.places.iter().take(MOST).map(|place| {
         vec![
             number(format!("{:+.1}", place.clearance * 1e3)),
-            cell(&place.of),
+            cell(part_title(&place.of)),
             cell(&place.handle),
             number(place.segment),
             number(format!("{:.4}, {:.4}", place.at.0, place.at.1)),

@@ -1,12 +1,13 @@
 //! `wedm report`: a page for each drawing and an index, for the workshop and for the file.
 
 mod html;
+mod index;
 mod job;
 mod page;
 
 use super::options::{Common, Program};
 use super::output::{self, styled};
-use super::{Failure, Verdict, files};
+use super::{Failure, Verdict, ending, files};
 use crate::disk::ending_of;
 use crate::document::FileKind;
 use crate::program::Format;
@@ -26,6 +27,8 @@ pub(crate) struct Arguments {
     paths: Vec<PathBuf>,
     #[arg(short, long, value_name = "FOLDER", default_value = "report")]
     output: PathBuf,
+    #[arg(long)]
+    force: bool,
     #[arg(long, default_value = "3b", value_parser = Format::of)]
     format: Format,
     #[command(flatten)]
@@ -46,28 +49,39 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         return Err(Failure(say!(no_drawing_for_a_report).into()));
     }
     let folder = &arguments.output;
+    ending::folder(folder)?;
+    let index = folder.join(INDEX);
+    let mut names = HashSet::new();
+    let drawings: Vec<(&PathBuf, String)> = drawings
+        .into_iter()
+        .map(|path| (path, name_of(path, &mut names)))
+        .collect();
+    if !arguments.force {
+        for (_, name) in &drawings {
+            output::refuse_foreign(&folder.join(name), html::MARK)?;
+        }
+        output::refuse_foreign(&index, html::MARK)?;
+    }
     std::fs::create_dir_all(folder)
         .map_err(|error| Failure::of(folder, crate::disk::plain(&error)))?;
     let last = arguments.common.settings_with(&arguments.program);
-    let (mut names, mut lines) = (HashSet::new(), Vec::new());
-    for path in drawings {
+    let mut lines = Vec::new();
+    for (path, name) in drawings {
         let page = files::open_to_use(path, None, &arguments.common, &last)
             .and_then(|opened| Page::of(opened, arguments.format));
         match page {
             Ok(page) => {
-                let name = name_of(path, &mut names);
                 output::write(Some(&folder.join(&name)), page.html().as_bytes())?;
                 verdict = verdict.max(Verdict::of_errors(page.has_errors()));
                 lines.push((name, page.line));
             }
             Err(Failure(sentence)) => {
-                output::complain(&sentence);
+                output::complain_once(&sentence);
                 verdict = Verdict::Failed;
             }
         }
     }
-    let index = folder.join("index.html");
-    output::write(Some(&index), page::index(&lines).as_bytes())?;
+    output::write(Some(&index), index::index(&lines).as_bytes())?;
     output::say(&say!(
         pages_are_written,
         styled(output::GOOD, say!(written)),
@@ -76,6 +90,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     ));
     Ok(verdict)
 }
+
+const INDEX: &str = "index.html";
 
 fn is_drawing(path: &Path) -> bool {
     FileKind::of_ending(&ending_of(path)) == Some(FileKind::Drawing)
@@ -95,7 +111,7 @@ fn name_of(path: &Path, names: &mut HashSet<String>) -> String {
     });
     let is_free = |name: &String| {
         let name = name.to_lowercase();
-        name != "index.html" && !names.contains(&name)
+        name != INDEX && !names.contains(&name)
     };
     let name = numbered.into_iter().find(is_free).unwrap_or_default();
     names.insert(name.to_lowercase());

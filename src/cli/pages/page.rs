@@ -4,22 +4,30 @@ use super::super::contours;
 use super::super::files::Opened;
 use super::super::report::{self, Row};
 use super::super::{Failure, output};
+use super::INDEX;
 use super::html::{self, Cell, cell, more, number, table, text};
+use super::index::{Line, counts, span};
 use super::job as of_job;
 use crate::analysis;
 use crate::document::Snapshot;
 use crate::finding::{Rule, Severity};
-use crate::job::{self, Generated, Wanted};
+use crate::job::{self, Generated, Wanted, drill};
 use crate::message::{lengths, spoken};
 use crate::program::Format;
 use crate::protocol::{Contours, Fit, Inspection, Milling, SegmentKind, StartHole, Work};
+use crate::settings::Effective;
 use crate::toolpath::{self, WirePath};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
+use std::path::Path;
 use std::sync::Arc;
 
 /// The most arcs of the radius list, and findings of one rule, on a page: other commands list them all.
 const MOST_ARCS: usize = 100;
 const MOST_OF_A_RULE: usize = 50;
+const MOST_CONTOURS: usize = 500;
+/// The most lines of a program, and bytes of a picture: no browser shows more at ease.
+const MOST_LINES: usize = 10_000;
+const LARGEST_PICTURE: usize = 4 * 1024 * 1024;
 /// The same for milled contours.
 const MOST_MILLED: usize = 500;
 
@@ -28,6 +36,8 @@ pub(super) struct Page {
     /// Its line of the index.
     pub(super) line: Line,
     unit_mm: f64,
+    /// The version, and what decides where the wire runs.
+    made_with: String,
     picture: String,
     contours: Contours,
     arcs: Vec<ListedArc>,
@@ -45,18 +55,6 @@ pub(super) struct Page {
     /// The program, or why there is none.
     program: Result<Generated, String>,
     format: Format,
-}
-
-/// The row of a drawing in the index.
-pub(super) struct Line {
-    name: String,
-    contours: usize,
-    smallest_mm: Option<f64>,
-    errors: usize,
-    warnings: usize,
-    notes: usize,
-    blocks: Option<usize>,
-    minutes: Option<f64>,
 }
 
 /// An arc of the radius list.
@@ -126,13 +124,14 @@ impl Page {
                 blocks: program.as_ref().ok().map(|made| made.program.blocks),
             },
             unit_mm,
+            made_with: made_with(settings, format),
             picture,
             contours: Contours::new(drawing, outlines, settings),
             arcs,
             rows,
             corrections: paths.iter().map(correction).collect(),
             paths,
-            holes: planned.holes.iter().map(hole).collect(),
+            holes: drill::drilled(planned.holes).iter().map(hole).collect(),
             work,
             fit: of_job::fit(&opened.document, &snapshot, unit_mm),
             milling: milling.unwrap_or_default(),
@@ -148,8 +147,13 @@ impl Page {
     pub(super) fn html(&self) -> String {
         let (name, counts) = (&self.line.name, counts(&self.line));
         let parts = [
-            format!("<h1>{}</h1>\n<p class=\"under\">{counts}</p>\n", text(name)),
-            self.picture.clone(),
+            format!(
+                "<h1>{}</h1>\n<p class=\"under\">{counts}</p>\n<p class=\"faint\">{}<br><a href=\"{INDEX}\">{}</a></p>\n",
+                text(name),
+                text(&self.made_with),
+                text(say!(all_drawings))
+            ),
+            self.picture(),
             section(say!(head_contours), self.contour_table()),
             section(say!(head_findings), self.findings()),
             section(say!(head_radius_list), self.radius_list()),
@@ -175,6 +179,20 @@ impl Page {
         html::page(spoken().tag(), name, &parts.concat())
     }
 
+    /// The picture, unless no page could hold it.
+    fn picture(&self) -> String {
+        match self.picture.len() {
+            0..=LARGEST_PICTURE => self.picture.clone(),
+            _ => {
+                let sentence = say!(
+                    the_picture_is_too_large,
+                    output::word(Path::new(&self.line.name))
+                );
+                format!("<p class=\"faint\">{}</p>\n", text(sentence))
+            }
+        }
+    }
+
     fn contour_table(&self) -> String {
         let heads = [
             say!(column_number),
@@ -197,7 +215,7 @@ impl Page {
                 .map(|area| format!("{:.3}", area * self.unit_mm * self.unit_mm));
             let order = contour.order.map(|order| (order + 1).to_string());
             vec![
-                number(index),
+                number(index + 1),
                 cell(contour.segments.first().map_or("", |first| &first.handle)),
                 cell(kind),
                 cell(role),
@@ -206,7 +224,9 @@ impl Page {
                 number(order.unwrap_or_default()),
             ]
         };
-        table(&heads, self.contours.contours.iter().enumerate().map(row))
+        let contours = &self.contours.contours;
+        let shown = contours.iter().enumerate().take(MOST_CONTOURS);
+        table(&heads, shown.map(row)) + &more(contours.len(), MOST_CONTOURS)
     }
 
     fn findings(&self) -> String {
@@ -241,10 +261,22 @@ impl Page {
             say!(column_segment),
             say!(column_verdict),
         ];
+        let severities: HashMap<(&str, usize, &str), Severity> = self
+            .rows
+            .iter()
+            .filter_map(|row| {
+                let data = &row.data;
+                let place = (data.handle.as_deref()?, data.segment?, row.rule.name());
+                Some((place, row.severity))
+            })
+            .collect();
         let row = |arc: &ListedArc| {
             let verdict: Cell = match arc.verdict.as_str() {
                 "ok" => ("good", "ok".into()),
-                verdict => ("error", text(verdict)),
+                verdict => {
+                    let found = severities.get(&(arc.handle.as_str(), arc.segment, verdict));
+                    (found.copied().map_or("error", class_of), text(verdict))
+                }
             };
             vec![
                 number(format!("{:.4}", arc.radius_mm)),
@@ -326,7 +358,7 @@ impl Page {
                 };
                 let facts = say!(
                     a_program_and_its_proof,
-                    self.format.name(),
+                    self.format.title(),
                     say!(blocks, program.blocks),
                     say!(contours, made.contours),
                     lengths(length, jumps, say!(comma)),
@@ -343,9 +375,10 @@ impl Page {
                 });
                 let offsets = output::offsets(program);
                 let offsets = offsets.map(|line| format!("<p>{}</p>\n", text(line)));
-                let lines: Vec<String> = program.text.lines().map(text).collect();
+                let lines: Vec<String> = program.text.lines().take(MOST_LINES).map(text).collect();
+                let left_out = more(program.text.lines().count(), MOST_LINES);
                 format!(
-                    "<p>{}</p>\n{}<p class=\"faint\">{}</p>\n<details><summary>{}</summary>\n<pre>{}</pre>\n</details>\n",
+                    "<p>{}</p>\n{}<p class=\"faint\">{}</p>\n<details><summary>{}</summary>\n<pre>{}</pre>\n{left_out}</details>\n",
                     text(facts),
                     offsets.unwrap_or_default(),
                     text(finished.unwrap_or_default()),
@@ -355,6 +388,17 @@ impl Page {
             }
         }
     }
+}
+
+/// The version that made a page, and the settings that decide where the wire runs.
+fn made_with(settings: &Effective, format: Format) -> String {
+    let parts = [
+        Some(format!("wedm {}", env!("CARGO_PKG_VERSION"))),
+        settings.wire_diameter.map(|mm| say!(wire_of_mm, mm)),
+        settings.gap.map(|mm| say!(gap_of_mm, mm)),
+        (format == Format::Iso).then(|| say!(profile_of_name, settings.profile_name)),
+    ];
+    parts.into_iter().flatten().collect::<Vec<_>>().join(" · ")
 }
 
 /// Every arc, the smallest first.
@@ -378,77 +422,11 @@ fn arcs_of(inspection: Option<Inspection>, unit_mm: f64) -> Vec<ListedArc> {
     arcs
 }
 
-/// The index of all pages.
-pub(super) fn index(lines: &[(String, Line)]) -> String {
-    let heads = [
-        say!(column_drawing),
-        say!(head_contours),
-        say!(column_smallest_radius),
-        say!(head_findings),
-        say!(column_blocks),
-        say!(column_minutes),
-    ];
-    // No times are set.
-    let columns = heads.len() - usize::from(lines.iter().all(|(_, line)| line.minutes.is_none()));
-    let row = |(page, line): &(String, Line)| {
-        let link = format!("<a href=\"{}\">{}</a>", text(page), text(&line.name));
-        let smallest = line.smallest_mm.map(|radius| format!("{radius:.4}"));
-        let mut cells = vec![
-            ("", link),
-            number(line.contours),
-            number(smallest.unwrap_or_default()),
-            ("", counts(line)),
-            number(
-                line.blocks
-                    .map(|blocks| blocks.to_string())
-                    .unwrap_or_default(),
-            ),
-            number(
-                line.minutes
-                    .map(|minutes| format!("{minutes:.2}"))
-                    .unwrap_or_default(),
-            ),
-        ];
-        cells.truncate(columns);
-        cells
-    };
-    let title = say!(report_of_drawings, lines.len());
-    let body = format!(
-        "<h1>{}</h1>\n{}",
-        text(&title),
-        table(&heads[..columns], lines.iter().map(row))
-    );
-    html::page(spoken().tag(), &title, &body)
-}
-
 /// A part of the page under its heading; empty without content.
 fn section(title: &str, content: String) -> String {
     match content.is_empty() {
         true => content,
         false => format!("<h2>{}</h2>\n{content}", text(title)),
-    }
-}
-
-fn span(class: &str, content: impl std::fmt::Display) -> String {
-    format!("<span class=\"{class}\">{}</span>", text(content))
-}
-
-fn counts(line: &Line) -> String {
-    let Line {
-        errors,
-        warnings,
-        notes,
-        ..
-    } = *line;
-    let told = [
-        (errors > 0).then(|| span("error", say!(errors, errors))),
-        (warnings > 0).then(|| span("warning", say!(warnings, warnings))),
-        (notes > 0).then(|| span("faint", say!(notes, notes))),
-    ];
-    let told: Vec<String> = told.into_iter().flatten().collect();
-    match told.is_empty() {
-        true => span("good", say!(nothing_found)),
-        false => told.join(" · "),
     }
 }
 

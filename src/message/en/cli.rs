@@ -6,10 +6,13 @@ declare! {
     no_program_is_written => "no program is written";
     no_program_of_a_drawing_with(path, errors, word) => "{path}: no program is written, the drawing has {errors}; repair it (wedm fix {word} --in-place), or insist with --force";
     no_program_of_a_drawing_beyond_repair(path, errors) => "{path}: no program is written, the drawing has {errors}; repair it in CAD or change the settings, or insist with --force";
-    nothing_of_a_program_with(path, errors) => "{path}: nothing is written, the program has {errors}; repair them, or insist with --force";
+    nothing_of_a_program_with(path, errors) => "{path}: nothing is written, the program has {errors}; repair it, or insist with --force";
     a_drawing_where_a_program_is_expected => "it is a drawing, expected a program: wedm generate makes one from it";
     nothing_is_made_with_such_settings => "nothing is made with settings that do not fit, see above";
     it_is_not_utf_8_text => "it is not UTF-8 text";
+    a_program => "a program";
+    its_ending_is_of_something_else(ending, written, expected) => "its name ends with .{ending}, but {written} is written there: expected {expected}";
+    a_folder_named_as_a_file(ending) => "its name ends with .{ending}, as that of a file: expected the name of a folder";
     dwg_is_not_read => "DWG is not read, expected .dxf: save the drawing as DXF";
     its_name_has_no_ending(endings, last) => "its name has no ending, expected {endings} or {last}";
     its_name_ends_otherwise(ending) => "its name ends with .{ending}, and nothing in it says what it is; expected .dxf, .3b, .iso or .nc, or --language";
@@ -20,6 +23,7 @@ declare! {
     a_contour_has_no_partner(handle, name) => "contour {handle} of workpiece {name} has no partner";
     fits => "fits";
     do_not_fit => "does not fit";
+    verdict_of_an_overlap(fits, over, wanted, places) => "{fits}: the parts overlap by {over:.1} µm where it is tightest, {wanted:.1} µm of clearance are wanted; it is missing at {places}";
     verdict_of_the_fit(fits, least, wanted, places) => "{fits}: {least:.1} µm of {wanted:.1} are left where it is tightest, clearance is missing at {places}";
     everywhere_more_is_left(more) => "; everywhere {more:.1} µm more is left than there should be";
     the_program_is_there_already => "it already exists, expected a folder without it, or --overwrite";
@@ -47,6 +51,8 @@ declare! {
     the_settings_of_this_session => "the settings of this session";
     left_in_all(counts, path) => "{counts}; wedm check {path} says where";
     it_is_there_already => "it already exists, expected a folder without one, or --force";
+    it_is_of_somebody_else => "it already exists and is not from an earlier run, expected another folder, or --force";
+    expected(what) => "expected {what}";
     wire_diameter_mm => "diameter of the wire, mm";
     spark_gap_mm => "spark gap, mm";
     passes_along_each_contour => "passes along each contour";
@@ -136,7 +142,7 @@ declare! {
     lines_that_differ(differing, old) => "{differing} of {old} lines differ, every other byte is as it was.";
     now_the_3b_program => "Now the 3B program";
     the_server_sent_no_program => "the server sent no program";
-    blocks_and_how_far_they_close(blocks, mm, elapsed, x, y) => "{blocks} blocks, cut {mm:.3} mm, after {elapsed}; closes within {x:.2}, {y:.2} µm";
+    blocks_and_how_far_they_close(blocks, mm, elapsed, x, y) => "{blocks} blocks, cut {mm:.3} mm, after {elapsed}; rounding of J, added up: {x:.2}, {y:.2} µm";
     more_lines(count) => "... {count} more lines";
     program_and_drawing_are_read_again_and_held_against_each => "Program and drawing are read again and compared with each other";
     decoded_one_from_the_end_of_the_other(blocks, from_path_um, open_um) => "{blocks} decoded, each from the end of the last: at most {from_path_um:.2} µm from the path, and back in the last thread hole within {open_um:.2} µm.";
@@ -152,6 +158,7 @@ declare! {
     one_contour_for_punch_and_plate => "One contour, cut once as the punch and once as the plate: does one go into the other? (wedm/fit)";
     the_pair_that_binds_gets_no_diagnostic => "the pair that binds gets no diagnostic";
     the_fit_is_of(least) => "{least:.1} µm are left";
+    the_parts_overlap_of_a_clearance(over, clearance) => "The parts overlap by {over:.1} µm where it is tightest; {clearance:.1} µm of clearance are wanted.";
     what_is_left_of_the_clearance(least, clearance) => "Of {clearance:.1} µm of clearance, {least:.1} µm are left where it is tightest.";
     the_program_of_a_part(part, correction, blocks) => "program of the {part}: correction {correction:.4} mm, {blocks} (wedm/pair)";
     two_of_its_10_vertices_are_spliced(tight) => "Two of its 10 vertices are spliced: the fillet in the slot becomes R {tight:.3}.";
@@ -188,7 +195,7 @@ declare! {
     the_largest_wire_needs_the_gap => "largest wire: not known, since gap is not set";
     keys_are_missing(keys) => "not known, since not set: {keys}";
     the_program_is_written(heading, target, program, contours, length) => "{heading} {target}: {program}, {contours}, {length}";
-    a_controller_that_counts_j_drifts(x, y) => "; a controller that counts J drifts by {x:.2}, {y:.2} µm";
+    the_rounding_of_j_adds_up(x, y) => "; rounding of J, added up: {x:.2}, {y:.2} µm";
     the_control_offsets(offsets) => "to be entered at the control: {offsets}";
     offset_of_a_register(register, mm) => "{register} = {mm:.4} mm";
     offset_of_all(mm) => "correction = {mm} mm";
@@ -196,6 +203,7 @@ declare! {
     the_wire_is_threaded_at(x, y) => "the wire is threaded at {x:.3}, {y:.3} mm";
     default_is(value) => "default: {value}";
     all_of_them_can_be_cut => "all of them can be cut";
+    see_wedm_check => "not all of it could be judged, see wedm check";
     not_ok(count) => "{count} not ok";
     units_of_the_drawing_and_of_the_radius(unit) => "drawing units of {unit} mm; radius in mm";
     and_not_cut => ", not cut";
@@ -208,8 +216,8 @@ declare! {
     it_is_no_regular_file_expected_one_to_be_changed_in_its_place(path) => "{path}: it is not a regular file, expected one that can be changed in place";
     is_the_input_expected_another_file(target) => "{target} is the input, expected another file";
     expected_a_number_above_0 => "expected a number above 0";
-    where_it_ends_and_how_far_beside(x, y, deviation) => ", ends {x:.0}, {y:.0} µm from its start, at most {deviation:.2} µm off a block's end";
-    size_and_corner_in_mm(width, height, x, y) => "{width:.3} x {height:.3} mm, from {x:.3}, {y:.3}";
+    where_it_ends_and_how_far_beside(x, y, deviation) => ", counted step by step it ends {x:.0}, {y:.0} µm from its start, at most {deviation:.2} µm off a block's end";
+    size_and_corner_in_mm(width, height, x, y) => "{width:.3} × {height:.3} mm, from {x:.3}, {y:.3}";
     repair_what_can_be_repaired => "repair what can be repaired with";
     of_unknown_version => "of unknown version";
     rule_and_place_of_a_segment(rule, line, handle, segment, x, y) => "{rule} {line}{handle} segment {segment}, at {x:.3}, {y:.3}";

@@ -1,7 +1,7 @@
 //! Drawings: what cannot be read of them, and what is read otherwise.
 
 declare! {
-    this_kind_is_not_cut => "this kind of entity is not cut";
+    this_kind_is_not_cut => "wedm takes no contour from this kind of entity";
     it_lies_in_paper_space => "it lies in paper space";
     its_plane_is_tilted => "its plane is tilted against the drawing's plane";
     its_points_differ_in_z => "its points differ in z";

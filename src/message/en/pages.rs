@@ -16,7 +16,7 @@ declare! {
     column_role => "role";
     column_length => "contour mm";
     column_area => "area mm²";
-    column_order => "cut as no.";
+    column_order => "order of cut";
     column_found => "what is found";
     column_place => "where";
     column_turn => "arc °";
@@ -44,6 +44,11 @@ declare! {
     the_jumps_are_long(length) => "jumps: {length:.3} mm";
     cut_off_in_pass(pass) => "cut-off, pass {pass}";
     a_program_and_its_proof(language, blocks, contours, length, deviation) => "{language}: {blocks}, {contours}, {length}; decoded again, at most {deviation:.2} µm from the path";
+    all_drawings => "all drawings";
+    wire_of_mm(mm) => "wire Ø {mm} mm";
+    gap_of_mm(mm) => "gap {mm} mm";
+    profile_of_name(name) => "profile {name}";
+    the_picture_is_too_large(word) => "the picture is too large for a page: wedm draw {word} -o PICTURE.svg";
     its_text => "text";
     and_more_of_them(count) => "and {count} more";
     head_milling => "Milling";

@@ -121,6 +121,8 @@ declare! {
     rotate_by_180 => "Rotate by 180°";
     semicolon_hides_a_block(column) => "column {column}: the block after this semicolon is read as a comment and not cut: to some controls a semicolon ends a block, then each block needs a line of its own";
     this_comment_holds_a_block_which_is_not_cut(column) => "column {column}: this comment holds a block, which is not cut";
+    no_word_is_found => "no block is found, expected words such as G01 X1. Y2.";
+    the_file_is_binary_not_a_program => "the file is binary, not the text of a program";
     no_block_is_found => "no block is found, expected B X B Y B J G Z";
     the_coordinates_have_decimal_commas => "the coordinates have decimal commas and are not read, expected decimal points";
     a_b_of_the_block_is_missing => "a B of the block is missing";

@@ -74,6 +74,7 @@ declare! {
     path_of_the_electrode_axis(distance) => "path of the electrode's axis, {distance:.3} mm from the contour";
     contour_that_the_control_offsets(distance) => "contour, which the control offsets by {distance:.3} mm";
     path_of_the_wire_centre(distance) => "path of the wire's centre, {distance:.3} mm from the contour";
+    segment_stock(handle, segment, stock) => "{handle} segment {segment}, stock {stock:.3}";
     segment_overcut(handle, segment, overcut) => "{handle} segment {segment}, overcut {overcut:.3}";
     the_drawing_has_no_lines => "the drawing has no lines, arcs or circles";
     contour_and_wire_path => "contours and wire path";

@@ -10,6 +10,9 @@ translate! {
     a_drawing_where_a_program_is_expected => "这是图形，此处要程序：用 wedm generate 由它生成程序";
     nothing_is_made_with_such_settings => "设置不合适，未写出任何文件，见上文";
     it_is_not_utf_8_text => "不是 UTF-8 文本";
+    a_program => "程序";
+    its_ending_is_of_something_else(ending, written, expected) => "文件名以 .{ending} 结尾，但要写入的是 {written}：扩展名应为 {expected}";
+    a_folder_named_as_a_file(ending) => "名称像文件一样以 .{ending} 结尾：应为文件夹的名称";
     dwg_is_not_read => "不读 DWG，要 .dxf：请把图形另存为 DXF";
     its_name_has_no_ending(endings, last) => "文件名没有扩展名，应为 {endings} 或 {last}";
     its_name_ends_otherwise(ending) => "文件扩展名是 .{ending}，内容也看不出是什么；应为 .dxf、.3b、.iso 或 .nc，或用 --language 指明";
@@ -20,6 +23,7 @@ translate! {
     a_contour_has_no_partner(handle, name) => "工件 {name} 的轮廓 {handle} 没有配对的轮廓";
     fits => "能够配合";
     do_not_fit => "不能配合";
+    verdict_of_an_overlap(fits, over, wanted, places) => "{fits}：最紧处两件重叠 {over:.1} µm，应有间隙 {wanted:.1} µm，间隙不足 {places}";
     verdict_of_the_fit(fits, least, wanted, places) => "{fits}：最紧处 {wanted:.1} µm 间隙剩 {least:.1} µm，间隙不足 {places}";
     everywhere_more_is_left(more) => "；各处都比应有的间隙多 {more:.1} µm";
     the_program_is_there_already => "文件已存在，应换没有它的文件夹，或加 --overwrite";
@@ -47,6 +51,8 @@ translate! {
     the_settings_of_this_session => "本次会话的设置";
     left_in_all(counts, path) => "{counts}；用 wedm check {path} 查看位置";
     it_is_there_already => "文件已存在；请换一个没有它的文件夹，或加 --force";
+    it_is_of_somebody_else => "文件已存在，且不是以前生成的，请换一个文件夹，或加 --force";
+    expected(what) => "应为{what}";
     wire_diameter_mm => "电极丝直径，mm";
     spark_gap_mm => "放电间隙，mm";
     passes_along_each_contour => "每个轮廓的切割次数";
@@ -107,7 +113,7 @@ translate! {
     its_program => "它的程序";
     contour_faults_and_wire_path => "轮廓、问题和切割路线：用浏览器打开";
     everything_above_was_checked_as_it_was_said => "以上每一条都边说边核对过。";
-    the_server_starts_as_a_child_and_speaks_lsp_over => "服务器作为子进程启动，经标准输入输出讲 LSP";
+    the_server_starts_as_a_child_and_speaks_lsp_over => "服务器作为子进程启动，经标准输入输出使用 LSP";
     wedm_demo => "wedm demo";
     the_server_says_it_is_protocol(name, protocol) => "服务器自称 {name}，协议 {protocol}";
     wedm_protocol_started_and_answered_within(version, protocol, elapsed) => "wedm {version}，协议 {protocol}；{elapsed} 内启动并应答";
@@ -136,7 +142,7 @@ translate! {
     lines_that_differ(differing, old) => "{old} 行中 {differing} 行不同，其余字节一个未动。";
     now_the_3b_program => "现在生成 3B 程序";
     the_server_sent_no_program => "服务器没有给出程序";
-    blocks_and_how_far_they_close(blocks, mm, elapsed, x, y) => "{blocks}，切割 {mm:.3} mm，用时 {elapsed}；首尾相差 {x:.2}, {y:.2} µm";
+    blocks_and_how_far_they_close(blocks, mm, elapsed, x, y) => "共 {blocks} 个程序段，切割 {mm:.3} mm，用时 {elapsed}；J 取整误差合计 {x:.2}, {y:.2} µm";
     more_lines(count) => "……还有 {count} 行";
     program_and_drawing_are_read_again_and_held_against_each => "重新读入程序和图形，相互核对";
     decoded_one_from_the_end_of_the_other(blocks, from_path_um, open_um) => "{blocks} 首尾相接逐段解码：离切割路线最多 {from_path_um:.2} µm，回到最后的穿丝孔误差不超过 {open_um:.2} µm。";
@@ -152,6 +158,7 @@ translate! {
     one_contour_for_punch_and_plate => "同一轮廓切两次，一次作凸模，一次作凹模：能装进去吗？（wedm/fit）";
     the_pair_that_binds_gets_no_diagnostic => "卡住的一对没有得到诊断";
     the_fit_is_of(least) => "剩 {least:.1} µm";
+    the_parts_overlap_of_a_clearance(over, clearance) => "最紧处两件重叠 {over:.1} µm；应有间隙 {clearance:.1} µm。";
     what_is_left_of_the_clearance(least, clearance) => "间隙 {clearance:.1} µm，最紧处剩 {least:.1} µm。";
     the_program_of_a_part(part, correction, blocks) => "{part} 的程序：补偿量 {correction:.4} mm，{blocks}（wedm/pair）";
     two_of_its_10_vertices_are_spliced(tight) => "10 个顶点中替换两个：槽内圆角变为 R {tight:.3}。";
@@ -188,7 +195,7 @@ translate! {
     the_largest_wire_needs_the_gap => "最粗可用电极丝：未设 gap，无法得知";
     keys_are_missing(keys) => "未设而无法得知：{keys}";
     the_program_is_written(heading, target, program, contours, length) => "{heading} {target}：{program}，{contours}，{length}";
-    a_controller_that_counts_j_drifts(x, y) => "；按 J 计数的控制器累计偏差 {x:.2}, {y:.2} µm";
+    the_rounding_of_j_adds_up(x, y) => "；J 取整误差合计 {x:.2}, {y:.2} µm";
     the_control_offsets(offsets) => "须在控制系统中输入：{offsets}";
     offset_of_a_register(register, mm) => "{register} = {mm:.4} mm";
     offset_of_all(mm) => "补偿量 = {mm} mm";
@@ -196,6 +203,7 @@ translate! {
     the_wire_is_threaded_at(x, y) => "穿丝孔位于 {x:.3}, {y:.3} mm";
     default_is(value) => "默认：{value}";
     all_of_them_can_be_cut => "全部可以切割";
+    see_wedm_check => "并非全部可以判断，见 wedm check";
     not_ok(count) => "{count} 段有问题";
     units_of_the_drawing_and_of_the_radius(unit) => "图形单位 {unit} mm，半径 mm";
     and_not_cut => "，不切割";
@@ -208,8 +216,8 @@ translate! {
     it_is_no_regular_file_expected_one_to_be_changed_in_its_place(path) => "{path}：不是普通文件，不能就地修改";
     is_the_input_expected_another_file(target) => "{target} 就是输入文件，请换一个文件";
     expected_a_number_above_0 => "应为大于 0 的数";
-    where_it_ends_and_how_far_beside(x, y, deviation) => "，终点距起点 {x:.0}, {y:.0} µm，偏离程序段终点最多 {deviation:.2} µm";
-    size_and_corner_in_mm(width, height, x, y) => "{width:.3} x {height:.3} mm，从 {x:.3}, {y:.3} 起";
+    where_it_ends_and_how_far_beside(x, y, deviation) => "，逐步计数，终点距起点 {x:.0}, {y:.0} µm，偏离程序段终点最多 {deviation:.2} µm";
+    size_and_corner_in_mm(width, height, x, y) => "{width:.3} × {height:.3} mm，从 {x:.3}, {y:.3} 起";
     repair_what_can_be_repaired => "可修复的用以下命令修复";
     of_unknown_version => "（版本未知）";
     rule_and_place_of_a_segment(rule, line, handle, segment, x, y) => "{rule} {line}{handle} 段 {segment}，位于 {x:.3}, {y:.3}";

@@ -85,7 +85,7 @@ pub(in crate::message) const HELP: &[(&str, &str)] = &[
     ),
     (
         "generate format",
-        "程序的语言：3b、4b、iso；milling 为电极铣削",
+        "程序的语言：3b、4b、iso；milling 为电极铣削 [默认：按 OUT 的扩展名，否则 3b]",
     ),
     ("generate output", "程序写到这里 [默认：标准输出]"),
     (
@@ -168,9 +168,10 @@ pub(in crate::message) const HELP: &[(&str, &str)] = &[
     ),
     (
         "report/",
-        "每页是一个 HTML 文件，不要别的文件，亮暗随查看者，可打印在 A4 上。图形有错误时以 1 结束，页仍会写出。",
+        "每页是一个 HTML 文件，不要别的文件，亮暗随查看者，可打印在 A4 上。图形有错误时以 1 结束，页仍会写出。已有的文件若不是 wedm 的报告页，不会被覆盖，除非用 --force。",
     ),
     ("report paths", "图形，或图形的文件夹"),
+    ("report force", "即使文件不是 wedm 的报告页，也予以覆盖"),
     ("report output", "放这些页的文件夹；没有则建立"),
     (
         "report format",
@@ -206,12 +207,13 @@ pub(in crate::message) const HELP: &[(&str, &str)] = &[
     ("demo", "用自带的图形与真实的服务器演示全过程"),
     (
         "demo/",
-        "打开凹模板图形，像设计员一样修改，显示每个诊断，采用修复，取得 3B 程序，重新解码，写出 demo.dxf、demo.3b、demo.svg 和 wedm.toml。所说的全部属实才以 0 结束。",
+        "打开凹模板图形，像设计员一样修改，显示每个诊断，采用修复，取得 3B 程序，重新解码，写出 demo.dxf、demo.3b、demo.svg 和 wedm.toml。所说的全部属实才以 0 结束。已有的同名文件若不是演示生成的，不会被覆盖，除非用 --force。",
     ),
+    ("demo force", "即使文件不是演示生成的，也予以覆盖"),
     ("demo folder", "文件写到此文件夹"),
     (
         "serve",
-        "在标准输入输出上讲语言服务器协议（不带命令时就是这样）",
+        "在标准输入输出上提供语言服务器协议（不带命令时就是这样）",
     ),
     ("stdio", "有的编辑器会给出；没有别的方式"),
     (

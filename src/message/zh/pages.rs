@@ -44,6 +44,11 @@ translate! {
     the_jumps_are_long(length) => "空走：{length:.3} mm";
     cut_off_in_pass(pass) => "切断，第 {pass} 次";
     a_program_and_its_proof(language, blocks, contours, length, deviation) => "{language}：{blocks}，{contours}，{length}；反解校核，偏离路线不超过 {deviation:.2} µm";
+    all_drawings => "全部图形";
+    wire_of_mm(mm) => "电极丝 Ø {mm} mm";
+    gap_of_mm(mm) => "放电间隙 {mm} mm";
+    profile_of_name(name) => "用 profile {name}";
+    the_picture_is_too_large(word) => "图片太大，不放在页中：wedm draw {word} -o PICTURE.svg";
     its_text => "程序文本";
     and_more_of_them(count) => "另有 {count} 项";
     head_milling => "铣削";

@@ -121,6 +121,8 @@ translate! {
     rotate_by_180 => "转 180°";
     semicolon_hides_a_block(column) => "第 {column} 列：分号之后的程序段按注释读取，不会切割；有些控制器以分号结束程序段，此时每个程序段须各占一行";
     this_comment_holds_a_block_which_is_not_cut(column) => "第 {column} 列：此注释中有一个程序段，不会切割";
+    no_word_is_found => "没有找到程序段，应为 G01 X1. Y2. 这样的代码";
+    the_file_is_binary_not_a_program => "文件是二进制文件，不是程序文本";
     no_block_is_found => "没有找到程序段，应为 B X B Y B J G Z";
     the_coordinates_have_decimal_commas => "坐标用了逗号小数点，读不出，应为小数点";
     a_b_of_the_block_is_missing => "程序段缺一个 B";
@@ -187,7 +189,7 @@ translate! {
     the_arcs_would_not_tell_how_i_and_j_are_meant => "从圆弧就看不出 I、J 的写法了";
     the_new_block_reads_otherwise => "新程序段读出来与原意不同";
     the_block_does_not_run_along_its_piece => "程序段没有沿着它那段切割路线走";
-    a_word_takes_the_coordinates(line) => "第 {line} 行：有一个字把坐标当作机床的位置";
+    a_word_takes_the_coordinates(line) => "第 {line} 行：有代码把坐标当作机床位置";
     of_profile(name, why) => "profile {name}：{why}";
     its_lines_change_heights(line) => "它的行改变了 {line:?} 中高度的含义";
     a_layer_is_finer(layer, step) => "milling.layer 是 {layer} mm，比 profile 的最小单位 {step} mm 还小：每层应厚一些，或增加小数位数";

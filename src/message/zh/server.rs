@@ -74,6 +74,7 @@ translate! {
     path_of_the_electrode_axis(distance) => "电极轴线轨迹，离轮廓 {distance:.3} mm";
     contour_that_the_control_offsets(distance) => "轮廓，由控制系统补偿 {distance:.3} mm";
     path_of_the_wire_centre(distance) => "丝中心轨迹，离轮廓 {distance:.3} mm";
+    segment_stock(handle, segment, stock) => "{handle} 第 {segment} 段，余量 {stock:.3}";
     segment_overcut(handle, segment, overcut) => "{handle} 段 {segment}，过切 {overcut:.3}";
     the_drawing_has_no_lines => "图形中没有直线、圆弧或圆";
     contour_and_wire_path => "轮廓和切割路线";

@@ -1,5 +1,14 @@
 //! What a setting may be.
 
+/// A space stands between Chinese and what begins in other letters.
+fn apart(words: &dyn crate::message::Shown) -> String {
+    let words = format!("{words}");
+    match words.starts_with(|letter: char| letter.is_ascii()) {
+        true => format!(" {words}"),
+        false => words,
+    }
+}
+
 translate! {
     a_number_above(least) => "大于 {least} 的数";
     a_number_of_or_above(least) => "不小于 {least} 的数";
@@ -20,7 +29,7 @@ translate! {
     not_set => "未设置";
     a_point => "点 [x, y]";
     a_point_of_numbers_up_to(most) => "点 [x, y]，其中的数不超过 {most}";
-    a_word_of_letters_and_digits => "由字母和数字组成的代码，如 \"DD\"";
+    a_word_of_letters_and_digits => "由字母和数字组成的代码，如 \"DD\"，且不是程序段的一部分";
     colors_that_are_known => "red、yellow、green、cyan、blue、magenta、white、1 到 255 的数或 #rrggbb";
     the_reason_in_words => "用文字写明理由";
     did_you_mean_of(expected, near) => "{expected}：是否想写 {near}？";
@@ -30,13 +39,14 @@ translate! {
     suppresses_nothing(handle, rule) => "对 {handle} 处 {rule} 的忽略不起作用：请删去";
     no_contour_of_that_name(drawing, key) => "本图中没有 {key}：[drawings.\"{drawing}\".contours] 中对它的规定不起作用";
     one_or_other(ones, other) => "{ones} 或 {other}";
-    is_not_what_is_expected(key, found, expected) => "{key} 是 {found}，应为 {expected}";
-    is_empty(key, expected) => "{key} 为空，应为 {expected}";
-    is_not_known(key, expected) => "没有 {key} 这一项，应为 {expected}";
+    is_not_what_is_expected(key: dyn crate::message::Shown, found: dyn crate::message::Shown, expected: dyn crate::message::Shown) => { format!("{key} 是{}，应为{}", apart(found), apart(expected)) };
+    is_empty(key: dyn crate::message::Shown, expected: dyn crate::message::Shown) => { format!("{key} 为空，应为{}", apart(expected)) };
+    is_not_known(key: dyn crate::message::Shown, expected: dyn crate::message::Shown) => { format!("没有 {key} 这一项，应为{}", apart(expected)) };
     holds_an_unknown_name(key, name) => "{key} 含有 {name}，应为 {{x}}、{{y}}、{{side}} 或 {{register}}";
     there_is_no_profile(name, names) => "没有名为 {name:?} 的 profile，应为 {names}";
     is_more_than_the_pass_before(pass, correction, before) => "{pass} 是 {correction}，最多应为上一次切割的 {before}：补偿量须逐次减小";
     is_of_passes_expected_one_for_each(key, count, passes) => "{key} 列出 {count} 个，应与切割次数一致，共 {passes} 个";
+    is_less_than_the_kerf(pass, correction, radius, gap, beyond) => "{pass} 是 {correction}，小于电极丝半径 {radius} 与这次切割的放电间隙 {gap} 之和：会多切入轮廓 {beyond:.4} mm（passes.gaps 是各次切割的放电间隙）";
     is_less_than_the_wire_radius(pass, correction, radius) => "{pass} 是 {correction}，不得小于电极丝半径 {radius}：否则丝会切入工件";
     a_list_of_layers => "图层名的列表，如 [\"PUNCH\"]";
     the_name_of_a_layer => "图层名";
@@ -57,5 +67,22 @@ translate! {
     a_layer_above_the_depth(key, layer, depth) => "{key} 是 {layer}，最多应为 milling.depth {depth}";
     too_many_layers(key, layer, layers, most) => "{key} 是 {layer}，milling.depth 要分 {layers:.0} 层，最多允许 {most} 层";
     the_file_has_too_many_bytes(bytes, most) => "文件有 {bytes} 字节，最多允许 {most}：整个文件无效";
+    a_value_without_quotes => "没有值，或文字没有加引号";
+    a_key_without_a_sign => "键后缺少 =";
+    a_sign_without_a_key => "= 前没有键";
+    a_key_of_other_letters => "键含有字母、数字、- 和 _ 以外的字符：须加引号";
+    a_key_that_is_repeated => "键重复";
+    text_behind_a_value => "值后还有文字，应换行";
+    a_bracket_that_is_open => "括号没有闭合";
+    a_quote_that_is_open => "引号没有闭合";
+    a_backslash_that_stands_for_nothing => "反斜杠不成转义：应写两个";
+    a_number_that_is_none => "不是 TOML 的数：小数点前后都应有数字，前面不应多写 0";
+    comma_between_words => "、";
+    or_between_words => " 或 ";
+    part_punch => "凸模";
+    part_plate => "凹模";
+    part_stripper => "卸料板";
+    part_holder => "固定板";
+    one_of(words) => "{words} 之一";
     not_toml(reason) => "不是 TOML：{reason}";
 }

@@ -11,13 +11,18 @@ pub(in crate::server) fn settings(state: &mut State, uri: &str) -> SettingsInFor
     let settings = state.config.settings_for(file.as_deref());
     let effective = Effective::of_document(&settings, name_of(uri));
     SettingsInForce {
-        correction: effective.correction,
-        corrections: effective.corrections,
+        correction: as_stated(effective.correction),
+        corrections: effective.corrections.into_iter().map(as_stated).collect(),
         correction_from: source(&of_client, file.as_ref().map(|file| &file.settings)),
         side: effective.side,
         file: file.as_ref().and_then(|file| uri_of(&file.path)),
         contours: effective.own,
     }
+}
+
+/// mm, without what halving a diameter and adding a gap leave in the sixteenth place.
+fn as_stated(mm: f64) -> f64 {
+    (mm * 1e9).round() / 1e9
 }
 
 /// Passes replace a single correction, but one of a later level, which replaces them.

@@ -326,6 +326,9 @@ fn json_is_taken_bare_or_as_the_section_and_null_is_not_set() {
         1,
     );
     check(json!({ "passes": { "corrections": [0.1, 0.2] } }), None, 1);
-    check(json!([]), None, 1);
+    check(json!([]), None, 0);
+    check(json!({ "wedm": [], "layers": 1 }), None, 0);
+    check(json!({ "program": [], "layers": [] }), None, 0);
+    check(json!({ "layers": [1] }), None, 1);
     check(json!("x"), None, 1);
 }

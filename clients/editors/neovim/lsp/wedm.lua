@@ -70,7 +70,9 @@ return {
     root_markers = { 'wedm.toml', '.git' },
     before_init = function(params, config)
         -- The settings hold from the first document on.
-        params.initializationOptions = config.settings and config.settings.wedm or vim.empty_dict()
+        local own = config.settings and config.settings.wedm or {}
+        -- An empty table of Lua would be sent as a list.
+        params.initializationOptions = next(own) and own or vim.empty_dict()
     end,
     on_init = function(client) restarts.answered(client.id) end,
     on_exit = function(code, signal, client_id)

@@ -43,7 +43,7 @@ QString written(const Program &program)
                                        .arg(program.floorMost, 0, 'f', 4)
                                        .arg(program.worn, 0, 'f', 4);
     else if (program.format != QLatin1String("iso"))
-        text += QLatin1Char(' ') + tr("A control that counts J drifts by %1, %2 µm.").arg(micrometres(program.closureX), micrometres(program.closureY));
+        text += QLatin1Char(' ') + tr("Rounding of J, added up: %1, %2 µm.").arg(micrometres(program.closureX), micrometres(program.closureY));
     if (!program.warnings.isEmpty())
         text += QLatin1Char('\n') + tr("Findings in the drawing: %1").arg(program.warnings.mid(0, NAMED).join(QStringLiteral("; ")));
     return text;

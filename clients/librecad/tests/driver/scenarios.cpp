@@ -187,20 +187,20 @@ void Driver::formats()
     expectSoon("an ISO program is written", [this] { return text("wedm_message").startsWith("Written") && text("wedm_message").contains("plate.iso"); },
                [this] { return text("wedm_message"); });
     expect("lengths have their one name", text("wedm_message").contains("cut ") && text("wedm_message").contains("jumps 0.000 mm"), text("wedm_message"));
-    expect("nothing is counted in it", !text("wedm_message").contains("counts J"), text("wedm_message"));
+    expect("nothing is counted in it", !text("wedm_message").contains("of J"), text("wedm_message"));
     QFile file(iso);
     expect("it is ISO", file.open(QIODevice::ReadOnly) && file.readAll().contains("G92"));
     choose("Generate 4B…");
     acceptFile(QFileInfo(m_file).absoluteDir().filePath("plate.4b"));
     expectSoon("a 4B program is written", [this] { return text("wedm_message").startsWith("Written") && text("wedm_message").contains("plate.4b"); },
                [this] { return text("wedm_message"); });
-    expect("a drift that rounds to zero has no sign", text("wedm_message").contains("drifts by 0.00, 0.00"), text("wedm_message"));
+    expect("a drift that rounds to zero has no sign", text("wedm_message").contains("added up: 0.00, 0.00"), text("wedm_message"));
     const QString milled = QFileInfo(m_file).absoluteDir().filePath("milled.iso");
     choose("Generate milling…");
     acceptFile(milled);
     expectSoon("a program for an electrode is written", [this] { return text("wedm_message").startsWith("Written") && text("wedm_message").contains("milled.iso"); },
                [this] { return text("wedm_message"); });
-    expect("with its layers", text("wedm_message").contains("4 layers; simulated: the floor 0.") && !text("wedm_message").contains("counts J"), text("wedm_message"));
+    expect("with its layers", text("wedm_message").contains("4 layers; simulated: the floor 0.") && !text("wedm_message").contains("of J"), text("wedm_message"));
     QFile heights(milled);
     expect("it has heights", heights.open(QIODevice::ReadOnly) && heights.readAll().contains("G01 Z-0.0"));
 }

@@ -15,7 +15,7 @@ import warnings
 
 from .archive import Checked, check_many, report
 from .cad import UnsupportedEntity, UnsupportedUnits
-from .documents import Document, Drawing, ProgramFormat, TextDocument, WireFormat, write_back
+from .documents import Action, Document, Drawing, ProgramFormat, TextDocument, WireFormat, write_back
 from .entities import Arc, Change, Circle, Delete, Entity, Line, Point, Polyline, Put, Splice, Text, Vertex
 from .errors import (
     DoesNotApply,
@@ -74,7 +74,7 @@ from .results import (
     Work,
     WorkCut,
 )
-from .server import Action, Server
+from .server import Server
 from .settings import ContourSettings, DrawingSettings, Job, MillingSettings, Pair, Passes, Profile, ProgramSettings, Settings
 from .shown import Rows
 

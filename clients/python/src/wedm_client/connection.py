@@ -153,6 +153,7 @@ class Connection:
         on_publish: Callable[[Connection, Mapping[str, Any]], None],
         on_resend: Callable[[str], dict[str, Any]],
         on_edit: Callable[[Mapping[str, Any]], str | None],
+        on_warning: Callable[[str], None],
         on_end: Callable[[Connection], None],
     ) -> None:
         self._loop = loop
@@ -164,6 +165,7 @@ class Connection:
         self.exit_code: int | None = None
         self.server_version = ""
         self._on_end = on_end
+        self._on_warning = on_warning
         self._client = _Client(self._end)
         self._client.feature(types.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS)(lambda params: on_publish(self, params))
         self._client.feature("wedm/resendDrawing")(lambda params: on_resend(str(params["uri"])))
@@ -178,6 +180,8 @@ class Connection:
 
     def _hear(self, params: types.LogMessageParams | types.ShowMessageParams) -> None:
         self._client.said.append(params.message)
+        if params.type in (types.MessageType.Warning, types.MessageType.Error):
+            self._on_warning(params.message)
 
     def _end(self, exit_code: int) -> None:
         if self._ready_at is not None:

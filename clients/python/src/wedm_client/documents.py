@@ -5,13 +5,30 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal, Protocol
 
 from .cad import write_back_to
 from .entities import Change, Delete, Entity, Polyline, Put, Splice, Vertex
 from .errors import DoesNotApply, WedmError
-from .results import Contours, Diagnostic, Findings, Fit, Fixed, Inspection, PairProgram, Picture, Program, SettingsInForce, Toolpath, write_beside
+from .results import (
+    Contours,
+    Diagnostic,
+    Findings,
+    Fit,
+    Fixed,
+    Inspection,
+    Located,
+    PairProgram,
+    Picture,
+    Program,
+    Repair,
+    SettingsInForce,
+    Simulation,
+    Toolpath,
+    write_beside,
+)
 from .settings import Settings, Units
 from .shown import Rows, counted
 
@@ -22,6 +39,38 @@ ProgramFormat = Literal["3b", "4b", "iso", "milling"]
 
 #: Kind of text by the end of a file's name.
 LANGUAGES = {".dxf": "dxf", ".3b": "3b", ".4b": "3b", ".iso": "wire-iso", ".nc": "wire-iso"}
+
+#: Lines and characters of a line that are looked at where a name does not tell.
+_LINES, _WIDTH = 400, 160
+
+
+def language_of(ending: str, text: str) -> str:
+    """The kind of a text: by the end of its file's name, else by what stands in it; DXF where nothing tells."""
+    known = LANGUAGES.get(ending.lower())
+    if known is not None or text.split(None, 2)[:2] == ["0", "SECTION"]:
+        return known or "dxf"
+    return program_of(text) or "dxf"
+
+
+def program_of(text: str) -> str | None:
+    """The language of programs in which most lines of a text are. ``clients/languages.json`` keeps it in step with the server."""
+    blocks = words = others = 0
+    for line in re.split(r"[\n\r]", text.removeprefix("\ufeff"), maxsplit=_LINES)[:_LINES]:
+        close = re.sub(r"[ \t\f\v]", "", line)[:_WIDTH].upper()
+        if len(close) <= 2 or close[0] in ";(%*:/":
+            continue
+        block = re.sub(r"^N\d*:?", "", close)
+        if block.startswith("B") and block.count("B") > 2 and re.search("G[XY]", block):
+            blocks += 1
+        elif re.match(r"[GMXYTDHO][\d.+-]", block) and re.fullmatch(r"[\dA-Z.+,=)-]*", re.split("[;(]", block)[0]):
+            words += 1
+        else:
+            others += 1
+    most = max(blocks, words)
+    if most == 0 or most <= others:
+        return None
+    return "3b" if blocks >= words else "wire-iso"
+
 
 _LINE_END = re.compile(rb"\r\n|\n|\r")
 _CODE_PAGE = re.compile(rb"\$DWGCODEPAGE\s+3\s+(\S+)")
@@ -39,6 +88,35 @@ class Asked(Protocol):
     def fit(self, document: Document, options: Settings | None = None) -> Fit: ...
     def settings(self, document: Document) -> SettingsInForce: ...
     def close_document(self, document: Document) -> None: ...
+    def actions(self, document: Document, diagnostic: Diagnostic) -> list[Action]: ...
+    def apply(self, action: Action) -> None: ...
+    def repairs(self, document: Document, rule: str, handle: str, segment: int | None = None) -> list[Repair]: ...
+    def change(self, document: Document, change: str | Change | Sequence[Change]) -> None: ...
+    def export(self, document: Document, format: Literal["svg", "png", "pdf"], options: Settings | None = None) -> bytes: ...
+    def holes(self, document: Document, format: Literal["csv", "dxf"] = "csv", options: Settings | None = None) -> bytes: ...
+    def simulate(self, document: Document, feed: float | None = None) -> Simulation: ...
+    def rule_page(self, rule: str) -> str: ...
+    def scale(self, program: TextDocument, factor: float) -> None: ...
+    def format(self, program: TextDocument) -> bool: ...
+
+    def locate(
+        self,
+        document: Document,
+        line: int | None = None,
+        column: int = 1,
+        *,
+        handle: str | None = None,
+        segment: int | None = None,
+    ) -> Located | None: ...
+
+    def convert(
+        self,
+        program: TextDocument,
+        to: Literal["dxf", "3b", "4b", "iso"],
+        *,
+        options: Settings | None = None,
+        force: bool = False,
+    ) -> str: ...
 
     def generate(
         self,
@@ -133,6 +211,44 @@ class Document:
         """See :meth:`Server.settings`."""
         return self._server.settings(self)
 
+    def actions(self, diagnostic: Diagnostic) -> list[Action]:
+        """See :meth:`Server.actions`."""
+        return self._server.actions(self, diagnostic)
+
+    def apply(self, action: Action) -> None:
+        """See :meth:`Server.apply`."""
+        if action.document is not self:
+            raise ValueError(f"the repair is for {action.document.uri}, not for {self.uri}")
+        self._server.apply(action)
+
+    def repairs(self, rule: str, handle: str, segment: int | None = None) -> list[Repair]:
+        """See :meth:`Server.repairs`."""
+        return self._server.repairs(self, rule, handle, segment)
+
+    def change(self, change: str | Change | Sequence[Change]) -> None:
+        """See :meth:`Server.change`."""
+        self._server.change(self, change)
+
+    def export(self, format: Literal["svg", "png", "pdf"], options: Settings | None = None) -> bytes:
+        """See :meth:`Server.export`."""
+        return self._server.export(self, format, options)
+
+    def holes(self, format: Literal["csv", "dxf"] = "csv", options: Settings | None = None) -> bytes:
+        """See :meth:`Server.holes`."""
+        return self._server.holes(self, format, options)
+
+    def simulate(self, feed: float | None = None) -> Simulation:
+        """See :meth:`Server.simulate`."""
+        return self._server.simulate(self, feed)
+
+    def locate(self, line: int | None = None, column: int = 1, *, handle: str | None = None, segment: int | None = None) -> Located | None:
+        """See :meth:`Server.locate`."""
+        return self._server.locate(self, line, column, handle=handle, segment=segment)
+
+    def rule_page(self, rule: str) -> str:
+        """See :meth:`Server.rule_page`."""
+        return self._server.rule_page(rule)
+
     def close(self) -> None:
         """See :meth:`Server.close_document`."""
         self._server.close_document(self)
@@ -147,6 +263,17 @@ class Document:
         except WedmError:
             # A notebook then shows the text of the object.
             return None
+
+
+@dataclass(frozen=True)
+class Action:
+    """A repair that the server offers for the version of the document that it looked at."""
+
+    title: str
+    preferred: bool
+    document: Document
+    version: int
+    _what: Mapping[str, Any]
 
 
 class Drawing(Document):
@@ -275,6 +402,18 @@ class TextDocument(Document):
         if not self._repaired or self.path is None:
             return None
         return f"what was changed in {self.path} was not saved: call document.save()"
+
+    def convert(self, to: Literal["dxf", "3b", "4b", "iso"], *, options: Settings | None = None, force: bool = False) -> str:
+        """See :meth:`Server.convert`."""
+        return self._server.convert(self, to, options=options, force=force)
+
+    def scale(self, factor: float) -> None:
+        """See :meth:`Server.scale`."""
+        self._server.scale(self, factor)
+
+    def format(self) -> bool:
+        """See :meth:`Server.format`."""
+        return self._server.format(self)
 
     def save(self, path: str | os.PathLike[str] | None = None) -> Path:
         """Writes the text to ``path``, without one to the file that it came from; in that file's encoding.

@@ -5,6 +5,8 @@ Coordinates are drawing units, angles degrees counter-clockwise, a bulge is tan(
 
 from __future__ import annotations
 
+import math
+import numbers
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar, NamedTuple, Union
@@ -25,15 +27,44 @@ class Vertex(NamedTuple):
     bulge: float = 0.0
 
 
+def number(value: Any, name: str) -> float:
+    """The number, as JSON can hold it.
+
+    :raises ValueError: it is none, or not finite.
+    """
+    if isinstance(value, numbers.Real) and not isinstance(value, bool) and math.isfinite(value):
+        return value if isinstance(value, (int, float)) else float(value)
+    raise ValueError(f"{name} is {value!r}, expected a finite number")
+
+
 @dataclass(frozen=True)
 class _Entity:
     kind: ClassVar[str]
+
+    def _number(self, key: str) -> float:
+        return number(getattr(self, key), f"entity {getattr(self, 'handle')}: {key}")
+
+    def _radius(self) -> float:
+        radius = self._number("radius")
+        if radius <= 0:
+            raise ValueError(f"entity {getattr(self, 'handle')}: radius is {radius!r}, expected a finite number above 0")
+        return radius
+
+    def _point(self, key: str) -> list[float]:
+        point = getattr(self, key)
+        name = f"entity {getattr(self, 'handle')}: {key}"
+        if isinstance(point, str) or len(point) != 2:
+            raise ValueError(f"{name} is {point!r}, expected two finite numbers")
+        return [number(value, name) for value in point]
 
     def _json(self) -> dict[str, Any]:
         raise NotImplementedError
 
     def to_json(self) -> dict[str, Any]:
-        """The entity as the protocol writes it."""
+        """The entity as the protocol writes it.
+
+        :raises ValueError: one of its numbers is not finite, or a radius is not above 0.
+        """
         written: dict[str, Any] = {"handle": getattr(self, "handle"), "type": self.kind, **self._json()}
         for key in ("layer", "role"):
             value = getattr(self, key)
@@ -68,7 +99,9 @@ class Polyline(_Entity):
         object.__setattr__(self, "role", role)
 
     def _json(self) -> dict[str, Any]:
-        return {"closed": self.closed, "vertices": [list(vertex) for vertex in self.vertices]}
+        name = f"entity {self.handle}: vertex"
+        vertices = [[number(value, f"{name} {index}") for value in vertex] for index, vertex in enumerate(self.vertices)]
+        return {"closed": self.closed, "vertices": vertices}
 
 
 @dataclass(frozen=True)
@@ -81,7 +114,7 @@ class Line(_Entity):
     role: Role | None = None
 
     def _json(self) -> dict[str, Any]:
-        return {"start": list(self.start), "end": list(self.end)}
+        return {"start": self._point("start"), "end": self._point("end")}
 
 
 @dataclass(frozen=True)
@@ -98,7 +131,8 @@ class Arc(_Entity):
     role: Role | None = None
 
     def _json(self) -> dict[str, Any]:
-        return {"center": list(self.center), "radius": self.radius, "startAngle": self.start_angle, "endAngle": self.end_angle}
+        angles = {"startAngle": self._number("start_angle"), "endAngle": self._number("end_angle")}
+        return {"center": self._point("center"), "radius": self._radius(), **angles}
 
 
 @dataclass(frozen=True)
@@ -111,7 +145,7 @@ class Circle(_Entity):
     role: Role | None = None
 
     def _json(self) -> dict[str, Any]:
-        return {"center": list(self.center), "radius": self.radius}
+        return {"center": self._point("center"), "radius": self._radius()}
 
 
 @dataclass(frozen=True)
@@ -126,7 +160,7 @@ class Text(_Entity):
     role: Role | None = None
 
     def _json(self) -> dict[str, Any]:
-        return {"at": list(self.at), "text": self.text}
+        return {"at": self._point("at"), "text": self.text}
 
 
 Entity = Union[Polyline, Line, Arc, Circle, Text]
@@ -175,7 +209,8 @@ class Splice:
     insert: Sequence[Sequence[float]] = ()
 
     def to_json(self) -> dict[str, Any]:
-        inserted = [list(Vertex(*vertex)) for vertex in self.insert]
+        name = f"a vertex to insert in {self.handle}"
+        inserted = [[number(value, name) for value in Vertex(*vertex)] for vertex in self.insert]
         return {"handle": self.handle, "vertices": {"start": self.start, "deleteCount": self.delete, "insert": inserted}}
 
 

@@ -371,7 +371,7 @@ class Toolpath(Tabled):
 
 @dataclass(frozen=True)
 class Closure(Value):
-    """What a controller that counts J has drifted at the end of a program, µm."""
+    """The rounding of J in all arcs of a program, added up, µm; the path says where the machine stops."""
 
     x: float
     y: float

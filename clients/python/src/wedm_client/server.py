@@ -26,8 +26,8 @@ from lsprotocol import types
 from . import cad
 from .connection import CONTENT_MODIFIED, LOG, Connection, Died, Loop
 from .convert import converted
-from .documents import LANGUAGES, Document, Drawing, ProgramFormat, TextDocument, WireFormat, read_text
-from .entities import Change, Delete, Put, Splice, change_from_json
+from .documents import Action, Document, Drawing, ProgramFormat, TextDocument, WireFormat, language_of, read_text
+from .entities import Change, Delete, Put, Splice, change_from_json, number
 from .errors import NoAnswer, NotOpen, NotSaved, Outdated, ServerDied, WedmError
 from .find import find
 from .restarts import MOST_ENDS, Restarts
@@ -62,17 +62,6 @@ Source = Union[str, "os.PathLike[str]", Iterable[Any], Any]
 _MOST_ROUNDS = 50
 # How often a repair is asked for again because the document has changed in the meantime.
 _MOST_TRIES = 5
-
-
-@dataclass(frozen=True)
-class Action:
-    """A repair that the server offers for the version of the document that it looked at."""
-
-    title: str
-    preferred: bool
-    document: Document
-    version: int
-    _what: Mapping[str, Any]
 
 
 @dataclass
@@ -114,6 +103,9 @@ class Server:
         self._documents: dict[str, Document] = {}
         self._published: dict[str, _Published] = {}
         self._closed_at: dict[str, int] = {}
+        # Drawings that the server asked for again, and those that it did not take then either, with its reason.
+        self._resent: set[str] = set()
+        self._refused: dict[str, str] = {}
         self._warned: set[str] = set()
         self._connection: Connection | None = None
         self._loop: Loop | None = None
@@ -182,12 +174,13 @@ class Server:
         :param units: of a list; by default those of the ezdxf document that the entities belong to, else those of the settings.
         :raises UnsupportedUnits: the ezdxf document is drawn in neither millimetres nor inches, or the entities come from documents of
             different units; state ``units``, or open the document as a whole.
+        :raises ValueError: a number of an entity is not finite, a radius is not above 0, or two entities have one handle.
         :raises OSError: the file cannot be read.
         """
         if isinstance(source, (str, os.PathLike)):
             path = Path(source).resolve()
             text, encoding = read_text(path)
-            language = LANGUAGES.get(path.suffix.lower(), "dxf")
+            language = language_of(path.suffix, text)
             return self._opened(TextDocument(self, uri or path.as_uri(), text, language, path, encoding))
         if hasattr(source, "modelspace") and hasattr(source, "write"):
             written = StringIO()
@@ -215,8 +208,8 @@ class Server:
                 raise ValueError(f"{document.uri} is open already")
             # Findings for an earlier document of this name may still be on their way.
             document.version = self._closed_at.pop(document.uri, 0) + 1
-            self._documents[document.uri] = document
             self._send_open(connection, document)
+            self._documents[document.uri] = document
         return document
 
     def close_document(self, document: Document) -> None:
@@ -240,6 +233,7 @@ class Server:
         """Changes a drawing by :class:`Splice`, :class:`Put` and :class:`Delete`, all of them or none; a text by the new text.
 
         :raises DoesNotApply: an entity or vertex is not there; nothing was changed.
+        :raises ValueError: a number is not finite; nothing was changed.
         """
         if isinstance(document, TextDocument):
             if not isinstance(change, str):
@@ -257,10 +251,13 @@ class Server:
             self._change_drawing(document, changes)
 
     def _change_drawing(self, drawing: Drawing, changes: Sequence[Change]) -> None:
-        drawing._entities = drawing._changed(changes)
+        changed, written = drawing._changed(changes), [change.to_json() for change in changes]
+        drawing._entities = changed
+        self._resent.discard(drawing.uri)
+        self._refused.pop(drawing.uri, None)
         drawing.version += 1
         if self._connection is not None:
-            params = {"drawing": {"uri": drawing.uri, "version": drawing.version}, "changes": [change.to_json() for change in changes]}
+            params = {"drawing": {"uri": drawing.uri, "version": drawing.version}, "changes": written}
             self._connection.notify("wedm/didChangeDrawing", params)
 
     def _send_text_changes(self, document: TextDocument, changes: Sequence[types.TextDocumentContentChangeEvent]) -> None:
@@ -379,14 +376,14 @@ class Server:
 
     def simulate(self, document: Document, feed: float | None = None) -> Simulation:
         """Where the program in the document takes the machine, block by block; with ``feed`` (mm/min) also how long it takes."""
-        params = {"uri": document.uri} if feed is None else {"uri": document.uri, "feed": feed}
+        params = {"uri": document.uri} if feed is None else {"uri": document.uri, "feed": number(feed, "feed")}
         simulation = from_json(self._ask(document, "wedm/simulate", params), Simulation)
         # The protocol counts lines from 0.
         return replace(simulation, blocks=[replace(block, line=block.line + 1) for block in simulation.blocks])
 
     def locate(
         self,
-        document: TextDocument,
+        document: Document,
         line: int | None = None,
         column: int = 1,
         *,
@@ -397,20 +394,23 @@ class Server:
 
         Lines and columns count from 1. None where nothing with geometry is written.
 
-        :raises Refused: the document has no places: a program.
+        :raises Refused: the document has no places: a program, or a drawing without text.
         :raises RequestFailed: there is no such handle or segment.
         """
         if (line is None) == (handle is None):
             raise TypeError("expected a line, or a handle")
         params: dict[str, Any] = {"uri": document.uri}
         if line is not None:
-            params["position"] = document._position(line, column)
+            if isinstance(document, TextDocument):
+                params["position"] = document._position(line, column)
+            else:
+                params["position"] = {"line": line - 1, "character": column - 1}
         else:
             params["handle"] = handle
         if segment is not None:
             params["segment"] = segment
         answer = self._ask(document, "wedm/locate", params)
-        return None if answer is None else located_from_json(answer, document._lines())
+        return None if answer is None or not isinstance(document, TextDocument) else located_from_json(answer, document._lines())
 
     def settings(self, document: Document) -> SettingsInForce:
         """The correction that holds for the document, and which level of settings it comes from."""
@@ -523,7 +523,7 @@ class Server:
         :raises Refused: the program cannot be scaled, or the factor is out of range; the message says why.
         :raises Outdated: the program has changed in the meantime; nothing was changed.
         """
-        params = types.ExecuteCommandParams("wedm.scale", [{"uri": program.uri, "factor": factor}])
+        params = types.ExecuteCommandParams("wedm.scale", [{"uri": program.uri, "factor": number(factor, "factor")}])
         version = program.version
         # If the server ends between its request for the edit and its answer, the edit must not be made twice.
         answer = self._ask(program, types.WORKSPACE_EXECUTE_COMMAND, params, lambda: program.version != version) or {"applied": True}
@@ -619,6 +619,8 @@ class Server:
                     published = self._published.get(document.uri)
                     if published is not None and published.version == document.version:
                         return published
+                    if document.uri in self._refused:
+                        raise ValueError(self._refused[document.uri])
                     left = deadline - time.monotonic()
                     if left <= 0 or not self._state.wait(left):
                         raise NoAnswer(f"no diagnostics of {document.uri} within {self.timeout:g} s")
@@ -641,7 +643,7 @@ class Server:
                 self._pause_after(connection)
             while True:
                 # A timed-out start leaves a process behind; it is ended before the error is passed on.
-                started = Connection(self._loop, self.command, self._publish, self._resend, self._apply_edit, self._ended)
+                started = Connection(self._loop, self.command, self._publish, self._resend, self._apply_edit, self._hear, self._ended)
                 try:
                     started.start(self._settings, self._folder, self.timeout)
                 except Died:
@@ -675,6 +677,8 @@ class Server:
 
     def _send_open(self, connection: Connection, document: Document) -> None:
         self._published.pop(document.uri, None)
+        self._resent.discard(document.uri)
+        self._refused.pop(document.uri, None)
         if isinstance(document, Drawing):
             connection.notify("wedm/didOpenDrawing", {"drawing": document.to_json()})
         elif isinstance(document, TextDocument):
@@ -689,6 +693,10 @@ class Server:
             if params["uri"] not in self._documents:
                 self._warn_of(params)
             elif connection is self._connection:
+                # Findings for an older state say nothing of one that was refused.
+                if params.get("version") == self._documents[params["uri"]].version:
+                    self._resent.discard(params["uri"])
+                    self._refused.pop(params["uri"], None)
                 self._published[params["uri"]] = _Published(params.get("version"), params["diagnostics"])
                 self._state.notify_all()
 
@@ -706,7 +714,16 @@ class Server:
             document = self._documents.get(uri)
             if not isinstance(document, Drawing):
                 raise LookupError(f"{uri} is not open")
+            self._resent.add(uri)
             return {"drawing": document.to_json()}
+
+    def _hear(self, warning: str) -> None:
+        """What the server does not take when it is sent again, it never takes: nobody need wait for its findings."""
+        with self._state:
+            for uri in self._resent & self._documents.keys():
+                if uri in warning:
+                    self._refused[uri] = warning
+                    self._state.notify_all()
 
     def _apply_edit(self, edit: Mapping[str, Any]) -> str | None:
         """Makes an edit that the server asks for; None, or why nothing was changed."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any, Literal, TypedDict, Union
 
@@ -146,13 +147,28 @@ class Settings(TypedDict, total=False):
 
 
 def to_json(settings: Settings) -> dict[str, Any]:
-    """The settings with the keys of the protocol. Names of layers, rules and handles stay as they are."""
+    """The settings with the keys of the protocol. Names of layers, rules and handles stay as they are.
+
+    :raises ValueError: a number is not finite.
+    """
+    _check_finite("", settings)
     written = _camel(settings, {"passes", "program", "job", "pair", "milling"})
     if "profiles" in written:
         written["profiles"] = {name: _camel(profile, set()) for name, profile in written["profiles"].items()}
     if "drawings" in written:
         written["drawings"] = {name: _camel(drawing, set()) for name, drawing in written["drawings"].items()}
     return written
+
+
+def _check_finite(key: str, value: Any) -> None:
+    if isinstance(value, Mapping):
+        for name, own in value.items():
+            _check_finite(f"{key}.{name}" if key else str(name), own)
+    elif isinstance(value, (list, tuple)):
+        for own in value:
+            _check_finite(key, own)
+    elif isinstance(value, float) and not math.isfinite(value):
+        raise ValueError(f"{key} is {value}, expected a finite number")
 
 
 def _camel(table: Mapping[str, Any], within: set[str]) -> dict[str, Any]:

@@ -140,7 +140,7 @@ function told(generated: Program, format: Format): string {
   const path = t("cut {0} mm, jumps {1} mm, decoded again at most {2} µm from the path", generated.length.toFixed(1), (generated.jumps ?? 0).toFixed(1), generated.deviation.toFixed(2));
   // A drift that rounds to zero has no sign.
   const [x, y] = [generated.closure.x, generated.closure.y].map((drift) => (Math.round(drift * 100) / 100 + 0).toFixed(2));
-  const drift = ENDINGS[format][0] === "iso" ? "" : t("; a controller that counts J drifts by {0}, {1} µm", x ?? "", y ?? "");
+  const drift = ENDINGS[format][0] === "iso" ? "" : t("; rounding of J, added up: {0}, {1} µm", x ?? "", y ?? "");
   const minutes = generated.minutes === undefined ? "" : t("; {0} minutes on the machine", generated.minutes.toFixed(1));
   const milled = generated.milling === undefined ? "" : toldOfMilling(generated.milling);
   const slugs = (generated.work?.slugs ?? []).map(({ contour, mass }) => t("{0}: {1} g", contour, mass.toFixed(1)));

@@ -95,7 +95,7 @@ export async function job(checks: Checks): Promise<void> {
       expectEqual("layers", program.match(/^G01 Z-0\.\d+$/gm)?.length, 4);
       const said = window.notification("Milling: ");
       await expectSoon("what it comes to", async () => /; 4 layers of 0\.05 mm; simulated: the floor 0\.\d{4} to 0\.\d{4} mm deep, the electrode 0\.\d{4} mm shorter/.test(await said.innerText()), () => said.innerText());
-      expectEqual("nothing is counted", (await said.innerText()).includes("counts J"), false);
+      expectEqual("nothing is counted", (await said.innerText()).includes("of J"), false);
       await window.command("Wire EDM: Open Picture Beside");
       const page = await window.pictureOf("milled.iso");
       await expectSoon("no wire", async () => (await page.locator("#title").innerText()) === "milled.iso · path of the electrode");

@@ -110,7 +110,7 @@ export async function picture(checks: Checks): Promise<void> {
       await window.path(target);
       await expectSoon("a program", async () => /^(B\d+B\d+B\d+G[XY](L|SR|NR)[1-4]\n){17}DD\n$/.test(await readFile(target, "utf8")), () => readFile(target, "utf8"));
       await window.tab("made.3b");
-      await window.notification("µm from the path; a controller that counts J drifts by").waitFor();
+      await window.notification("µm from the path; rounding of J, added up").waitFor();
       await checks.shot("generated");
       // Notices come up at the bottom of the window, and go again.
       const player = await (await window.pictureOf("made.3b")).locator("#player").boundingBox();

@@ -26,6 +26,11 @@ local function root_of(path)
     end
 end
 
+-- An empty table of Lua would be sent as a list.
+local function settings_of(options)
+    return next(options.settings or {}) and options.settings or vim.empty_dict()
+end
+
 local function start(options, root)
     -- Neovim heeds the version of an edit but does not announce it: without this a fix would be made in a text that has changed in the meantime.
     local capabilities = vim.lsp.protocol.make_client_capabilities()
@@ -36,8 +41,8 @@ local function start(options, root)
         cmd = options.cmd,
         root_dir = root,
         workspace_folders = { { uri = vim.uri_from_fname(root), name = root } },
-        init_options = options.settings or {},
-        settings = { wedm = options.settings or {} },
+        init_options = settings_of(options),
+        settings = { wedm = settings_of(options) },
         on_attach = options.on_attach,
         on_init = function(client) restarts.answered(client.id) end,
         on_exit = function(code, signal, client_id)
