@@ -1,6 +1,7 @@
 //! Two parts laid in each other follow an edit: only what has changed, and what depends on a changed place, is looked at again.
 
-use super::held::{About, Held, Limits, all_apart, look};
+use super::about::{About, Limits};
+use super::held::{Held, all_apart, look};
 use crate::geometry::Bounds;
 use crate::toolpath::{Moved, Part};
 

@@ -5,25 +5,18 @@
 //! radius: there the farthest place of the other part that is nearest to that point says how much.
 
 use super::Spot;
+use super::about::{About, FARTHEST, Limits};
 use super::observations::{Observations, Verdict};
 use super::reuse::Reuse;
 use super::walls::wall;
 use crate::geometry::{
     Bounds, Few, Point, Segment, Vector, cross, line_circle, line_line, reached,
 };
-use crate::toolpath::{Nearby, Part};
+use crate::toolpath::Part;
 use rayon::iter::{IntoParallelIterator, ParallelExtend, ParallelIterator};
 use rayon::slice::ParallelSlice;
 use std::ops::Range;
 use std::sync::Arc;
-
-/// What the clearance is checked against. Drawing units.
-pub(super) struct Limits {
-    pub clearance: f64,
-    pub rounding: f64,
-    /// What is left beside walls that are followed on both sides; `None` where both parts are drawn, and each place is looked at.
-    pub(crate) along_walls: Option<f64>,
-}
 
 /// The result for two parts, one laid in the other.
 #[derive(Clone, Debug)]
@@ -38,9 +31,6 @@ pub(crate) struct Held {
     pub(super) names: [Arc<str>; 2],
 }
 
-/// A corner is examined up to this many half kerfs from where the wire turned.
-pub(super) const FARTHEST: f64 = 16.0;
-
 /// Edges that one core takes at a time.
 const AT_A_TIME: usize = 256;
 
@@ -49,9 +39,6 @@ const DOUBLINGS: u32 = 6;
 
 /// Corners lie on their edges but for a rounding: those are looked for so much farther.
 const WIDER: f64 = 1.0 + 1e-3;
-
-/// Of two edges that are as near as each other but for so small a share of the rounding the first one counts.
-pub(super) const TIE: f64 = 1e-3;
 
 /// Lays the punch in the plate. `names` are what the two are called. What is known `since` before an edit is not looked at again.
 pub(super) fn held(
@@ -221,35 +208,6 @@ fn more_than_wanted(parts: [&Part; 2], names: &[Arc<str>; 2], limits: &Limits) -
         None => {
             let mut asked = (1..=DOUBLINGS).map(|nth| limits.clearance * f64::from(1 << nth));
             asked.find_map(least).unwrap_or(limits.clearance)
-        }
-    }
-}
-
-/// What lies about the edge that is looked at.
-pub(super) struct About<'a> {
-    /// Edges of the other part.
-    pub(super) edges: Nearby<'a>,
-    /// The way of a wire.
-    pub(super) way: Nearby<'a>,
-    /// A piece of that which the edge before lies beside.
-    pub(super) beside: Option<usize>,
-    /// The box of all that was asked about this edge.
-    pub(super) asked: Bounds,
-}
-
-impl About<'_> {
-    /// What lies about corners of the punch, about those of the plate, or about walls of the punch.
-    pub(super) fn of(which: usize, [punch, plate]: [&Part; 2]) -> About<'_> {
-        let (edges, way) = match which {
-            0 => (&plate.near, &punch.path),
-            1 => (&punch.near, &plate.path),
-            _ => (&plate.near, &plate.path),
-        };
-        About {
-            edges: Nearby::of(edges),
-            way: Nearby::of(way),
-            beside: None,
-            asked: Bounds::EMPTY,
         }
     }
 }

@@ -4,6 +4,7 @@
 //! both parts are drawn, each contour of one workpiece is compared with the contour of another that
 //! lies so near that it can only be its partner. Everything is in drawing units.
 
+mod about;
 mod change;
 mod follow;
 mod held;
@@ -23,7 +24,7 @@ use crate::drawing::{Contour, Drawing, EntityId, Outline, Role, wire_side};
 use crate::geometry::{Point, Segment, Side};
 use crate::settings::{Effective, Use};
 use crate::toolpath::{Cutting, Moved, Part, Refusal, Walls, part};
-use held::Limits;
+use about::Limits;
 use reuse::Reuse;
 use std::ops::Range;
 use std::sync::Arc;

@@ -1,6 +1,6 @@
 //! Walls of a drawn punch and its drawn plate that lie too near to each other, or run into each other.
 
-use super::held::{About, FARTHEST, Limits, TIE};
+use super::about::{About, FARTHEST, Limits, TIE};
 use super::observations::Verdict;
 use super::penetration::deepest;
 use crate::geometry::{Bounds, Point, Segment};

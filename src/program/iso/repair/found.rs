@@ -1,6 +1,6 @@
 //! The results of a search through the faulty cuts.
 
-use super::passes::Passes;
+use super::shape::Passes;
 use super::words::Meant;
 use crate::finding::FixKind;
 use crate::program::iso::evidence::UsualDecimals;

@@ -2,10 +2,9 @@
 
 use super::around::{LONGEST, cut_around};
 use super::scan::{Line, Way};
-use crate::program::iso::block::{Block, Compensation, Motion};
+use super::shape::{Passes, Shape, backwards, shape, shapes};
+use crate::program::iso::block::{Block, Compensation};
 use crate::program::iso::document::Document;
-use crate::program::iso::machine::Machine;
-use crate::program::iso::moves::{Bend, Move, Place, Reading, apart};
 use rustc_hash::FxHashMap;
 use std::ops::Range;
 
@@ -15,18 +14,6 @@ const SAYS: f64 = 2.5;
 
 /// The least moves of a cut that has passes.
 const FEWEST: usize = 4;
-
-/// From its start to its end, nm, and how it bends: from its start to its centre, or its radius, and whether it turns
-/// left.
-type Shape = (Place, Option<(Place, bool)>);
-
-/// The moves of a contour's other passes, in either direction.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Passes {
-    counts: FxHashMap<Shape, usize>,
-    /// The moves of the cut itself are among them: its passes have no stop between them.
-    holds_own: bool,
-}
 
 impl Passes {
     /// Those of the cuts before and after some lines, or of the lines themselves where the correction is switched on in
@@ -79,12 +66,6 @@ impl Passes {
         (4 * known >= 3 * own.len() && known < own.len()).then_some(passes)
     }
 
-    /// Whether another pass has a move; one that stands in the text is not its own witness.
-    fn has(&self, shape: &Shape, stands: bool) -> bool {
-        let count = self.counts.get(shape).copied().unwrap_or(0);
-        count > usize::from(self.holds_own && stands)
-    }
-
     /// What they say against other lines in the place of `count` ones, and how many lines were run for it.
     pub(super) fn against(
         &self,
@@ -114,44 +95,4 @@ impl Passes {
         let (is, other) = unlike(lines, false);
         (SAYS * f64::from((is - was).clamp(-2, 2)), one + other)
     }
-}
-
-fn shapes<'a>(
-    reading: &Reading,
-    mut machine: Machine,
-    blocks: impl Iterator<Item = &'a Block>,
-) -> Vec<Shape> {
-    let made = blocks.filter_map(|block| machine.run(block, reading));
-    made.filter_map(|made| shape(&made, reading)).collect()
-}
-
-/// `None` for a move without a cut or without a length.
-fn shape(made: &Move, reading: &Reading) -> Option<Shape> {
-    if !made.is_cut() || !made.goes_anywhere() {
-        return None;
-    }
-    let turns_left = made.motion == Motion::CounterClockwise;
-    let bend = made.is_arc().then(|| {
-        let center = made.center(reading.rule(made.incremental));
-        let bend = match (center, made.bend) {
-            (Some(center), _) => apart(center, made.from),
-            (None, Bend::Radius(radius)) => [radius, i64::MAX],
-            (None, _) => [0, i64::MAX],
-        };
-        (bend, turns_left)
-    });
-    Some((apart(made.to, made.from), bend))
-}
-
-fn backwards((by, bend): &Shape) -> Shape {
-    let bend = bend.map(|(center, turns_left)| {
-        let is_radius = center[1] == i64::MAX;
-        let center = if is_radius {
-            center
-        } else {
-            apart(center, *by)
-        };
-        (center, !turns_left)
-    });
-    (apart([0, 0], *by), bend)
 }
