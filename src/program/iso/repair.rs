@@ -30,7 +30,7 @@ use crate::program::repair::search::{self, Contour, Plainness, Verdict, search};
 use crate::text::TextEdit;
 pub(super) use around::cut_around;
 use around::{LONGEST, begins_astray, is_way, stands_alone, with_numbers_kept};
-use found::{LookedAt, Repair, Repairs, Searched};
+use found::{LookedAt, Meant, Repair, Repairs, Searched};
 use scan::{Against, Line, Way};
 use shape::Passes;
 use std::borrow::Cow;
@@ -39,7 +39,7 @@ use std::ops::Range;
 use std::sync::Arc;
 pub(super) use troubles::Troubles;
 pub(crate) use troubles::{is_trouble, line_of};
-use words::{Meant, Pool, Words, prior};
+use words::{Pool, Words, prior};
 
 /// Longer cuts, in lines, are searched only near the fault.
 const MOST_LINES: usize = 160;

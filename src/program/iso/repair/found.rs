@@ -1,7 +1,6 @@
 //! The results of a search through the faulty cuts.
 
 use super::shape::Passes;
-use super::words::Meant;
 use crate::finding::FixKind;
 use crate::program::iso::evidence::UsualDecimals;
 use crate::program::iso::machine::Machine;
@@ -11,6 +10,19 @@ use crate::program::repair::search;
 use crate::text::TextEdit;
 use std::ops::Range;
 use std::sync::Arc;
+
+/// A possible intended line.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Meant {
+    pub(crate) line: Vec<u8>,
+    /// The present text, and the intended one.
+    pub(crate) found: String,
+    pub(crate) meant: String,
+    /// The number was calculated from the others, which may be wrong instead.
+    pub(crate) is_calculated: bool,
+    /// What the other numbers of the cut say against it.
+    pub(crate) evidence: f64,
+}
 
 /// A change that makes a cut sound, or sounder.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,7 +1,8 @@
 //! Blocks that may have been lost before a line: one that closes the cut, and a line tangent to an arc.
 
 use super::Suspect;
-use super::words::{Meant, prior};
+use super::found::Meant;
+use super::words::prior;
 use crate::geometry::{Segment, Vector, left_normal};
 use crate::program::iso::block::Motion;
 use crate::program::iso::document::Document;

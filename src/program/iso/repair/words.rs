@@ -1,5 +1,6 @@
 //! The possible intended words of a line: typing and transmission errors, each undone.
 
+use super::found::Meant;
 use super::scan::{Line, Way};
 use crate::program::iso::block::Motion;
 use crate::program::iso::document::Document;
@@ -87,19 +88,6 @@ impl Pool {
         let speaks = |speaks: bool, prior: f64| if speaks { -prior } else { 0.0 };
         speaks(others > 0 && meant != 0, prior::KNOWN) + speaks(is_alone, prior::ALONE)
     }
-}
-
-/// A possible intended line.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Meant {
-    pub(crate) line: Vec<u8>,
-    /// The present text, and the intended one.
-    pub(crate) found: String,
-    pub(crate) meant: String,
-    /// The number was calculated from the others, which may be wrong instead.
-    pub(crate) is_calculated: bool,
-    /// What the other numbers of the cut say against it.
-    pub(crate) evidence: f64,
 }
 
 /// A line with changed words.
