@@ -79,6 +79,11 @@ pub(crate) fn nothing_to_write() -> ProofError {
     ProofError::Refused(say!(the_path_is_shorter_than_the_smallest_step).into())
 }
 
+/// The word of the settings does not stop the machine in this language.
+pub(super) fn does_not_stop(word: &str) -> ProofError {
+    ProofError::Refused(say!(the_word_before_the_tab_does_not_stop, word))
+}
+
 /// No number of a program reaches `point`, which is in steps of its grid.
 pub(crate) fn too_far_out(point: Point) -> ProofError {
     ProofError::Refused(say!(
@@ -137,8 +142,10 @@ pub(crate) trait Writer {
     /// to the thread hole. `stops` more stops, two with those before the next path, show that this is meant.
     fn end_open(&mut self, last: Node, for_good: bool, stops: usize) -> Proved;
 
-    /// The machine stops, by a `word` of the settings if one is set.
-    fn stop(&mut self, at: Node, word: Option<&str>) -> Proved;
+    /// The machine stops, or an automatic one takes the wire out and threads it.
+    fn stop(&mut self, at: Node) -> Proved;
+    /// The machine stops for certain, by a `word` of the settings if one is set: a tab is cut off next.
+    fn stop_before_tab(&mut self, at: Node, word: Option<&str>) -> Proved;
     /// The table moves without the wire.
     fn move_over(&mut self, from: Node, to: Node) -> Proved;
     /// The table has been moved by hand.
@@ -149,13 +156,15 @@ pub(crate) trait Writer {
         if path.goes_back_along_tab() && from == to {
             return Ok(());
         }
-        let word = settings.tab_stop.as_deref();
-        self.stop(from, word.filter(|_| path.cut_off && path.pass == 1))?;
+        match path.cut_off && path.pass == 1 {
+            true => self.stop_before_tab(from, settings.tab_stop.as_deref())?,
+            false => self.stop(from)?,
+        }
         match settings.jumps {
             _ if from == to => Ok(()),
             Jumps::Blocks => {
                 self.move_over(from, to)?;
-                self.stop(to, None)
+                self.stop(to)
             }
             Jumps::None => self.moved_by_hand(to),
         }

@@ -16,8 +16,8 @@ use crate::program::grid::point_of;
 use crate::program::notes::Notes;
 use crate::program::path::{Kind, Step, is_tight_in_four_b};
 use crate::program::write::{
-    Piece, ProofError, Proved, ProvedProgram, Writer, cuts, nothing_to_write, room, scaled, walk,
-    way,
+    Piece, ProofError, Proved, ProvedProgram, Writer, cuts, does_not_stop, nothing_to_write, room,
+    scaled, walk, way,
 };
 use crate::settings::Effective;
 use crate::toolpath::{PathSegment, Source, WirePath, each};
@@ -241,11 +241,17 @@ impl Writer for Blocks<'_> {
 
     /// Some straight blocks between two pauses would be read as the way to the next contour.
     fn end_open(&mut self, last: Node, _: bool, stops: usize) -> Proved {
-        (0..stops).try_for_each(|_| self.stop(last, None))
+        (0..stops).try_for_each(|_| self.stop(last))
     }
 
-    fn stop(&mut self, _: Node, word: Option<&str>) -> Proved {
-        self.push_word(word.unwrap_or(self.words.pause))
+    fn stop(&mut self, _: Node) -> Proved {
+        self.push_word(self.words.pause, Word::Pause)
+    }
+
+    fn stop_before_tab(&mut self, _: Node, word: Option<&str>) -> Proved {
+        let own = word.unwrap_or(self.words.pause);
+        self.push_word(own, Word::Pause)
+            .map_err(|error| word.map_or(error, does_not_stop))
     }
 
     fn move_over(&mut self, from: Node, to: Node) -> Proved {
@@ -375,29 +381,21 @@ impl<'a> Blocks<'a> {
         }))
     }
 
-    /// Writes a word between blocks, and reads it back: it comes from the settings.
-    fn push_word(&mut self, word: &str) -> Proved {
+    /// Writes a word between blocks that does `what`, and reads it back: it comes from the settings.
+    fn push_word(&mut self, word: &str, what: Word) -> Proved {
         let mut read = Vec::new();
         read_line(word.as_bytes(), 1, &self.words, |item| read.push(item));
-        if let Some(notes) = &mut self.notes {
-            let is_end = matches!(
-                read[..],
-                [Item::Word {
-                    word: Word::End,
-                    ..
-                }]
-            );
-            let start = self.out.len();
-            notes.stop(start..start + word.len(), notes.at(), is_end);
+        let does = |item: &Item| matches!(item, Item::Word { word, .. } if *word == what);
+        let is_read = matches!(&read[..], [item] if does(item));
+        if !is_read || !word.bytes().all(|byte| byte.is_ascii_alphanumeric()) {
+            return Err(ProofError::Mismatch(say!(
+                the_word_between_blocks_cannot_be_read_again,
+                word
+            )));
         }
-        let sound = matches!(read[..], [Item::Word { .. }])
-            && word.bytes().all(|byte| byte.is_ascii_alphanumeric());
-        if !sound {
-            let sentence = say!(the_word_between_blocks_cannot_be_read_again, word);
-            return Err(match self.settings.tab_stop.as_deref() {
-                Some(stop) if stop == word => ProofError::Refused(sentence),
-                _ => ProofError::Mismatch(sentence),
-            });
+        if let Some(notes) = &mut self.notes {
+            let start = self.out.len();
+            notes.stop(start..start + word.len(), notes.at(), what == Word::End);
         }
         self.out.extend_from_slice(word.as_bytes());
         self.out.push(b'\n');
@@ -409,7 +407,7 @@ impl<'a> Blocks<'a> {
         if self.made.blocks == 0 && cuts {
             return Err(nothing_to_write());
         }
-        self.push_word(self.words.end)?;
+        self.push_word(self.words.end, Word::End)?;
         let made = ProvedProgram {
             closure: [self.proof.drift.x, self.proof.drift.y],
             deviation: self.proof.deviation,
