@@ -428,6 +428,12 @@ fn written(
         &paths,
         &holes,
     ));
+    warnings.extend(toolpath::weak_tabs(
+        &snapshot.drawing,
+        &snapshot.outlines,
+        &of_format,
+        &paths,
+    ));
     warnings.extend(no_tab_kept(snapshot, &paths));
     let mut work = analysis::work(&snapshot.drawing, &snapshot.outlines, settings, &paths);
     if let Some(milled) = &program.milled {
@@ -438,6 +444,7 @@ fn written(
         warnings.extend(uneven);
         work = milling::in_layers(work, milled);
     }
+    let finished = finished_by(finished, &program);
     Ok(Generated {
         program,
         contours: paths.iter().filter(|path| path.is_first()).count(),
@@ -451,6 +458,14 @@ fn written(
         warnings,
         left_out,
     })
+}
+
+/// What is left by a program that holds other corners than the paths.
+fn finished_by(of_paths: Option<Finished>, program: &ProvedProgram) -> Option<Finished> {
+    match (of_paths, program.corners) {
+        (Some(of_paths), Some(corners)) => Some(of_paths.merged(corners)),
+        (of_paths, corners) => of_paths.or(corners),
+    }
 }
 
 /// The finding when a tab is requested and no contour keeps one.

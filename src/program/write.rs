@@ -7,7 +7,7 @@ use super::grid::{Node, point_of, snap};
 use crate::finding::{Finding, sentence};
 use crate::geometry::{Arc, Point, Segment};
 use crate::settings::{Effective, Jumps};
-use crate::toolpath::{Milled, Source, WirePath};
+use crate::toolpath::{Finished, Milled, Source, WirePath};
 use std::fmt;
 
 /// A program that has been decoded again and compared with its path.
@@ -27,6 +27,8 @@ pub struct ProvedProgram {
     /// What the control has to offset by, mm, where it does: the correction of each pass, with the word that says where
     /// the control finds it, which is empty where there is one for all.
     pub(crate) offsets: Vec<(String, f64)>,
+    /// What the corners of the program leave of the part, in drawing units, where it holds others than the path.
+    pub(crate) corners: Option<Finished>,
     /// The totals of milling, for an electrode.
     pub milled: Option<Milled>,
 }

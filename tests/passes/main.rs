@@ -3,6 +3,7 @@
 mod drawn;
 mod overlap;
 mod programs;
+mod standing;
 mod stock;
 mod stops;
 #[path = "../support/generate.rs"]

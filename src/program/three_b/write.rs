@@ -6,11 +6,11 @@ use super::encode::{self, Encoded};
 use super::layout::{push_block, push_start_point};
 use super::machine::travel;
 use super::parse::{Item, read_line};
-use super::part::{is_concave, mm, rounded, rounded_with_tab, unwritable, wire_step};
+use super::part::{CutCorners, is_concave, mm, rounded, rounded_with_tab, unwritable, wire_step};
 use super::proof::{Proof, check_line};
 use super::words::{Word, Words};
 use crate::finding::{Side, Unwritable};
-use crate::geometry::{Segment, Vector, turn};
+use crate::geometry::{Point, Segment, Vector, turn};
 use crate::program::encode::encode_all;
 use crate::program::grid::point_of;
 use crate::program::notes::Notes;
@@ -20,7 +20,7 @@ use crate::program::write::{
     scaled, walk, way,
 };
 use crate::settings::Effective;
-use crate::toolpath::{PathSegment, Source, WirePath, each};
+use crate::toolpath::{Finished, PathSegment, Source, WirePath, each};
 use std::ops::Range;
 
 /// Blocks that one core reads back at a time.
@@ -66,6 +66,7 @@ pub(crate) fn write_four_b(
         ));
     }
     let mut made = Vec::with_capacity(paths.len());
+    let mut corners = CutCorners::default();
     for (index, path) in paths.iter().enumerate().filter(|(_, path)| !path.cut_off) {
         let tab = paths.get(index + 1).filter(|next| next.cut_off);
         made.extend(rounded_with_tab(
@@ -74,6 +75,7 @@ pub(crate) fn write_four_b(
             unit_mm * 1000.0,
             correction,
             radius,
+            &mut corners,
         )?);
     }
     let paths = made;
@@ -91,7 +93,30 @@ pub(crate) fn write_four_b(
     walk(&paths, 1.0, 1.0, go_on, &mut blocks)?;
     let corrections = settings.each_correction().into_iter();
     blocks.made.offsets = corrections.map(|mm| (String::new(), mm)).collect();
+    blocks.made.corners = left_in(&corners, settings, unit_mm * 1000.0);
     blocks.finish(cuts(&paths))
+}
+
+/// What the passes leave of a part whose corners are these, in drawing units of so many µm: about a transition the wire runs at the correction
+/// of each pass, and takes half its kerf.
+fn left_in(corners: &CutCorners, settings: &Effective, scale: f64) -> Option<Finished> {
+    let (inside, at) = corners.inside.unzip();
+    if inside.is_none() && corners.outside <= 0.0 {
+        return None;
+    }
+    let corrections = settings.each_correction();
+    let rest = corrections.iter().enumerate().map(|(pass, correction)| {
+        let half = settings.half_kerf(pass);
+        // Half the kerf of the last pass is its correction where nothing else is known.
+        let last = (pass + 1 == corrections.len()).then_some(*correction);
+        Some((correction - half.or(last)?) * 1000.0)
+    });
+    let rest = rest.flatten().fold(f64::INFINITY, f64::min);
+    Some(Finished {
+        uncut: (inside.unwrap_or(0.0) + rest).max(0.0) / scale,
+        at: at.unwrap_or_else(Point::origin) / scale,
+        overcut: (corners.outside - rest).max(0.0) / scale,
+    })
 }
 
 /// A part's closed contour as 4B holds it, without leads, at its drawn place and in the drawing's unit; `None` where it
@@ -114,7 +139,9 @@ pub(crate) fn of_part(
         segments,
     };
     let (correction, radius) = transitions(settings);
-    let mut segments = rounded(&path, scale, correction, radius).ok()?.segments;
+    let mut corners = CutCorners::default();
+    let made = rounded(&path, scale, correction, radius, &mut corners).ok()?;
+    let mut segments = made.segments;
     segments.retain(|piece| !matches!(piece.source, Source::LeadIn | Source::LeadOut));
     // From the drawn start, not the wire's.
     let by = path.thread_hole * scale - segments.first()?.geometry.start();
