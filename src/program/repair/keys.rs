@@ -62,11 +62,7 @@ pub(in crate::program) fn meant(text: &str, pointed: Option<bool>) -> Vec<(Strin
         }
     }
     // Behind the last digit, and the last one before the point.
-    let ends = text
-        .find('.')
-        .filter(|at| *at > 0)
-        .into_iter()
-        .chain([text.len()]);
+    let ends = text.find('.').into_iter().chain([text.len()]);
     for at in ends {
         all.iter().for_each(|digit| put(at, at, digit, Key::Lost));
     }
@@ -158,6 +154,14 @@ mod tests {
                     "{text}: {meant}"
                 );
             }
+        }
+    }
+
+    #[test]
+    fn what_is_lost_may_have_stood_alone_before_the_point() {
+        for (text, lost) in [(".910", "4.910"), ("-.910", "-4.910"), ("4.", "4.5")] {
+            let meant = meant(text, Some(true));
+            assert!(meant.contains(&(lost.into(), Key::Lost)), "{meant:?}");
         }
     }
 
