@@ -430,6 +430,12 @@ fn written(
     ));
     warnings.extend(tabs::none_kept(snapshot, &paths));
     warnings.extend(tabs::missed(snapshot, &paths));
+    warnings.extend(toolpath::weak_tabs(
+        &snapshot.drawing,
+        &snapshot.outlines,
+        &of_format,
+        &paths,
+    ));
     let mut work = analysis::work(&snapshot.drawing, &snapshot.outlines, settings, &paths);
     if let Some(milled) = &program.milled {
         // The finding of the simulation about the floor replaces the earlier one.
@@ -439,6 +445,7 @@ fn written(
         warnings.extend(uneven);
         work = milling::in_layers(work, milled);
     }
+    let finished = finished_by(finished, &program);
     Ok(Generated {
         program,
         contours: paths.iter().filter(|path| path.is_first()).count(),
@@ -452,4 +459,12 @@ fn written(
         warnings,
         left_out,
     })
+}
+
+/// What is left by a program that holds other corners than the paths.
+fn finished_by(of_paths: Option<Finished>, program: &ProvedProgram) -> Option<Finished> {
+    match (of_paths, program.corners) {
+        (Some(of_paths), Some(corners)) => Some(of_paths.merged(corners)),
+        (of_paths, corners) => of_paths.or(corners),
+    }
 }

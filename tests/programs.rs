@@ -223,3 +223,24 @@ fn a_layout_changes_nothing_of_what_is_found() {
     }
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
+
+/// One slip in a sound program: what "fix all" makes of it is what was meant, or nothing where another slip explains as well what is seen.
+#[test]
+fn a_repair_is_made_only_where_no_other_is_as_plain() {
+    const PADDED: &str = "B3000B800B003000GXL2\nBBB002750GYL2\nBBB003990GXL1\nB0B680B000680GYSR1\nBBB001250GYL4\nB1000B0B001000GXNR3\nBBB002330GXL1\nBBB006250GYL4\nBBB010740GXL3\nBBB005470GYL2\nBBB001780GXL1\nB0B960B000960GYNR4\nB3000B800B003000GXL4\nDD\n";
+    const STATED: &str = "B2000B500B2000GXL2 ; -10.592 , 11.231\nB0B0B6175GYL4 ; -10.592 , 5.056\nB455B0B455GXNR3 ; -10.137 , 4.601\nB0B0B7075GXL1 ; -3.062 , 4.601\nB0B0B6630GYL2 ; -3.062 , 11.231\nB0B0B7530GXL3 ; -10.592 , 11.231\nB2000B500B2000GXL4 ; -8.592 , 10.731\nDD\n";
+    const POINTED: &str = "G92 X0 Y0\nG90\nG01 X0.000 Y-1.500\nG01 X4.910 Y-1.500\nG03 X5.330 Y-1.080 I4.910 J-1.080\nG01 X5.330 Y4.830\nG01 X0.710 Y4.830\nG01 X0.710 Y7.740\nG01 X-2.100 Y7.740\nG03 X-2.560 Y7.280 I-2.100 J7.280\nG01 X-2.560 Y4.030\nG01 X-5.030 Y4.030\nG03 X-5.510 Y3.550 I-5.030 J3.550\nG01 X-5.510 Y-0.900\nG03 X-4.910 Y-1.500 I-4.910 J-0.900\nG01 X0.000 Y-1.500\nG01 X0.000 Y0.000\nM02\n";
+    for (language, sound, meant, found) in [
+        (Language::ThreeB, PADDED, "BBB003990", "BBB403990"),
+        (Language::ThreeB, PADDED, "BBB010740", "BBB013740"),
+        (Language::ThreeB, STATED, "B455B0B455", "B455B10B455"),
+        (Language::Iso, POINTED, "X4.910 Y-1.500", "X.910 Y-1.500"),
+        (Language::Iso, POINTED, "X-5.510 Y-0.900", "X-.510 Y-0.900"),
+    ] {
+        let wrong = sound.replacen(meant, found, 1);
+        assert_ne!(wrong, sound);
+        let repaired = repaired(language, read(language, wrong.clone().into_bytes()));
+        let text = String::from_utf8_lossy(repaired.text().unwrap().bytes()).into_owned();
+        assert!([sound, &wrong].contains(&&*text), "{found}:\n{text}");
+    }
+}

@@ -50,13 +50,20 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let files::Opened {
         document, writing, ..
     } = files::open_to_use(&arguments.path, arguments.output.as_deref(), &common, &last)?;
+    let settings = document.settings().clone();
+    // The profile is that of the new program, and says nothing of the given one.
+    let of_input = without_profile(&last);
+    let document = match of_input == last {
+        true => document,
+        false => files::open(path, &common, &of_input)?.document,
+    };
     if document.program().is_none() {
         return Err(Failure::of(
             path,
             say!(a_drawing_where_a_program_is_expected),
         ));
     }
-    let made = match job::convert(&document, target, arguments.force) {
+    let made = match job::convert(&document, target, &settings, arguments.force) {
         Ok(made) => made,
         Err(refusal) => {
             let advice = |errors| say!(nothing_of_a_program_with, path.display(), errors);
@@ -75,6 +82,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         output::say(&say!(the_option_does_nothing_there, option));
     }
     Ok(Verdict::Clean)
+}
+
+fn without_profile(given: &Settings) -> Settings {
+    let mut given = given.clone();
+    given.program.iter_mut().for_each(|own| own.profile = None);
+    given
 }
 
 const CORRECTION: &str = "--correction";

@@ -318,13 +318,23 @@ fn settings_for(
         };
         match sources.iter().rev().find_map(place) {
             Some(row) => rows.push(row),
-            None => return Err(Failure(error.message)),
+            None if error.severity == Severity::Error => return Err(Failure(error.message)),
+            None => say_of_options(&error),
         }
     }
     let name = path
         .file_name()
         .map(|name| name.to_string_lossy().into_owned());
     Ok((Effective::of_document(&settings, name), rows))
+}
+
+/// Says once what options have set that may not be meant.
+fn say_of_options(error: &SettingsError) {
+    static SAID: AtomicBool = AtomicBool::new(false);
+    if !SAID.swap(true, Ordering::Relaxed) {
+        let heading = output::styled(output::WARNING, say!(warning));
+        output::say(&say!(says, heading, error.message));
+    }
 }
 
 fn settings_row(file: &Path, source: &SourceText, error: SettingsError) -> Row {

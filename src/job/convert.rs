@@ -65,10 +65,12 @@ fn is_split(finding: &Finding) -> bool {
     }
 }
 
-/// Turns a program into a drawing, or into a program of another language, which is proved.
+/// Turns a program into a drawing, or into a program of another language by the settings, which is proved. What the program itself means
+/// is decided by the settings that the document has been read with.
 pub(crate) fn convert(
     document: &Document,
     target: Target,
+    settings: &Effective,
     force: bool,
 ) -> Result<Converted, Refusal> {
     let Some(program) = document.program() else {
@@ -113,7 +115,7 @@ pub(crate) fn convert(
     }
     let format = match target {
         Target::Drawing => {
-            cuts.place_parts(document.settings().correction);
+            cuts.place_parts(settings.correction);
             let bytes = dxf::write(&cuts.drawing()).map_err(Refusal::Fault)?;
             return Ok(Converted {
                 bytes,
@@ -125,7 +127,6 @@ pub(crate) fn convert(
         }
         Target::Program(format) => format,
     };
-    let settings = document.settings();
     if let Some(reason) = cuts.refusal(format, settings) {
         return Err(Refusal::Sentence(reason));
     }

@@ -7,7 +7,7 @@ use super::grid::{Node, point_of, snap};
 use crate::finding::{Finding, sentence};
 use crate::geometry::{Arc, Point, Segment};
 use crate::settings::{Effective, Jumps};
-use crate::toolpath::{Milled, Source, WirePath};
+use crate::toolpath::{Finished, Milled, Source, WirePath};
 use std::fmt;
 
 /// A program that has been decoded again and compared with its path.
@@ -28,6 +28,8 @@ pub struct ProvedProgram {
     /// What the control has to offset by, mm, where it does: the correction of each pass, with the word that says where
     /// the control finds it, which is empty where there is one for all.
     pub(crate) offsets: Vec<(String, f64)>,
+    /// What the corners of the program leave of the part, in drawing units, where it holds others than the path.
+    pub(crate) corners: Option<Finished>,
     /// The totals of milling, for an electrode.
     pub milled: Option<Milled>,
 }
@@ -78,6 +80,11 @@ impl std::error::Error for ProofError {}
 /// The path is shorter than a step of the grid.
 pub(crate) fn nothing_to_write() -> ProofError {
     ProofError::Refused(say!(the_path_is_shorter_than_the_smallest_step).into())
+}
+
+/// The word of the settings does not stop the machine in this language.
+pub(super) fn does_not_stop(word: &str) -> ProofError {
+    ProofError::Refused(say!(the_word_before_the_tab_does_not_stop, word))
 }
 
 /// No number of a program reaches `point`, which is in steps of its grid.
@@ -138,8 +145,10 @@ pub(crate) trait Writer {
     /// to the thread hole. `stops` more stops, two with those before the next path, show that this is meant.
     fn end_open(&mut self, last: Node, for_good: bool, stops: usize) -> Proved;
 
-    /// The machine stops, by a `word` of the settings if one is set.
-    fn stop(&mut self, at: Node, word: Option<&str>) -> Proved;
+    /// The machine stops, or an automatic one takes the wire out and threads it.
+    fn stop(&mut self, at: Node) -> Proved;
+    /// The machine stops for certain, by a `word` of the settings if one is set: a tab is cut off next.
+    fn stop_before_tab(&mut self, at: Node, word: Option<&str>) -> Proved;
     /// The table moves without the wire.
     fn move_over(&mut self, from: Node, to: Node) -> Proved;
     /// The table has been moved by hand.
@@ -150,13 +159,15 @@ pub(crate) trait Writer {
         if path.goes_back_along_tab() && from == to {
             return Ok(());
         }
-        let word = settings.tab_stop.as_deref();
-        self.stop(from, word.filter(|_| path.cut_off && path.pass == 1))?;
+        match path.cut_off && path.pass == 1 {
+            true => self.stop_before_tab(from, settings.tab_stop.as_deref())?,
+            false => self.stop(from)?,
+        }
         match settings.jumps {
             _ if from == to => Ok(()),
             Jumps::Blocks => {
                 self.move_over(from, to)?;
-                self.stop(to, None)
+                self.stop(to)
             }
             Jumps::None => self.moved_by_hand(to),
         }

@@ -27,7 +27,7 @@ pub(crate) use wall::{Wall, part_for_good};
 use crate::drawing::{Contour, ContourIndex, ContourSegment, Drawing, EntityId};
 use crate::finding::{Detail, Fix, Place, Rule, Severity, Side};
 use crate::geometry::{Point, Segment, Tolerances, turn};
-use crate::settings::{Compensation, Effective};
+use crate::settings::{Compensation, Effective, SkimCorner};
 use std::ops::Range;
 
 /// The limits that rules measure against, in the units of one drawing.
@@ -41,8 +41,10 @@ pub(crate) struct Limits {
     pub(crate) corner_radius: f64,
     /// An electrode mills along the middle of what is open.
     mills: bool,
-    /// Each pass runs its own path: the control does not offset the drawn contour.
-    passes_are_drawn: bool,
+    /// Each pass runs its own path beside the contour: the control does not offset the drawn one, and no skim keeps to the path of the first pass.
+    skims_follow: bool,
+    /// What the passes after the first take of what it leaves in a corner.
+    pub(crate) taken_later: f64,
     /// Radius that a fix gives: correction + margin.
     pub(crate) fix_radius: f64,
     /// 1-based number of the pass with the largest correction, where several are set.
@@ -58,9 +60,14 @@ impl Limits {
         Limits {
             correction: settings.correction / unit_mm,
             last_correction: settings.last_correction() / unit_mm,
+            taken_later: match settings.passes.skim_corner() {
+                SkimCorner::Sharp => (settings.correction - settings.last_correction()) / unit_mm,
+                SkimCorner::ConstantStock => 0.0,
+            },
             corner_radius: settings.corner_radius() / unit_mm,
             mills: settings.mills,
-            passes_are_drawn: settings.compensation == Compensation::Path,
+            skims_follow: settings.compensation == Compensation::Path
+                && settings.passes.skim_corner() == SkimCorner::Sharp,
             fix_radius: (settings.correction + settings.margin) / unit_mm,
             pass: settings.pass,
             tolerances: settings.tolerances.in_units(unit_mm),
@@ -70,7 +77,7 @@ impl Limits {
 
     /// An arc below the correction that a later pass can follow.
     pub(crate) fn is_for_skims(&self, radius: f64) -> bool {
-        self.passes_are_drawn
+        self.skims_follow
             && self.last_correction < self.correction
             && radius >= self.last_correction - self.tolerances.report
     }

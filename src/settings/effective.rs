@@ -146,6 +146,7 @@ impl Effective {
             .max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
         let (index, correction) = largest.unwrap_or((0, single));
         let program = settings.program();
+        let skim_corner = settings.passes.as_ref().and_then(|own| own.skim_corner);
         let severities = Rule::ALL.map(|rule| {
             let set: Option<&RuleSeverity> = settings
                 .rules
@@ -170,7 +171,14 @@ impl Effective {
             corrections,
             wire_diameter: settings.wire_diameter,
             gap: settings.gap,
-            passes: settings.passes.clone().unwrap_or_default(),
+            passes: Passes {
+                // A control offsets the drawn contour, whatever the pass.
+                skim_corner: match program.compensation() {
+                    Compensation::Controller => None,
+                    Compensation::Path | Compensation::None => skim_corner,
+                },
+                ..settings.passes.clone().unwrap_or_default()
+            },
             side: settings.side(),
             states_unit: settings.units.is_some(),
             unit: match settings.units() {

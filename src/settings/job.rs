@@ -1,6 +1,10 @@
 //! Contradictory or ineffective settings of a program and its workpiece.
 
-use super::{LengthSetting, PassFault, Settings};
+use super::{Compensation, LengthSetting, PassFault, Settings, SkimCorner};
+
+/// Words that end a program of blocks in one controller or another, and such that pause it.
+pub(crate) const ENDS: [&str; 4] = ["DD", "E", "FF", "MJ"];
+pub(crate) const PAUSES: [&str; 2] = ["D", "A"];
 
 pub(super) fn faults(settings: &Settings) -> Vec<PassFault> {
     let program = settings.program();
@@ -15,6 +19,26 @@ pub(super) fn faults(settings: &Settings) -> Vec<PassFault> {
         };
         complain(key, say!(one_word_for_pause_and_end, key, end, other));
     }
+    if let Some(stop) = &program.tab_stop {
+        let key = "program.tab-stop";
+        match what_does(stop, &end, &pause) {
+            Does::Stop => {}
+            Does::End => complain(key, say!(a_stop_that_ends, key, stop)),
+            Does::Nothing => complain(key, say!(a_stop_that_does_not_stop, key, stop, pause)),
+        }
+    }
+    let passes = settings.passes.clone().unwrap_or_default();
+    let count = passes.corrections.as_ref().map_or(1, Vec::len);
+    if passes.skim_corner() == SkimCorner::ConstantStock
+        && program.compensation() == Compensation::Controller
+        && count > 1
+    {
+        let (key, other) = ("passes.skim-corner", "program.compensation");
+        complain(
+            key,
+            say!(the_control_runs_beside_the_drawn_contour, key, other),
+        );
+    }
     if let Some(job) = &settings.job
         && job.slug_limit.is_some()
     {
@@ -26,4 +50,28 @@ pub(super) fn faults(settings: &Settings) -> Vec<PassFault> {
         }
     }
     faults
+}
+
+enum Does {
+    Stop,
+    End,
+    Nothing,
+}
+
+/// What a word between the cuts does, in a program of blocks or of ISO: one that stops either is taken for one.
+fn what_does(word: &str, end: &str, pause: &str) -> Does {
+    let is = |known: &str| word.eq_ignore_ascii_case(known);
+    let of_iso = || {
+        let number = word.strip_prefix(['M', 'm'])?;
+        number.parse::<u32>().ok()
+    };
+    match of_iso() {
+        Some(0 | 1) => Does::Stop,
+        _ if is(end) => Does::End,
+        _ if is(pause) => Does::Stop,
+        Some(2 | 30) => Does::End,
+        _ if ENDS.into_iter().any(is) => Does::End,
+        _ if PAUSES.into_iter().any(is) => Does::Stop,
+        _ => Does::Nothing,
+    }
 }

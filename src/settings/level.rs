@@ -59,7 +59,7 @@ pub(super) fn place_of(root: &Node, fault: &PassFault) -> Option<std::ops::Range
     }
     let of_list = list.and_then(|entry| match &entry.node.value {
         Value::List(items) => items.get(fault.pass).unwrap_or(&entry.node).range.clone(),
-        _ => None,
+        _ => entry.node.range.clone(),
     });
     let of_key = |key: &str| root.entry(key).and_then(|entry| entry.node.range.clone());
     of_list

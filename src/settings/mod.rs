@@ -38,6 +38,7 @@ pub(crate) use effective::{NEAR, point_of};
 pub(crate) use from_json::from_json;
 pub use from_toml::from_toml;
 pub(crate) use from_toml::{FILE_NAME, place_in, read_file};
+pub(crate) use job::{ENDS, PAUSES};
 pub(crate) use keep::{as_lines, keep, table_of_suppressions};
 pub(crate) use keys::{
     ContourSettings, JobSettings, MillingSettings, PairSettings, Passes, Profile, ProfileSettings,
@@ -46,7 +47,6 @@ pub(crate) use keys::{
 pub use keys::{Settings, rows};
 pub use milling::Electrode;
 pub(crate) use pair::{Partners, Use, part_title};
-use passes::kerf_faults;
 pub(crate) use passes::{PassFault, pass_faults, passes_table};
 pub(crate) use row::LARGEST;
 pub use row::Row;
@@ -155,12 +155,7 @@ impl Settings {
             }
             (None, None) => return Vec::new(),
         };
-        let beyond = match (&passes.corrections, self.correction) {
-            (Some(list), _) => kerf_faults(list, &passes, self.wire_diameter, self.gap),
-            (None, Some(single)) => kerf_faults(&[single], &passes, self.wire_diameter, self.gap),
-            (None, None) => Vec::new(),
-        };
-        let error = |fault: PassFault, severity| SettingsError {
+        let error = |(fault, severity): (PassFault, Severity)| SettingsError {
             key: fault.key.into(),
             range: place(&fault),
             message: fault.message,
@@ -168,14 +163,17 @@ impl Settings {
             severity,
             of_levels: true,
         };
-        // The part is cut, but smaller than it is drawn.
-        let slight = match stated {
-            Some(_) => severity,
-            None => Severity::Warning,
-        };
-        let faults = faults.into_iter().map(|fault| error(fault, severity));
-        let beyond = beyond.into_iter().map(|fault| error(fault, slight));
-        faults.chain(beyond).collect()
+        // Somebody may want a part that is smaller by so little: it is a warning unless it is set.
+        let pair = self.pair.clone().unwrap_or_default();
+        let clearances = [pair.clearance, pair.stripper].into_iter().flatten();
+        let allowed = clearances.fold(0.0, f64::max) + self.resolution().max(1e-3);
+        let of_kerf = stated.map_or(Severity::Warning, |_| severity);
+        let beyond = passes::cuts_beyond(self, allowed).into_iter();
+        { faults.into_iter() }
+            .map(|fault| (fault, severity))
+            .chain(beyond.map(|fault| (fault, of_kerf)))
+            .map(error)
+            .collect()
     }
 }
 

@@ -1,6 +1,6 @@
 //! The corrections of the passes, checked against each other and the wire; and a computed table of them.
 
-use super::Passes;
+use super::{Passes, Settings};
 
 impl Passes {
     /// Where a later level says one correction for all, the corrections of an earlier one no longer apply, nor what
@@ -27,9 +27,6 @@ impl Passes {
 
 /// Two lengths in mm that differ by less are equal: halving a diameter may round.
 const ROUNDING: f64 = 1e-9;
-
-/// No part is the worse for less than this beyond its contour, mm.
-const BEYOND: f64 = 1e-4;
 
 /// A pass that cannot follow the one before it, or that no wire can cut.
 #[derive(Clone, Debug, PartialEq)]
@@ -103,42 +100,92 @@ pub(crate) fn pass_faults(
             faults.push(PassFault::of(key, message));
         }
     }
+    faults.extend(shared_registers(corrections, passes));
     faults
 }
 
-/// The faults of passes that cut beyond the contour: the wire's radius and the spark gap of the pass reach farther than
-/// its correction. Nothing where one of them is not stated, or the correction is below the radius, which is worse.
-pub(super) fn kerf_faults(
-    corrections: &[f64],
-    passes: &Passes,
-    wire_diameter: Option<f64>,
-    gap: Option<f64>,
-) -> Vec<PassFault> {
-    let Some(radius) = wire_diameter.map(|diameter| diameter / 2.0) else {
+/// The registers that are none, and those in which two corrections would have to stand.
+fn shared_registers(corrections: &[f64], passes: &Passes) -> Vec<PassFault> {
+    let key = "passes.registers";
+    let words = passes.registers.as_deref().unwrap_or_default();
+    let name = |pass: usize| format!("{key}[{pass}]");
+    let mut faults = Vec::new();
+    for (pass, (word, correction)) in words.iter().zip(corrections).enumerate() {
+        let (letters, number) = register_of(word);
+        if ["G", "I", "J", "M", "N", "O", "R", "X", "Y"].contains(&&*letters) {
+            let message = say!(is_no_place_of_a_correction, name(pass), word);
+            faults.push(PassFault { key, pass, message });
+            continue;
+        }
+        let before = words.iter().zip(corrections).take(pass);
+        let shares = |(_, (other, own)): &(usize, (&String, &f64))| {
+            register_of(other) == (letters.clone(), number) && (*own - correction).abs() > ROUNDING
+        };
+        if let Some((other, (_, own))) = { before.enumerate() }.find(shares) {
+            let (name, other) = (name(pass), name(other));
+            let message = say!(
+                a_register_of_two_corrections,
+                name,
+                word,
+                correction,
+                other,
+                own
+            );
+            faults.push(PassFault { key, pass, message });
+        }
+    }
+    faults
+}
+
+/// A register as controls read it: its letters, and the number behind them.
+fn register_of(word: &str) -> (String, Option<u64>) {
+    let letters = word.trim_end_matches(|letter: char| letter.is_ascii_digit());
+    let number = word.strip_prefix(letters).unwrap_or_default();
+    (letters.to_ascii_uppercase(), number.parse().ok())
+}
+
+/// The passes whose wire, with its gap, cuts further than to the contour by more than `allowed` mm: a clearance of a pair.
+pub(super) fn cuts_beyond(settings: &Settings, allowed: f64) -> Vec<PassFault> {
+    let Some(diameter) = settings.wire_diameter else {
         return Vec::new();
     };
-    let key = match passes.corrections {
-        Some(_) => "passes.corrections",
-        None => "correction",
+    let passes = settings.passes.clone().unwrap_or_default();
+    let (key, corrections) = match (&passes.corrections, settings.correction) {
+        (Some(list), _) => ("passes.corrections", list.clone()),
+        (None, Some(single)) => ("correction", vec![single]),
+        (None, None) => return Vec::new(),
     };
-    let fault = |(pass, &correction): (usize, &f64)| {
-        let own = passes
-            .gaps
-            .as_ref()
-            .map_or(gap, |gaps| gaps.get(pass).copied())?;
-        let beyond = radius + own - correction;
-        let name = match passes.corrections {
-            Some(_) => format!("{key}[{pass}]"),
-            None => key.into(),
+    let beyond = |(pass, correction): (usize, f64)| {
+        let gap = match &passes.gaps {
+            Some(gaps) => gaps.get(pass).copied(),
+            None => settings.gap,
         };
-        let reaches = beyond > BEYOND && correction >= radius - ROUNDING;
-        reaches.then(|| PassFault {
+        let half = diameter / 2.0 + gap?;
+        let name = match key {
+            "correction" => key.to_owned(),
+            _ => format!("{key}[{pass}]"),
+        };
+        // Below the wire's radius it is an error of its own.
+        let is_said = correction < diameter / 2.0 - ROUNDING;
+        let beyond = half - correction;
+        let message = || {
+            say!(
+                the_wire_and_its_gap_cut_beyond,
+                name,
+                correction,
+                half,
+                beyond
+            )
+        };
+        (beyond > allowed && !is_said).then(|| PassFault {
             key,
             pass,
-            message: say!(is_less_than_the_kerf, name, correction, radius, own, beyond),
+            message: message(),
         })
     };
-    corrections.iter().enumerate().filter_map(fault).collect()
+    { corrections.into_iter().enumerate() }
+        .filter_map(beyond)
+        .collect()
 }
 
 /// The corrections of a rough pass and `skims` skims for a wire of radius `wire`, mm: the rough one leaves the `stock`,

@@ -39,6 +39,7 @@ mod settings_check;
 mod skim;
 mod skim_sweep;
 mod spliced;
+mod standing;
 mod tab;
 #[cfg(test)]
 mod tests;
@@ -61,6 +62,7 @@ pub use path::{PathSegment, Refusal, Source, WirePath};
 pub(crate) use reuse::{NEW, which_it_is, which_it_was};
 pub(crate) use rounds::rounds;
 pub(crate) use settings_check::{is_stated, short_layers, shortened_leads, stated_faults};
+pub(crate) use standing::weak_tabs;
 pub use work::LargestWire;
 pub use work::Work;
 pub(crate) use work::{largest_of_arcs, last_gap, work};
@@ -226,6 +228,7 @@ pub(crate) fn plan_while(
         paths
     };
     findings.extend(job.jumps_that_cut(&paths, &contours));
+    findings.extend(job.cut_through(&paths));
     if findings.is_empty() {
         let is_given: FxHashMap<usize, bool> = chosen
             .iter()

@@ -2,6 +2,7 @@
 
 use super::leads::finding;
 use super::order::name;
+use super::standing::weak_tabs;
 use super::{Refusal, StartHole, WirePath, lengths, plan};
 use crate::drawing::{Drawing, Outline};
 use crate::finding::{Finding, Place, Rule, Severity};
@@ -41,6 +42,7 @@ pub(crate) fn stated_faults(
         Ok(paths) => {
             let mut found = short_layers(drawing, outlines, settings, &paths);
             found.extend(worn_layers(drawing, outlines, settings, &paths));
+            found.extend(weak_tabs(drawing, outlines, settings, &paths));
             found
         }
         Err(Refusal::Findings(mut found)) => {

@@ -19,7 +19,7 @@ use super::rotated::Rotated;
 use super::threading::lead;
 use crate::drawing::Role;
 use crate::geometry::{Point, Segment, Side};
-use crate::settings::{Compensation, Lead, Sequence};
+use crate::settings::{Compensation, Lead, LengthSetting, Sequence};
 use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
 
 /// How much further than the correction the wire goes from a part's contour at a tab, where the control switches the correction, mm.
@@ -298,9 +298,11 @@ impl Job<'_> {
             let finding = fault(self.severity(), source, sentence, None);
             return Err(Refusal::Findings(vec![finding]));
         }
+        // One that is named keeps its tab, whatever drops.
+        let is_named = matches!(settings.tab, LengthSetting::ByHandle(_));
         let keeps_one = length_mm > 0.0
             && matches!(outline.role, Role::Punch | Role::Opening)
-            && (!self.has_waste_inside(unled.outline) || settings.keeps_slug(area));
+            && (!self.has_waste_inside(unled.outline) || settings.keeps_slug(area) || is_named);
         let stands = unled.passes.iter().any(|pass| pass.path.is_empty());
         let Some(entry) = unled.entry.filter(|_| keeps_one && !stands) else {
             return Ok(None);

@@ -421,3 +421,29 @@ fn arcs_with_rounded_centres_are_fitted() {
         assert_eq!(code, 0, "{name}: {told}");
     }
 }
+
+/// Where a full circle alone leaves open what I and J mean, the profile of the new program does not decide it: half of R 10 about the
+/// origin leads to (-10, 0).
+#[test]
+fn the_profile_of_the_new_program_does_not_say_how_the_given_one_is_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "G21\nG90\nG92 X0. Y0.\nG01 X10. Y0.\nG03 I-10. J0.\nG01 X0. Y0.\nM02\n";
+    std::fs::write(folder.path().join("in.iso"), text).unwrap();
+    for (profile, half) in [
+        ("robofil", "G03 X-10.000 Y0.000 I0.000 J0.000"),
+        ("generic", "G03 X-10.000 Y0.000 I-10.000 J0.000"),
+        ("fast-wire", "G03X-20000Y0I-10000J0"),
+    ] {
+        let arguments = format!("convert in.iso --format iso --profile {profile}");
+        let (code, out, said) = wedm(folder.path(), &arguments);
+        assert_eq!(code, 0, "{arguments}: {said}");
+        let packed = |text: &str| text.replace(' ', "");
+        assert!(packed(&out).contains(&packed(half)), "{arguments}: {out}");
+    }
+    // What is set for the program decides it.
+    let settings = "[program]\nprofile = \"robofil\"\n";
+    std::fs::write(folder.path().join("wedm.toml"), settings).unwrap();
+    let arguments = "convert in.iso --format iso --profile generic";
+    let (code, out, said) = wedm(folder.path(), arguments);
+    assert!(code == 0 && out.contains("X-30.000"), "{out}{said}");
+}

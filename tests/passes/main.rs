@@ -3,7 +3,9 @@
 mod drawn;
 mod overlap;
 mod programs;
+mod standing;
 mod stock;
+mod stops;
 #[path = "../support/generate.rs"]
 mod support;
 mod tabs;
@@ -21,7 +23,9 @@ use wedm::toolpath::{Source, WirePath, plan};
 const THREE: &str = "wire-diameter = 0.25\n[passes]\ncorrections = [0.215, 0.170, 0.140]\ngaps = [0.03, 0.015, 0.015]\n";
 
 fn settings(text: &str) -> Effective {
-    let (settings, errors) = from_toml(text);
+    let (settings, mut errors) = from_toml(text);
+    // What that leaves is measured here.
+    errors.retain(|error| !error.message.contains("beyond the contour"));
     assert_eq!(errors, [], "{text}");
     Effective::of(&settings)
 }

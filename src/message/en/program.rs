@@ -75,6 +75,12 @@ declare! {
     no_moves_within_tolerance_lead_from_to(from, to) => "no moves within tolerance lead from {from} to {to}";
     the_cut_begins_at_and_ends_at(first, last) => "the cut begins at {first} and ends at {last}";
     its_pause_has_to_stop_the_machine => "without jumps its pause has to stop the machine: expected M00";
+    its_pause_has_to_stop_before_a_tab => "its pause does not stop the machine once, and the tab would be cut off without a stop: expected M00 there, or as program.tab-stop";
+    its_register_is_of_two_corrections(word, held, own) => "the control would find both {held} and {own} at {word}: expected a register of its own for each correction";
+    its_line_ends_the_program(text) => "its line `{text}` ends the program before all of it is cut: expected it in end";
+    its_line_tilts_the_wire(text) => "its line `{text}` tilts the wire, and this program is one for a wire that stands upright";
+    its_line_leads_elsewhere(text, word) => "its line `{text}` leads what follows elsewhere than it says, by {word}";
+    the_word_before_the_tab_does_not_stop(word) => "program.tab-stop is {word}, which does not stop the machine in this language: the tab would be cut off without a stop";
     its_line_cannot_be_read_again(text) => "its line `{text}` cannot be read again";
     its_line_moves_the_wire(text) => "its line `{text}` moves the wire";
     a_written_move_does_not_move(to) => "a written move to {to} does not move";

@@ -37,7 +37,6 @@ declare! {
     there_is_no_profile(name, names) => "there is no profile {name:?}, expected {names}";
     is_more_than_the_pass_before(pass, correction, before) => "{pass} is {correction}, expected at most {before}, that of the pass before: corrections decrease";
     is_of_passes_expected_one_for_each(key, count, passes) => "{key} is a list of {count}, expected one for each of the {passes} passes";
-    is_less_than_the_kerf(pass, correction, radius, gap, beyond) => "{pass} is {correction}, less than the wire's radius {radius} and the gap {gap} of this pass: it cuts {beyond:.4} mm beyond the contour (passes.gaps holds the gap of each pass)";
     is_less_than_the_wire_radius(pass, correction, radius) => "{pass} is {correction}, expected at least the wire's radius {radius}: the wire would cut into the part";
     a_list_of_layers => "a list of names of layers such as [\"PUNCH\"]";
     the_name_of_a_layer => "the name of a layer";
@@ -50,6 +49,12 @@ declare! {
     a_layer_in_two_workpieces(layer, one, other) => "the layer {layer} belongs to the workpieces {one} and {other}: expected one of them";
     milling_needs(missing) => "milling needs an electrode and its layers: expected {missing} to be set";
     one_word_for_pause_and_end(key, word, other) => "{key} is {word}, and so is {other}: a program cannot pause with the word that ends it";
+    is_no_place_of_a_correction(key, word) => "{key} is {word}, which is no place of a correction: expected one such as D1 or H1";
+    a_register_of_two_corrections(key, word, correction, other, before) => "{key} is {word}, in which {correction} would have to stand, and so is {other} for {before}: expected a register of its own for each correction";
+    the_wire_and_its_gap_cut_beyond(key, correction, half, beyond) => "{key} is {correction}, and the wire with its gap takes {half:.4} mm to either side: it would cut {beyond:.4} mm beyond the contour; expected at least that, or pair.clearance where it is meant";
+    a_stop_that_ends(key, word) => "{key} is {word}, which ends the program: what stands would never be cut off";
+    a_stop_that_does_not_stop(key, word, pause) => "{key} is {word}, which stops no machine: expected M00 or M01 in ISO, {pause} in 3B";
+    the_control_runs_beside_the_drawn_contour(key, other) => "{key} is constant-stock, but {other} is controller: each pass would run beside the drawn contour, as with sharp; expected path as {other}, or sharp";
     a_mass_needs_a_height(key) => "{key} is the mass of a slug: expected job.thickness as well";
     a_limit_needs_a_tab(key) => "{key} has no effect without program.tab: expected the length, mm, that an opening with a heavier slug leaves standing";
     a_punch_within_a_punch(inner, outer, others) => "contour {inner} is a punch within the punch {outer}{others}: the wire would cut into that part; make it an opening, or draw it in a workpiece of its own";

@@ -75,6 +75,12 @@ translate! {
     no_moves_within_tolerance_lead_from_to(from, to) => "从 {from} 到 {to} 没有符合公差的移动";
     the_cut_begins_at_and_ends_at(first, last) => "切割从 {first} 开始，到 {last} 结束";
     its_pause_has_to_stop_the_machine => "不空走时暂停码必须停机：应为 M00";
+    its_pause_has_to_stop_before_a_tab => "其暂停行没有停机一次，暂留段会不停机就被切断：此处应为 M00，或设置 program.tab-stop";
+    its_register_is_of_two_corrections(word, held, own) => "控制器在 {word} 处既要找到 {held} 又要找到 {own}：每个补偿量应有自己的补偿号";
+    its_line_ends_the_program(text) => "其行 `{text}` 在全部切完之前就结束程序：应放在 end 中";
+    its_line_tilts_the_wire(text) => "其行 `{text}` 使电极丝倾斜，而本程序用于直立的电极丝";
+    its_line_leads_elsewhere(text, word) => "其行 `{text}` 中的 {word} 使其后的程序走到别处";
+    the_word_before_the_tab_does_not_stop(word) => "program.tab-stop 为 {word}，在此语言中不停机：暂留段会不停机就被切断";
     its_line_cannot_be_read_again(text) => "它的行 `{text}` 不能再读入";
     its_line_moves_the_wire(text) => "它的行 `{text}` 会移动电极丝";
     a_written_move_does_not_move(to) => "写出的到 {to} 的移动没有移动";

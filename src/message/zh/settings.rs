@@ -46,7 +46,6 @@ translate! {
     there_is_no_profile(name, names) => "没有名为 {name:?} 的 profile，应为 {names}";
     is_more_than_the_pass_before(pass, correction, before) => "{pass} 是 {correction}，最多应为上一次切割的 {before}：补偿量须逐次减小";
     is_of_passes_expected_one_for_each(key, count, passes) => "{key} 列出 {count} 个，应与切割次数一致，共 {passes} 个";
-    is_less_than_the_kerf(pass, correction, radius, gap, beyond) => "{pass} 是 {correction}，小于电极丝半径 {radius} 与这次切割的放电间隙 {gap} 之和：会多切入轮廓 {beyond:.4} mm（passes.gaps 是各次切割的放电间隙）";
     is_less_than_the_wire_radius(pass, correction, radius) => "{pass} 是 {correction}，不得小于电极丝半径 {radius}：否则丝会切入工件";
     a_list_of_layers => "图层名的列表，如 [\"PUNCH\"]";
     the_name_of_a_layer => "图层名";
@@ -59,6 +58,12 @@ translate! {
     a_layer_in_two_workpieces(layer, one, other) => "图层 {layer} 同时属于工件 {one} 和 {other}：只能属于一个";
     milling_needs(missing) => "铣削需要电极和分层的数据：应设置 {missing}";
     one_word_for_pause_and_end(key, word, other) => "{key} 是 {word}，{other} 也是：程序不能用结束码来暂停";
+    is_no_place_of_a_correction(key, word) => "{key} 是 {word}，不是补偿号：应为 D1、H1 之类";
+    a_register_of_two_corrections(key, word, correction, other, before) => "{key} 是 {word}，其中应存 {correction}，而 {other} 也是它，应存 {before}：每个补偿量应有自己的补偿号";
+    the_wire_and_its_gap_cut_beyond(key, correction, half, beyond) => "{key} 是 {correction}，而电极丝连同放电间隙每侧切去 {half:.4} mm：会切过轮廓 {beyond:.4} mm；不应小于它，有意如此时请设 pair.clearance";
+    a_stop_that_ends(key, word) => "{key} 是 {word}，它结束程序：暂留段永远不会切断";
+    a_stop_that_does_not_stop(key, word, pause) => "{key} 是 {word}，它不使机床停下：ISO 应为 M00 或 M01，3B 应为 {pause}";
+    the_control_runs_beside_the_drawn_contour(key, other) => "{key} 是 constant-stock，而 {other} 是 controller：每次切割都会沿图中轮廓走，与 sharp 一样；{other} 应为 path，或应为 sharp";
     a_mass_needs_a_height(key) => "{key} 是废料的质量：应同时设置 job.thickness";
     a_limit_needs_a_tab(key) => "没有 program.tab，{key} 不起作用：应设废料更重的型孔暂留段的长度，mm";
     a_punch_within_a_punch(inner, outer, others) => "轮廓 {inner} 是凸模，却在凸模 {outer} 之内{others}：丝会切入那个工件；应作为型孔，或画在另一个工件中";

@@ -6,8 +6,10 @@
 //! the workpiece's.
 
 mod angle;
+mod stand;
 
 pub(crate) use angle::{Doubtful, STEEPEST};
+pub(super) use stand::Stand;
 
 use super::block::{Offset, read_line};
 use super::document::Document;

@@ -161,6 +161,36 @@ impl Line<'_> {
     }
 }
 
+/// What lines of words that do not move the wire do to the coordinates after them.
+#[derive(Default)]
+pub(super) struct Frame {
+    zeros: Zeros,
+    moved: bool,
+}
+
+impl Frame {
+    /// The word of a line by which the moves after it lead elsewhere, or more often, than they say.
+    pub(super) fn changed_by(&mut self, bytes: &[u8], block: &Block) -> Option<String> {
+        let line = Line::of(bytes, block);
+        let zero = self.zeros.take(&line, std::mem::take(&mut self.moved));
+        let other = || {
+            let own = line.words.iter();
+            let judged = own.filter_map(|(token, text)| line.judge(token, text, false));
+            let leads = |(_, what): &(String, Unfollowed)| {
+                use Unfollowed::{Frame, Jump, Repeat, Way, Zero};
+                matches!(what, Frame | Jump | Repeat | Way | Zero)
+            };
+            { judged }.find(leads).map(|(word, _)| word)
+        };
+        zero.or_else(other)
+    }
+
+    /// The wire moves before the next line.
+    pub(super) fn moves(&mut self) {
+        self.moved = true;
+    }
+}
+
 /// The number of a G word, times 10.
 fn tenths(number: Number) -> Option<i64> {
     match number.decimals {

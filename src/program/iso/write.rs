@@ -1,11 +1,12 @@
 //! Writes paths as one ISO program, by a profile; each line is read back at once.
 
+mod fixed;
 mod offsets;
 mod proof;
 
 pub(crate) use offsets::{Kept, read_of_profile};
 
-use super::block::{Block, Motion, Note, Stop, read_line};
+use super::block::{Block, Motion, Offset};
 use super::encode::{Encoded, Moves};
 use super::machine::Machine;
 use super::moves::{CenterRule, MICROMETRE, Place, Reading, micrometres, to_center};
@@ -16,11 +17,12 @@ use crate::program::grid::Node;
 use crate::program::notes::Notes;
 use crate::program::path::{Kind, Step};
 use crate::program::write::{
-    MOST_BLOCKS, Piece, ProofError, Proved, ProvedProgram, Writer, cuts, nothing_to_write,
-    push_number, push_places, room, walk, way,
+    MOST_BLOCKS, Piece, ProofError, Proved, ProvedProgram, Writer, cuts, does_not_stop,
+    nothing_to_write, push_number, push_places, room, walk, way,
 };
 use crate::settings::{Coordinates, Effective, LineEnd, NumberUnit, Profile, Zero};
 use crate::toolpath::{Source, WirePath, each};
+use fixed::Leading;
 use proof::Checked;
 
 /// Lines that one core reads back at a time.
@@ -93,11 +95,17 @@ pub(super) struct Lines<'a> {
     is_switched_off: bool,
     /// The path goes on from the end of the last one, with the same modal state.
     goes_on: bool,
+    /// The stops so far, as they are read again.
+    pauses: usize,
+    /// What the lines of the profile do to the moves after them.
+    leading: Leading,
     number: u32,
     /// The modal words that a terse profile leaves out.
     motion: Option<Motion>,
     /// The totals so far, in steps.
     pub(super) made: ProvedProgram,
+    /// What each register that a contour has named has to hold, mm.
+    holding: Vec<(Offset, f64)>,
     notes: Option<&'a mut Notes>,
     /// The most blocks.
     room: usize,
@@ -144,6 +152,9 @@ impl Writer for Lines<'_> {
             && named != Some(register)
         {
             return Err(self.refused(&say!(its_contour_begin_names_no_register, register)));
+        }
+        if path.side.is_some() && self.own.register.is_none() {
+            self.hold_one_correction()?;
         }
         Ok(())
     }
@@ -194,13 +205,26 @@ impl Writer for Lines<'_> {
         } else {
             0
         };
-        (0..stops).try_for_each(|_| self.stop(last, None))
+        (0..stops).try_for_each(|_| self.stop(last))
     }
 
-    fn stop(&mut self, at: Node, word: Option<&str>) -> Proved {
+    fn stop(&mut self, at: Node) -> Proved {
+        self.fixed(&self.profile.pause, at)
+    }
+
+    fn stop_before_tab(&mut self, at: Node, word: Option<&str>) -> Proved {
+        let before = self.pauses;
         match word {
-            Some(word) => self.fixed(&[word.to_owned()], at),
-            None => self.fixed(&self.profile.pause, at),
+            Some(word) => {
+                let made = self.fixed(&[word.to_owned()], at);
+                made.map_err(|_| does_not_stop(word))?;
+            }
+            None => self.fixed(&self.profile.pause, at)?,
+        }
+        match (self.pauses - before, word) {
+            (1, _) => Ok(()),
+            (_, Some(word)) => Err(does_not_stop(word)),
+            (_, None) => Err(self.refused(say!(its_pause_has_to_stop_before_a_tab))),
         }
     }
 
@@ -257,9 +281,12 @@ impl<'a> Lines<'a> {
             side: None,
             is_switched_off: false,
             goes_on: false,
+            pauses: 0,
+            leading: Leading::default(),
             number: 0,
             motion: None,
             made: ProvedProgram::default(),
+            holding: Vec::new(),
             notes: None,
             room: MOST_BLOCKS,
         })
@@ -294,56 +321,6 @@ impl<'a> Lines<'a> {
         self.fixed(&self.profile.contour_end, at)
     }
 
-    /// Lines of the profile; none of them may move the wire.
-    fn fixed(&mut self, lines: &[String], at: Node) -> Proved {
-        for line in lines {
-            let word = match self.side {
-                Some(Side::Left) => "G41",
-                Some(Side::Right) => "G42",
-                None if line.contains("{side}") => continue,
-                None => "",
-            };
-            let text = if line.contains('{') {
-                let (mut x, mut y) = (Vec::new(), Vec::new());
-                self.push_length(&mut x, at.x - self.zero.x);
-                self.push_length(&mut y, at.y - self.zero.y);
-                let (x, y) = (String::from_utf8_lossy(&x), String::from_utf8_lossy(&y));
-                line.replace("{side}", word)
-                    .replace("{register}", &self.register(self.pass))
-                    .replace("{x}", &x)
-                    .replace("{y}", &y)
-            } else {
-                line.clone()
-            };
-            let mut fault = None;
-            let block = read_line(text.as_bytes(), 1, |note| {
-                if let Note::Fault { .. } = note {
-                    fault = Some(());
-                }
-            });
-            let made = self.machine.run(&block, &self.reading);
-            if fault.is_some() {
-                return Err(self.refused(&say!(its_line_cannot_be_read_again, text)));
-            }
-            if made.is_some() {
-                return Err(self.refused(&say!(its_line_moves_the_wire, text)));
-            }
-            if block.motion.is_some() {
-                self.motion = None;
-            }
-            if let Some(stop) = block.stop
-                && let Some(notes) = &mut self.notes
-            {
-                let (start, end) = words_of(text.as_bytes(), self.out.len());
-                let at = micrometres(self.machine.at);
-                notes.stop(start as usize..end as usize, at, stop == Stop::End);
-            }
-            self.out.extend_from_slice(text.as_bytes());
-            self.end_line();
-        }
-        Ok(())
-    }
-
     pub(super) fn end_line(&mut self) {
         self.out.extend_from_slice(match self.profile.line_end {
             LineEnd::Lf => b"\n",
@@ -353,6 +330,9 @@ impl<'a> Lines<'a> {
 
     /// Writes moves, and reads them back.
     pub(super) fn put(&mut self, steps: &[Encoded]) -> Proved {
+        if !steps.is_empty() {
+            self.lead_nowhere_else()?;
+        }
         let mut lines = Vec::with_capacity(steps.len());
         for step in steps {
             let start = self.out.len();
@@ -472,7 +452,7 @@ impl<'a> Lines<'a> {
             return Err(nothing_to_write());
         }
         self.side = None;
-        self.fixed(&self.profile.end, self.zero)?;
+        self.last_lines(&self.profile.end, self.zero)?;
         let step_um = self.step_um();
         self.made.finished(self.out, step_um)
     }

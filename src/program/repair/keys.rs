@@ -173,6 +173,14 @@ mod tests {
     }
 
     #[test]
+    fn what_is_lost_may_have_stood_alone_before_the_point() {
+        for (text, lost) in [(".910", "4.910"), ("-.910", "-4.910"), ("4.", "4.5")] {
+            let meant = meant(text, Some(true));
+            assert!(meant.contains(&(lost.into(), Key::Lost)), "{meant:?}");
+        }
+    }
+
+    #[test]
     fn what_is_meant_has_no_zero_more_in_front() {
         let meant = meant("500", None);
         let has = |text: &str| meant.iter().find(|(meant, _)| meant == text);

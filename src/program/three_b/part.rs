@@ -31,6 +31,27 @@ pub(super) fn wire_step(turn: f64, correction: f64) -> f64 {
     2.0 * correction * (turn / 2.0).sin().abs()
 }
 
+/// How far the corners of a part lie from the transitions in their place, at most, µm, and where: those that the wire runs
+/// inside of, and those that it goes round.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct CutCorners {
+    pub(super) inside: Option<(f64, Point)>,
+    pub(super) outside: f64,
+}
+
+impl CutCorners {
+    fn take(&mut self, corner: Point, arc: &Arc, side: Side) {
+        let away = (corner - arc.center).norm() - arc.radius;
+        match is_concave(arc, side) {
+            true if self.inside.is_none_or(|(worst, _)| away > worst) => {
+                self.inside = Some((away, corner));
+            }
+            true => {}
+            false => self.outside = self.outside.max(away),
+        }
+    }
+}
+
 /// The path of a part's contour, followed by that of its tab, rounded as one.
 pub(super) fn rounded_with_tab(
     path: &WirePath,
@@ -38,13 +59,14 @@ pub(super) fn rounded_with_tab(
     scale: f64,
     correction: f64,
     radius: f64,
+    corners: &mut CutCorners,
 ) -> Proved<Vec<WirePath>> {
     let Some(tab) = tab else {
-        return Ok(vec![rounded(path, scale, correction, radius)?]);
+        return Ok(vec![rounded(path, scale, correction, radius, corners)?]);
     };
     let mut whole = path.clone();
     whole.segments.extend_from_slice(&tab.segments);
-    let made = rounded(&whole, scale, correction, radius)?;
+    let made = rounded(&whole, scale, correction, radius, corners)?;
     let is_of_contour =
         |piece: &&PathSegment| !matches!(piece.source, Source::LeadIn | Source::LeadOut);
     let first = |path: &WirePath| {
@@ -82,6 +104,7 @@ pub(super) fn rounded(
     scale: f64,
     correction: f64,
     radius: f64,
+    corners: &mut CutCorners,
 ) -> Proved<WirePath> {
     let refused = |sentence: String| Err(ProofError::Refused(sentence));
     let Some(side) = path.side else {
@@ -122,7 +145,9 @@ pub(super) fn rounded(
             Unwritable::BeginsInCorner { at: mm(entry) },
         ));
     }
-    let contour = with_transitions(&contour, radius, correction)?;
+    let contour = with_transitions(&contour, radius, correction, &mut |corner, arc| {
+        corners.take(corner, arc, side);
+    })?;
     // The lines and arcs are those of the part, begun where the wire is.
     let beside = left_normal(first.geometry.start_tangent()) * (side.sign() * correction);
     let (Some(from), Some(to)) = (snap(entry), snap(entry + beside)) else {
@@ -232,11 +257,12 @@ fn sizes(radius: f64, angle: f64) -> impl Iterator<Item = f64> {
 }
 
 /// Transition arcs of `radius`, or just as much more as makes them sound on the grid, at the corners between lines and
-/// arcs alike. Each corner is made from the two pieces as they are drawn.
+/// arcs alike. Each corner is made from the two pieces as they are drawn; `made_at` gets it with its arc.
 fn with_transitions(
     contour: &[PathSegment],
     radius: f64,
     correction: f64,
+    made_at: &mut dyn FnMut(Point, &Arc),
 ) -> Proved<Vec<PathSegment>> {
     let corners = each(contour.len().saturating_sub(1), AT_A_TIME, |nth| {
         let [before, behind] = [nth, nth + 1].map(|nth| &contour[nth].geometry);
@@ -269,6 +295,7 @@ fn with_transitions(
             };
             return Err(unwritable(behind.source, fault));
         };
+        made_at(behind.geometry.start(), &arc);
         rounded.push(until(leaves));
         rounded.push(PathSegment {
             geometry: Segment::Arc(arc),

@@ -2,6 +2,8 @@
 
 #![warn(clippy::indexing_slicing)]
 
+use crate::settings::{ENDS, PAUSES};
+
 /// The effect of a word between the blocks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Word {
@@ -37,10 +39,10 @@ impl Words<'_> {
         if is(self.pause) {
             return Some(Word::Pause);
         }
-        if ["DD", "E", "FF", "MJ"].into_iter().any(is) {
+        if ENDS.into_iter().any(is) {
             return Some(Word::End);
         }
-        (is("D") || is("A")).then_some(Word::Pause)
+        PAUSES.into_iter().any(is).then_some(Word::Pause)
     }
 
     /// True for the two words that the settings name.

@@ -6,21 +6,21 @@ use super::encode::{self, Encoded};
 use super::layout::{push_block, push_start_point};
 use super::machine::travel;
 use super::parse::{Item, read_line};
-use super::part::{is_concave, mm, rounded, rounded_with_tab, unwritable, wire_step};
+use super::part::{CutCorners, is_concave, mm, rounded, rounded_with_tab, unwritable, wire_step};
 use super::proof::{Proof, check_line};
 use super::words::{Word, Words};
 use crate::finding::{Side, Unwritable};
-use crate::geometry::{Segment, Vector, turn};
+use crate::geometry::{Point, Segment, Vector, turn};
 use crate::program::encode::encode_all;
 use crate::program::grid::point_of;
 use crate::program::notes::Notes;
 use crate::program::path::{Kind, Step, is_tight_in_four_b};
 use crate::program::write::{
-    Piece, ProofError, Proved, ProvedProgram, Writer, cuts, nothing_to_write, room, scaled, walk,
-    way,
+    Piece, ProofError, Proved, ProvedProgram, Writer, cuts, does_not_stop, nothing_to_write, room,
+    scaled, walk, way,
 };
 use crate::settings::Effective;
-use crate::toolpath::{PathSegment, Source, WirePath, each};
+use crate::toolpath::{Finished, PathSegment, Source, WirePath, each};
 use std::ops::Range;
 
 /// Blocks that one core reads back at a time.
@@ -66,6 +66,7 @@ pub(crate) fn write_four_b(
         ));
     }
     let mut made = Vec::with_capacity(paths.len());
+    let mut corners = CutCorners::default();
     for (index, path) in paths.iter().enumerate().filter(|(_, path)| !path.cut_off) {
         let tab = paths.get(index + 1).filter(|next| next.cut_off);
         made.extend(rounded_with_tab(
@@ -74,6 +75,7 @@ pub(crate) fn write_four_b(
             unit_mm * 1000.0,
             correction,
             radius,
+            &mut corners,
         )?);
     }
     let paths = made;
@@ -91,7 +93,30 @@ pub(crate) fn write_four_b(
     walk(&paths, 1.0, 1.0, go_on, &mut blocks)?;
     let corrections = settings.each_correction().into_iter();
     blocks.made.offsets = corrections.map(|mm| (String::new(), mm)).collect();
+    blocks.made.corners = left_in(&corners, settings, unit_mm * 1000.0);
     blocks.finish(cuts(&paths))
+}
+
+/// What the passes leave of a part whose corners are these, in drawing units of so many µm: about a transition the wire runs at the correction
+/// of each pass, and takes half its kerf.
+fn left_in(corners: &CutCorners, settings: &Effective, scale: f64) -> Option<Finished> {
+    let (inside, at) = corners.inside.unzip();
+    if inside.is_none() && corners.outside <= 0.0 {
+        return None;
+    }
+    let corrections = settings.each_correction();
+    let rest = corrections.iter().enumerate().map(|(pass, correction)| {
+        let half = settings.half_kerf(pass);
+        // Half the kerf of the last pass is its correction where nothing else is known.
+        let last = (pass + 1 == corrections.len()).then_some(*correction);
+        Some((correction - half.or(last)?) * 1000.0)
+    });
+    let rest = rest.flatten().fold(f64::INFINITY, f64::min);
+    Some(Finished {
+        uncut: (inside.unwrap_or(0.0) + rest).max(0.0) / scale,
+        at: at.unwrap_or_else(Point::origin) / scale,
+        overcut: (corners.outside - rest).max(0.0) / scale,
+    })
 }
 
 /// A part's closed contour as 4B holds it, without leads, at its drawn place and in the drawing's unit; `None` where it
@@ -114,7 +139,9 @@ pub(crate) fn of_part(
         segments,
     };
     let (correction, radius) = transitions(settings);
-    let mut segments = rounded(&path, scale, correction, radius).ok()?.segments;
+    let mut corners = CutCorners::default();
+    let made = rounded(&path, scale, correction, radius, &mut corners).ok()?;
+    let mut segments = made.segments;
     segments.retain(|piece| !matches!(piece.source, Source::LeadIn | Source::LeadOut));
     // From the drawn start, not the wire's.
     let by = path.thread_hole * scale - segments.first()?.geometry.start();
@@ -241,11 +268,17 @@ impl Writer for Blocks<'_> {
 
     /// Some straight blocks between two pauses would be read as the way to the next contour.
     fn end_open(&mut self, last: Node, _: bool, stops: usize) -> Proved {
-        (0..stops).try_for_each(|_| self.stop(last, None))
+        (0..stops).try_for_each(|_| self.stop(last))
     }
 
-    fn stop(&mut self, _: Node, word: Option<&str>) -> Proved {
-        self.push_word(word.unwrap_or(self.words.pause))
+    fn stop(&mut self, _: Node) -> Proved {
+        self.push_word(self.words.pause, Word::Pause)
+    }
+
+    fn stop_before_tab(&mut self, _: Node, word: Option<&str>) -> Proved {
+        let own = word.unwrap_or(self.words.pause);
+        self.push_word(own, Word::Pause)
+            .map_err(|error| word.map_or(error, does_not_stop))
     }
 
     fn move_over(&mut self, from: Node, to: Node) -> Proved {
@@ -375,29 +408,21 @@ impl<'a> Blocks<'a> {
         }))
     }
 
-    /// Writes a word between blocks, and reads it back: it comes from the settings.
-    fn push_word(&mut self, word: &str) -> Proved {
+    /// Writes a word between blocks that does `what`, and reads it back: it comes from the settings.
+    fn push_word(&mut self, word: &str, what: Word) -> Proved {
         let mut read = Vec::new();
         read_line(word.as_bytes(), 1, &self.words, |item| read.push(item));
-        if let Some(notes) = &mut self.notes {
-            let is_end = matches!(
-                read[..],
-                [Item::Word {
-                    word: Word::End,
-                    ..
-                }]
-            );
-            let start = self.out.len();
-            notes.stop(start..start + word.len(), notes.at(), is_end);
+        let does = |item: &Item| matches!(item, Item::Word { word, .. } if *word == what);
+        let is_read = matches!(&read[..], [item] if does(item));
+        if !is_read || !word.bytes().all(|byte| byte.is_ascii_alphanumeric()) {
+            return Err(ProofError::Mismatch(say!(
+                the_word_between_blocks_cannot_be_read_again,
+                word
+            )));
         }
-        let sound = matches!(read[..], [Item::Word { .. }])
-            && word.bytes().all(|byte| byte.is_ascii_alphanumeric());
-        if !sound {
-            let sentence = say!(the_word_between_blocks_cannot_be_read_again, word);
-            return Err(match self.settings.tab_stop.as_deref() {
-                Some(stop) if stop == word => ProofError::Refused(sentence),
-                _ => ProofError::Mismatch(sentence),
-            });
+        if let Some(notes) = &mut self.notes {
+            let start = self.out.len();
+            notes.stop(start..start + word.len(), notes.at(), what == Word::End);
         }
         self.out.extend_from_slice(word.as_bytes());
         self.out.push(b'\n');
@@ -409,7 +434,7 @@ impl<'a> Blocks<'a> {
         if self.made.blocks == 0 && cuts {
             return Err(nothing_to_write());
         }
-        self.push_word(self.words.end)?;
+        self.push_word(self.words.end, Word::End)?;
         let made = ProvedProgram {
             closure: [self.proof.drift.x, self.proof.drift.y],
             deviation: self.proof.deviation,

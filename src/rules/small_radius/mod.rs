@@ -53,9 +53,8 @@ pub(crate) fn check(
     };
     let detail = SmallRadius::of(&own, arc.radius, limits.correction, 1.0);
     // Stock that a later pass takes away does no harm in this one.
-    let later = limits.correction - limits.last_correction;
     Some(SmallRadius {
-        overcut: (detail.overcut - later).max(0.0),
+        overcut: (detail.overcut - limits.taken_later).max(0.0),
         pass: limits.pass,
         taken_by_skims: limits.is_for_skims(arc.radius),
         ..detail

@@ -57,6 +57,27 @@ impl Lines<'_> {
             .unwrap_or_else(|| counted_on(&self.profile.register, pass - 1))
     }
 
+    /// A refusal where the register that the control reads has to hold another correction than for a pass before.
+    pub(super) fn hold_one_correction(&mut self) -> Proved {
+        let corrections = self.settings.each_correction();
+        let Some((offset, &own)) = self.machine.offset.zip(corrections.get(self.pass - 1)) else {
+            return Ok(());
+        };
+        let is_same = |(register, _): &&(Offset, f64)| *register == offset;
+        match self.holding.iter().find(is_same) {
+            Some((_, held)) if (held - own).abs() > 1e-9 => {
+                let Offset { letter, index } = offset;
+                let word = format!("{}{index}", char::from(letter));
+                Err(self.refused(&say!(its_register_is_of_two_corrections, word, held, own)))
+            }
+            Some(_) => Ok(()),
+            None => {
+                self.holding.push((offset, own));
+                Ok(())
+            }
+        }
+    }
+
     /// What stands in the registers that the program named: as it says, or, where there is but one, by the settings.
     fn kept_offsets(&self, kept: &[Kept]) -> Vec<(String, f64)> {
         let mut registers: Vec<(u32, Option<f64>)> = Vec::new();

@@ -137,6 +137,8 @@ struct Suspect<'a> {
     /// It must return to its start.
     closes: bool,
     is_four_b: bool,
+    /// How wide X, Y and J are written.
+    widths: [usize; 3],
     /// The blocks before which a number is missing.
     lost: Vec<usize>,
 }
@@ -372,6 +374,7 @@ impl<'a> Suspect<'a> {
             is_mirrored: is_mirrored(&items),
             closes: !path.is_jump,
             is_four_b: items.iter().any(|item| item.part.is_some()),
+            widths: slips::widths(path.pieces),
             lost: (1..items.len()).filter(is_lost).collect(),
             items,
         };

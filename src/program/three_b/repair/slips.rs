@@ -100,6 +100,22 @@ pub(super) fn is_usual(block: &Block) -> bool {
     (x, y) == (0, 0) || quadrant == usual
 }
 
+/// The numbers of a block as they are written: X, Y and J, and how wide the program makes each with zeros in front; 0 where it does not.
+#[derive(Clone, Copy)]
+pub(super) struct Written<'a> {
+    pub(crate) digits: &'a [String; 3],
+    pub(crate) widths: [usize; 3],
+}
+
+/// How wide numbers are written with zeros in front.
+pub(super) fn widths(pieces: &[Piece]) -> [usize; 3] {
+    [0, 1, 2].map(|nth| {
+        let numbers = pieces.iter().map(|piece| piece.digits[nth].as_str());
+        let padded = numbers.filter(|digits| digits.len() > 1 && digits.starts_with('0'));
+        padded.map(str::len).max().unwrap_or(0)
+    })
+}
+
 /// Blocks with the numbers of another one, and where each leads, whatever end is wanted.
 fn of_same_numbers(block: &Block) -> Vec<(Block, Slip, Move)> {
     let (axis, x, y) = (block.axis.other(), block.y, block.x);
@@ -114,11 +130,10 @@ fn of_same_numbers(block: &Block) -> Vec<(Block, Slip, Move)> {
 }
 
 /// The sound blocks that differ from one by a slip and lead to the intended end: those `of_same_numbers`, and others.
-/// `digits` are its numbers as they are written.
-fn blocks_to(
+pub(super) fn blocks_to(
     (block, part): (&Block, Option<PartArc>),
     of_same_numbers: &[(Block, Slip, Move)],
-    digits: &[String; 3],
+    written: Written<'_>,
     wanted: &Wanted,
     limits: &Limits,
 ) -> Vec<(Block, Slip)> {
@@ -132,7 +147,7 @@ fn blocks_to(
         }
     };
     for number in [Number::X, Number::Y, Number::J] {
-        for (value, how) in values(block, number, digits, wanted) {
+        for (value, how) in values(block, number, written, wanted) {
             let changed = with(block, number, value);
             // A full turn, or a line in another scale, does not come from a number that was not nearly written.
             let is_scaled =
@@ -164,13 +179,15 @@ pub(super) fn with(block: &Block, number: Number, value: i64) -> Block {
 fn values(
     block: &Block,
     number: Number,
-    digits: &[String; 3],
+    Written { digits, widths }: Written<'_>,
     wanted: &Wanted,
 ) -> Vec<(i64, Digits)> {
     let Some((value, within)) = solved(block, number, wanted) else {
         return Vec::new();
     };
-    let mut slips = slips_near(&digits[number as usize], value, within);
+    let (digits, width) = (&digits[number as usize], widths[number as usize]);
+    let mut slips = slips_near(digits, value, within);
+    slips.extend(padded_near(digits, width, value, within));
     slips.sort_unstable_by_key(|slip| (slip.abs_diff(value), *slip));
     slips.dedup();
     let slips = slips.into_iter().map(|slip| (slip, Digits::One));
@@ -197,14 +214,25 @@ fn slips_near(digits: &str, value: i64, within: i64) -> Vec<i64> {
         .collect()
 }
 
+/// The same among numbers that are filled up with zeros in front: of the first digit of 403990 a wrong key makes 003990.
+fn padded_near(digits: &str, width: usize, value: i64, within: i64) -> impl Iterator<Item = i64> {
+    let near = value.saturating_sub(within).max(0)..=value.saturating_add(within);
+    let near = (width > 0).then_some(near).into_iter().flatten();
+    let is_one =
+        move |slip: &i64| keys::is_slip(digits.as_bytes(), format!("{slip:0width$}").as_bytes());
+    near.filter(is_one)
+}
+
 /// How far from a solved value the nearly written one is searched for, µm.
 const ROUND: i64 = 40;
 
 /// The value of a number that leads to the intended end, and its uncertainty, µm.
 pub(super) fn solved(block: &Block, number: Number, wanted: &Wanted) -> Option<(i64, i64)> {
     let [dx, dy] = wanted.by;
+    // Coordinates are not exact: 0 may come out below.
     let whole = |value: f64| {
-        (value.is_finite() && (0.0..1e12).contains(&value)).then_some(value.round() as i64)
+        (value.is_finite() && (-0.5..1e12).contains(&value))
+            .then_some(value.round().max(0.0) as i64)
     };
     match (block.motion, number) {
         (Motion::Line(_), Number::X) => Some((whole(dx.abs())?, wanted.near.ceil() as i64)),
@@ -288,7 +316,11 @@ impl Suspect<'_> {
         for (wanted, is_stated) in wanted {
             let own = (block, piece.item.part);
             let limits = self.path.limits;
-            for (changed, slip) in blocks_to(own, &same, &piece.digits, wanted, limits) {
+            let written = Written {
+                digits: &piece.digits,
+                widths: self.widths,
+            };
+            for (changed, slip) in blocks_to(own, &same, written, wanted, limits) {
                 if self.lacks_a_part(&changed, own.1) {
                     continue;
                 }
@@ -367,6 +399,19 @@ fn restored(block: &Block, keys: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_wrong_key_in_front_of_a_padded_number_is_one() {
+        for (digits, width, value, expected) in [
+            ("403990", 6, 3990, true),
+            ("013990", 6, 3990, true),
+            ("403990", 0, 3990, false),
+            ("403990", 6, 3980, false),
+        ] {
+            let mut found = padded_near(digits, width, value, 4);
+            assert_eq!(found.any(|slip| slip == 3990), expected, "{digits} {width}");
+        }
+    }
 
     proptest::proptest! {
         /// Both ways to find them agree.
