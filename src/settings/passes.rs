@@ -140,10 +140,8 @@ fn shared_registers(corrections: &[f64], passes: &Passes) -> Vec<PassFault> {
 /// A register as controls read it: its letters, and the number behind them.
 fn register_of(word: &str) -> (String, Option<u64>) {
     let letters = word.trim_end_matches(|letter: char| letter.is_ascii_digit());
-    (
-        letters.to_ascii_uppercase(),
-        word[letters.len()..].parse().ok(),
-    )
+    let number = word.strip_prefix(letters).unwrap_or_default();
+    (letters.to_ascii_uppercase(), number.parse().ok())
 }
 
 /// The passes whose wire, with its gap, cuts further than to the contour by more than `allowed` mm: a clearance of a pair.

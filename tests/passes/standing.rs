@@ -48,9 +48,18 @@ fn wire(more: &str) -> String {
     format!("{WIRE}[program]\n{more}\n")
 }
 
+/// What drops out, the contour, settings, and how severely what is said.
+type Row = (
+    Role,
+    &'static [[f64; 3]],
+    String,
+    Severity,
+    &'static [&'static str],
+);
+
 #[test]
 fn a_tab_that_holds_nothing_is_said() {
-    let rows: &[(Role, &[[f64; 3]], String, Severity, &[&str])] = &[
+    let rows: &[Row] = &[
         (
             Punch,
             &PLATE,
