@@ -247,7 +247,7 @@ fn passes_that_cut_beyond_the_contour_are_said() {
         ),
         (
             "correction = 0.097\n",
-            Some("it cuts 0.0030 mm beyond the contour"),
+            Some("it would cut 0.0030 mm beyond the contour"),
         ),
         ("", None),
     ] {

@@ -110,29 +110,6 @@ fn a_punch_without_a_tab_is_said_to_drop_in_its_first_pass() {
 }
 
 #[test]
-fn the_machine_stops_before_the_tab_by_its_own_word() {
-    let text = "[program]\ntab = 3\ntab-stop = \"M01\"\n";
-    let drawing = drawing(Role::Punch, &PLATE);
-    let made = generated(&drawing, &settings(text), Format::Iso);
-    let stops: Vec<&str> = made
-        .program
-        .text
-        .lines()
-        .filter(|line| line.starts_with('M'))
-        .collect();
-    assert_eq!(stops, ["M01", "M02"]);
-    let refused = Format::ThreeB
-        .write(
-            &paths(&drawing, &settings(text)),
-            1.0,
-            &settings(text),
-            &mut |_, _| true,
-        )
-        .expect_err("3B has no such word");
-    assert!(refused.to_string().contains("\"M01\""), "{refused}");
-}
-
-#[test]
 fn four_b_stops_before_its_tab_and_goes_on_in_one_contour() {
     let drawing = drawing(Role::Punch, &PLATE);
     let whole = generated(&drawing, &settings(""), Format::FourB).program;

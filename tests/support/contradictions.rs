@@ -87,7 +87,7 @@ pub const CONTRADICTIONS: &[Contradiction] = &[
     row(ONE, "side = \"punch\"\nprogram.tab-stop = \"M02\"\n", "settings", "would never be cut off"),
     row(ONE, "side = \"punch\"\nprogram.end = \"STOP\"\nprogram.tab-stop = \"stop\"\n", "settings", "would never be cut off"),
     row(ONE, "side = \"punch\"\nprogram.tab-stop = \"T1\"\nprogram.tab = 3\n", "settings", "which stops no machine"),
-    row(ONE, "side = \"punch\"\nprogram.tab-stop = \"G00\"\n", "settings", "which stops no machine"),
+    row(ONE, "side = \"punch\"\nprogram.tab-stop = \"G00\"\n", "settings", "which is no part of a block"),
     row(ONE, "side = \"punch\"\nprogram.tab-stop = \"M08\"\n", "settings", "which stops no machine"),
     // Where the wire is threaded and comes to its contour.
     row(ONE, "side = \"opening\"\nprogram.start-hole = 12\n", "start-hole", "has room in contour A0"),
