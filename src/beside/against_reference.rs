@@ -6,11 +6,13 @@
 
 use super::begun::begun_elsewhere;
 use super::comparison::{Comparison, Difference, FEW};
+use super::displaced::displaced;
 use super::drawn::Drawn;
-use super::reference::{Reference, Under};
+use super::pairs::{Pair, Pairs};
+use super::reference::Under;
+use super::said::said;
 use super::traced::{Block, Motion, Traced};
 use super::walk::Kind;
-use crate::drawing::EntityId;
 use crate::geometry::{Arc, Segment, Vector};
 use std::cell::LazyCell;
 
@@ -24,8 +26,6 @@ const SAME: f64 = 1e-2;
 const SLIP: f64 = 50.0;
 /// For each differing block this many others must be as expected; with fewer, the settings are not known.
 const LIKE: usize = 4;
-/// The most blocks that may be lost or superfluous in one place.
-const LOST: usize = 3;
 
 /// The verdict on a program from a rewritten one.
 #[derive(Clone, Debug)]
@@ -35,6 +35,8 @@ pub(super) struct Told {
     pub mean: f64,
     /// Blocks are lost or superfluous.
     pub(crate) has_gap: bool,
+    /// Words without coordinates that differ.
+    pub(crate) words: Vec<Difference>,
     /// Ways in and out that are moved so far that this is intended.
     pub elsewhere: usize,
     /// One of the named blocks ends further from its place than [`SLIP`].
@@ -71,9 +73,21 @@ impl Told {
     }
 
     /// The evidence against it; the least evidence sorts first.
-    pub(crate) fn doubt(&self) -> (bool, usize, bool) {
+    pub(crate) fn doubt(&self) -> (bool, usize, bool, usize) {
         let many = self.comparison.differences.len().min(2) + self.elsewhere.min(2);
-        (!self.is_exact(), many, self.has_gap)
+        (!self.is_exact(), many, self.has_gap, self.words.len())
+    }
+
+    /// All that differs.
+    pub(crate) fn whole(self) -> Comparison {
+        let Told {
+            mut comparison,
+            words,
+            ..
+        } = self;
+        comparison.differences.extend(words);
+        comparison.differences.sort_by_key(|one| one.range.start);
+        comparison
     }
 }
 
@@ -90,8 +104,17 @@ pub(super) fn against_reference(drawn: &Drawn, traced: &Traced, under: &Under) -
         None => usize::MAX,
     };
     for (nth, enough) in [0, 0, 1].into_iter().enumerate() {
-        // Where the wire is threaded elsewhere, a program that says no place lies where most of it does.
-        let is_moved = traced.counts && best.as_ref().is_some_and(|told| told.elsewhere > 0);
+        // Where the wire is threaded elsewhere, a program that says no place lies where most of it does; and so does one
+        // of which some contours lie elsewhere than the others.
+        let is_displaced = |told: &Told| {
+            told.comparison
+                .differences
+                .iter()
+                .any(|one| one.kind == Kind::Moved)
+        };
+        let is_moved = best
+            .as_ref()
+            .is_some_and(|told| traced.counts && told.elsewhere > 0 || is_displaced(told));
         let enough = if is_moved { 0 } else { enough };
         if many(&best) <= enough {
             break;
@@ -106,141 +129,21 @@ pub(super) fn against_reference(drawn: &Drawn, traced: &Traced, under: &Under) -
             best = told;
         }
     }
+    if let Some(told) = &mut best {
+        let is_set = under.handles.is_none() && under.settings == *drawn.settings;
+        told.words = said(&pairs, is_set);
+    }
     best
 }
 
-/// The blocks of a program, each beside the rewritten one.
-struct Pairs<'a> {
-    traced: &'a Traced,
-    reference: &'a Reference,
-    pairs: Vec<Pair<'a>>,
-    /// The block at which some are lost or too many, and one of these.
-    gap: Option<(&'a Block, &'a Block)>,
-}
-
-struct Pair<'a> {
-    own: &'a Block,
-    meant: &'a Block,
-    words: Words,
-    /// Blocks before it are lost or superfluous.
-    behind_gap: bool,
-}
-
-/// The words of a block beside those of the rewritten one.
-#[derive(Clone, Copy)]
-struct Words {
-    /// They are the same.
-    are_same: bool,
-    /// The difference of one of the numbers, where all else is equal, µm.
-    apart: Option<f64>,
-    /// The same for the coordinates after the block.
-    stated: f64,
-}
-
-impl Words {
-    fn of(traced: &Traced, own: &Block, reference: &Reference, meant: &Block) -> Words {
-        let reference = &reference.traced;
-        if traced.line_from(own) == reference.line_from(meant) {
-            return Words {
-                are_same: true,
-                apart: Some(0.0),
-                stated: 0.0,
-            };
-        }
-        let (said, expected) = (traced.said(own), reference.said(meant));
-        let stated = match (said.stated, expected.stated) {
-            (Some([x, y]), Some([meant_x, meant_y])) => {
-                (x - meant_x).abs().max((y - meant_y).abs())
-            }
-            _ => 0.0,
-        };
-        Words {
-            are_same: said.is_like(&expected),
-            apart: said.apart(&expected),
-            stated,
-        }
-    }
-
-    /// Equal except for rounding.
-    fn are_near(&self) -> bool {
-        self.apart.is_some_and(|apart| apart <= 1.0)
-    }
-}
-
-impl<'a> Pairs<'a> {
-    /// `None` where blocks are lost or superfluous and there is any other difference, or where they are too many.
-    fn of(traced: &'a Traced, reference: &'a Reference) -> Option<Pairs<'a>> {
-        let (own, meant) = (&traced.blocks[..], &reference.traced.blocks[..]);
-        let (more, lost) = (
-            own.len().saturating_sub(meant.len()),
-            meant.len().saturating_sub(own.len()),
-        );
-        if more.max(lost) > LOST || own.is_empty() {
-            return None;
-        }
-        let pair = |(own, meant): (&'a Block, &'a Block)| Pair {
-            own,
-            meant,
-            words: Words::of(traced, own, reference, meant),
-            behind_gap: false,
-        };
-        let mut pairs: Vec<Pair> = Vec::with_capacity(own.len());
-        if more + lost == 0 {
-            pairs.extend(own.iter().zip(meant).map(pair));
-            return Some(Pairs {
-                traced,
-                reference,
-                pairs,
-                gap: None,
-            });
-        }
-        let before = own.iter().zip(meant).map(pair);
-        pairs.extend(before.take_while(|pair| pair.words.are_near()));
-        let at = pairs.len();
-        let behind = own.get(at + more..)?.iter().zip(meant.get(at + lost..)?);
-        pairs.extend(behind.map(pair));
-        if !pairs[at..].iter().all(|pair| pair.words.are_near()) {
-            return None;
-        }
-        if let Some(next) = pairs.get_mut(at) {
-            next.behind_gap = true;
-        }
-        let place = own.get(at).or(own.last())?;
-        let of = if more > 0 {
-            own.get(at)?
-        } else {
-            meant.get(at)?
-        };
-        let is_stop = of.motion == Motion::Stop;
-        (!is_stop).then_some(Pairs {
-            traced,
-            reference,
-            pairs,
-            gap: Some((place, of)),
-        })
-    }
-
-    /// The place of most of the program relative to the rewritten one.
-    fn away(&self) -> Vector {
-        let ends = |pair: &Pair| {
-            let ([_, end], [_, meant]) = (pair.own.motion.ends()?, pair.meant.motion.ends()?);
-            Some(end - meant)
-        };
-        let all: Vec<Vector> = self.pairs.iter().filter_map(ends).collect();
-        let middle = |axis: usize| {
-            let mut all: Vec<f64> = all.iter().map(|away| away[axis]).collect();
-            let half = all.len() / 2;
-            match all.is_empty() {
-                true => 0.0,
-                false => *all.select_nth_unstable_by(half, f64::total_cmp).1,
-            }
-        };
-        Vector::new(middle(0), middle(1))
-    }
-
+impl Pairs<'_> {
     /// The differences of a program at this distance from the rewritten one.
     fn told(&self, from: Vector) -> Option<Told> {
         let (traced, reference) = (self.traced, self.reference);
+        let is_offset = |of: &Traced| of.blocks.iter().any(Block::is_offset);
+        if is_offset(traced) && !is_offset(&reference.traced) {
+            return None;
+        }
         let rewritten = self
             .pairs
             .iter()
@@ -250,9 +153,6 @@ impl<'a> Pairs<'a> {
         let (mut before, mut beside, mut all) = (false, 0.0, Vec::new());
         for pair in &self.pairs {
             let (own, meant, words) = (pair.own, pair.meant, pair.words);
-            if own.is_offset != meant.is_offset {
-                return None;
-            }
             let is_behind = before || pair.behind_gap;
             let away = match words.apart {
                 // The control makes no arc of it: its numbers are all there is.
@@ -288,18 +188,42 @@ impl<'a> Pairs<'a> {
         let most = FEW.min(traced.blocks.len() / 3);
         let (mut found, mut stated) = (Vec::new(), Vec::new());
         let (mut elsewhere, mut ways, mut unlike, mut strays) = (0, 0, 0, false);
+        // Ways to a contour that lies elsewhere.
+        let mut aside = 0..0;
         let is_located = LazyCell::new(|| self.has_placed_contour(from));
+        let mut displaced = displaced(self, from, SLIP).into_iter().peekable();
         // Of the last that is named: its number, whether the program is elsewhere since, and whether it is a way to another
         // hole.
         let mut run: Option<(usize, bool, bool)> = None;
         for (number, (pair, (off, is_behind))) in self.pairs.iter().zip(&all).enumerate() {
             let (own, meant, words) = (pair.own, pair.meant, pair.words);
+            // Its contour lies elsewhere than the others, since this way or the first of it leads there.
+            while displaced.next_if(|it| it.ways.end < number).is_some() {}
+            if let Some(contour) = displaced.peek()
+                && number >= contour.ways.start
+                && (*off > alike || number == contour.ways.end)
+            {
+                if !contour.is_behind_one {
+                    found.push(Difference::of(
+                        own,
+                        contour.segment,
+                        contour.off,
+                        Kind::Moved,
+                    ));
+                }
+                let end = contour.ways.end;
+                aside = number..end;
+                displaced.next();
+            }
+            if aside.contains(&number) {
+                continue;
+            }
             if let Some((_, is_elsewhere, _)) = &mut run {
                 *is_elsewhere &= *off > alike || !self.is_placed(number, from);
             }
             if *off <= alike {
                 let off = words.stated;
-                stated.extend((off > alike).then(|| named(own, None, off, Kind::Stated)));
+                stated.extend((off > alike).then(|| Difference::of(own, None, off, Kind::Stated)));
                 continue;
             }
             if words.are_same {
@@ -347,7 +271,7 @@ impl<'a> Pairs<'a> {
                 return None;
             }
             strays |= !self.ends_near(number, from, SLIP);
-            found.push(named(own, segment, *off, kind));
+            found.push(Difference::of(own, segment, *off, kind));
         }
         if stated.len() <= FEW {
             found.append(&mut stated);
@@ -363,7 +287,7 @@ impl<'a> Pairs<'a> {
             } else {
                 Kind::Lead
             };
-            found.push(named(place, segment, length, kind));
+            found.push(Difference::of(place, segment, length, kind));
         }
         found.extend(begun_elsewhere(
             traced,
@@ -389,6 +313,7 @@ impl<'a> Pairs<'a> {
             elsewhere,
             strays,
             ways,
+            words: Vec::new(),
             unlike: [unlike, moving],
         })
     }
@@ -485,15 +410,5 @@ impl<'a> Pairs<'a> {
     /// After this block, or one of the next few, the program is where it should be.
     fn comes_back(&self, number: usize, from: Vector) -> bool {
         (number..number + FEW).any(|number| self.is_placed(number, from))
-    }
-}
-
-fn named(block: &Block, segment: Option<(EntityId, usize)>, off: f64, kind: Kind) -> Difference {
-    Difference {
-        range: block.range.clone(),
-        line: block.line,
-        segment,
-        off: off / 1e3,
-        kind,
     }
 }

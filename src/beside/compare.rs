@@ -1,7 +1,7 @@
 //! Compares a program with its drawing: as we write it under the drawing's settings, under others, else by the places
 //! of its blocks.
 
-use super::against_reference::against_reference;
+use super::against_reference::{Told, against_reference};
 use super::comparison::{Comparison, looked_at};
 use super::drawn::Drawn;
 use super::guess::otherwise;
@@ -24,10 +24,10 @@ pub fn compare(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
     if traced.mills {
         // Layers that are not there are so by other settings.
         let known = known.filter(|told| !told.has_gap);
-        return known.map(|told| told.comparison);
+        return known.map(Told::whole);
     }
     let Some(known) = known else {
-        let guessed = otherwise(drawn, traced).map(|told| told.comparison);
+        let guessed = otherwise(drawn, traced).map(Told::whole);
         return guessed.or_else(|| looked_at(drawn, traced));
     };
     let blocks = traced.blocks.len();
@@ -41,10 +41,10 @@ pub fn compare(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
         all => 16 * all.len() > blocks || all.iter().any(|one| one.off < ROUNDING),
     };
     if !is_doubtful {
-        return Some(known.comparison);
+        return Some(known.whole());
     }
     let guessed = otherwise(drawn, traced).filter(|told| told.doubt() < known.doubt());
-    let known = guessed.unwrap_or(known).comparison;
+    let known = guessed.unwrap_or(known).whole();
     if known.differences.len() < 2 {
         return Some(known);
     }

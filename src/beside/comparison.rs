@@ -8,7 +8,7 @@ use super::members::Members;
 use super::placement::Placement;
 use super::rounds::{Course, Rounds};
 use super::single::single;
-use super::traced::Traced;
+use super::traced::{Block, Traced};
 use super::walk::{Kind, Unlike, Walk, Walked};
 use super::{REACH, TOLERANCE};
 use crate::drawing::EntityId;
@@ -31,6 +31,24 @@ pub struct Difference {
     /// Its deviation, mm.
     pub off: f64,
     pub kind: Kind,
+}
+
+impl Difference {
+    /// The difference of a block, which is `off` µm from its place.
+    pub(super) fn of(
+        block: &Block,
+        segment: Option<(EntityId, usize)>,
+        off: f64,
+        kind: Kind,
+    ) -> Difference {
+        Difference {
+            range: block.range.clone(),
+            line: block.line,
+            segment,
+            off: off / 1e3,
+            kind,
+        }
+    }
 }
 
 /// The result of comparing a program with its drawing.
@@ -119,7 +137,7 @@ fn courses(settings: &Effective, traced: &Traced) -> Vec<Course> {
     if traced.four_b {
         return vec![Course::FourB, Course::Drawn];
     }
-    let is_offset = traced.blocks.iter().any(|block| block.is_offset);
+    let is_offset = traced.blocks.iter().any(|block| block.is_offset());
     if is_offset || settings.compensation == Compensation::None {
         return vec![Course::Drawn];
     }

@@ -77,7 +77,7 @@ impl Members {
         if let Some(before) = before
             && before.stretch != block.stretch
         {
-            self.is_broken |= before.is_offset && self.stretch.is_foreign();
+            self.is_broken |= before.is_offset() && self.stretch.is_foreign();
             self.stretch = Stretch::default();
         }
         let segment = match &block.motion {

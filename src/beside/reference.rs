@@ -274,7 +274,8 @@ mod tests {
             // The rest is just the same.
             let rest = |traced: &Traced| {
                 let blocks = traced.blocks.iter();
-                let blocks = blocks.map(|block| (block.range.clone(), block.line, block.is_offset));
+                let blocks =
+                    blocks.map(|block| (block.range.clone(), block.line, block.is_offset()));
                 let flags = [
                     traced.is_placed,
                     traced.counts,

@@ -15,7 +15,7 @@ use super::placement::{Placement, Reached};
 use super::rounds::{Rounds, Spot};
 use super::traced::{Motion, Traced};
 use crate::drawing::EntityId;
-use crate::geometry::Vector;
+use crate::geometry::{Side, Vector};
 use std::ops::Range;
 
 /// A block that does not follow, by its index.
@@ -42,6 +42,19 @@ pub enum Kind {
     Lead,
     /// The coordinates after a block of such a program differ from its end.
     Stated,
+    /// The control lets the wire run on one side, or none, and should on another.
+    Side {
+        said: Option<Side>,
+        meant: Option<Side>,
+    },
+    /// A pass takes its correction from the place of another one.
+    Register { said: u32, meant: u32 },
+    /// The machine should stop before this block.
+    Unstopped,
+    /// The wire runs on the other side of an arc of 4B; it should run inside of it, or outside.
+    Turned { meant: bool },
+    /// The wire runs into the part, by as much as it is off.
+    Inside,
 }
 
 /// The result of a walk.
