@@ -2,10 +2,13 @@
 //! of its blocks.
 
 use super::against_reference::{Told, against_reference};
-use super::comparison::{Comparison, looked_at};
+use super::comparison::looked_at;
+use super::difference::{Comparison, Difference};
 use super::drawn::Drawn;
 use super::guess::otherwise;
-use super::traced::Traced;
+use super::traced::{Block, Traced};
+use super::walk::Kind;
+use crate::settings::Compensation;
 
 /// In a program of fewer blocks, one deviating block may mean other settings.
 const SMALL: usize = 40;
@@ -28,7 +31,8 @@ pub fn compare(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
     }
     let Some(known) = known else {
         let guessed = otherwise(drawn, traced).map(Told::whole);
-        return guessed.or_else(|| looked_at(drawn, traced));
+        let seen = guessed.or_else(|| looked_at(drawn, traced));
+        return seen.or_else(|| on_other_side(drawn, traced));
     };
     let blocks = traced.blocks.len();
     // Of few blocks any may be as other settings have it; of many, a few may be as another writer rounds them.
@@ -51,4 +55,22 @@ pub fn compare(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
     // One may be as another writer has it in a place or two.
     let is_clean = |seen: &Comparison| seen.differences.is_empty();
     looked_at(drawn, traced).filter(is_clean).or(Some(known))
+}
+
+/// The first block of a program that follows all of the drawing on the other side of its contours.
+fn on_other_side(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
+    let is_offset = traced.blocks.iter().any(Block::is_offset);
+    if is_offset || traced.four_b || drawn.settings.compensation == Compensation::None {
+        return None;
+    }
+    let seen = looked_at(&drawn.turned()?, traced)?;
+    let first = seen
+        .follows
+        .first()
+        .filter(|_| seen.differences.is_empty())?;
+    let first = traced.blocks.iter().find(|block| block.range == *first)?;
+    Some(Comparison {
+        differences: vec![Difference::of(first, None, 0.0, Kind::OtherSide)],
+        follows: Vec::new(),
+    })
 }

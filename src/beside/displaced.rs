@@ -1,6 +1,7 @@
 //! Contours of a program that lie elsewhere than the others: all have one datum.
 
 use super::pairs::{Pair, Pairs};
+use super::traced::Block;
 use crate::drawing::EntityId;
 use crate::geometry::Vector;
 use std::ops::Range;
@@ -24,10 +25,13 @@ pub(super) struct Displaced {
 pub(super) fn displaced(pairs: &Pairs, from: Vector, least: f64) -> Vec<Displaced> {
     let mut found = Vec::new();
     let (mut end, mut last): (usize, Option<Vector>) = (0, None);
+    let mut is_one_in_place = false;
     for [_, contour] in &pairs.reference.traced.cuts {
         let number = |nth: usize| pairs.pairs.partition_point(|pair| pair.nth < nth);
         let own = number(contour.start)..number(contour.end);
-        let by = moved(&pairs.pairs[own.clone()], from).filter(|by| by.norm() > least);
+        let by = moved(&pairs.pairs[own.clone()], from);
+        is_one_in_place |= by.is_some_and(|by| by.norm() <= ALIKE);
+        let by = by.filter(|by| by.norm() > least);
         if let Some(by) = by {
             let first = &pairs.pairs[own.start];
             found.push(Displaced {
@@ -39,6 +43,10 @@ pub(super) fn displaced(pairs: &Pairs, from: Vector, least: f64) -> Vec<Displace
         }
         (end, last) = (own.end.max(end), by);
     }
+    // All of them together lie where the program lies.
+    if !is_one_in_place {
+        found.clear();
+    }
     found
 }
 
@@ -47,7 +55,7 @@ fn moved(contour: &[Pair], from: Vector) -> Option<Vector> {
     let middle = contour.get(contour.len() / 2)?;
     let away = |pair: &Pair| {
         let ([start, end], [from_start, to]) = (pair.own.motion.ends()?, pair.meant.motion.ends()?);
-        let center = |pair: [&crate::beside::traced::Block; 2]| {
+        let center = |pair: [&Block; 2]| {
             let [own, meant] = pair.map(|block| block.segment()?.as_arc());
             own.zip(meant)
                 .map(|(own, meant)| own.center - from - meant.center)

@@ -157,6 +157,11 @@ pub(crate) fn of_program(
                 other: other(),
                 off,
             },
+            DifferenceKind::Astray => Unlike::Astray {
+                other: other(),
+                off,
+            },
+            DifferenceKind::OtherSide => Unlike::OtherSide { other: other() },
         };
         finding(unlike, Place::Text { range }, settings)
     }));

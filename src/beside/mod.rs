@@ -10,16 +10,19 @@
 
 mod about_stops;
 mod against_reference;
+mod alongside;
 mod anchor;
 mod begun;
 mod cache;
 mod compare;
 mod comparison;
 mod coverage;
+mod difference;
 mod displaced;
 mod drawn;
 mod findings;
 mod foreign;
+mod gouges;
 mod guess;
 mod infer;
 mod matching;

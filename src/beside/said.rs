@@ -1,7 +1,8 @@
 //! What a program says beside coordinates: the side of the correction and where it is taken from, stops, and the side of
 //! each arc in 4B. Where the blocks are those of the rewritten program, these words are, too.
 
-use super::comparison::{Difference, FEW};
+use super::comparison::FEW;
+use super::difference::Difference;
 use super::pairs::{Pair, Pairs};
 use super::traced::{Block, Motion};
 use super::walk::Kind;

@@ -3,7 +3,8 @@
 
 use super::about_stops::{FAR, differs_from_stop_to_stop, is_amid, parts_at_a_stop};
 use super::against_reference::Told;
-use super::comparison::{Difference, FEW};
+use super::comparison::FEW;
+use super::difference::Difference;
 use super::reference::Under;
 use super::traced::Traced;
 use super::walk::Kind;

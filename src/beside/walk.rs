@@ -55,6 +55,10 @@ pub enum Kind {
     Turned { meant: bool },
     /// The wire runs into the part, by as much as it is off.
     Inside,
+    /// A way in ends this far beside the path of its contour, which goes on from there.
+    Astray,
+    /// The wire runs on the other side of its contour than the settings say.
+    OtherSide,
 }
 
 /// The result of a walk.
@@ -63,6 +67,8 @@ pub(super) struct Walked {
     pub unlike: Vec<Unlike>,
     /// For each block: it is part of a run, or of something named in one.
     pub runs: Vec<bool>,
+    /// For each block that follows a round, its number, and whether it goes against its direction.
+    pub on: Vec<Option<(usize, bool)>>,
     /// The blocks that end where the drawing says.
     pub follows: Vec<usize>,
     /// Contours that were followed.
@@ -132,6 +138,7 @@ impl<'a> Walk<'a> {
             moved: Vec::new(),
             walked: Walked {
                 runs: vec![false; traced.blocks.len()],
+                on: vec![None; traced.blocks.len()],
                 ..Walked::default()
             },
         }
@@ -230,6 +237,7 @@ impl<'a> Walk<'a> {
     /// Notes what a block has cut.
     fn take(&mut self, run: &mut Run, reached: &Reached, index: usize) {
         self.walked.runs[index] = true;
+        self.walked.on[index] = Some((run.spot.round, run.spot.back));
         // The overlap past its start, and the start of a tab, are the program's own.
         if reached.whole && !run.complete {
             self.walked.follows.push(index);

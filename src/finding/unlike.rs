@@ -38,6 +38,10 @@ told! {
         => say!(the_arc_has_the_wire_on_its_other_side, said, meant, other);
     /// The wire leaves its contour into the part, by `off` mm.
     Inside { other: Arc<str>, off: f64 } => say!(the_wire_cuts_into_the_part, other, mm(*off));
+    /// A way in ends beside the path of its contour, by `off` mm, and the contour goes on from there.
+    Astray { other: Arc<str>, off: f64 } => say!(the_way_in_ends_beside_its_contour, other, mm(*off));
+    /// The wire runs on the other side of its contours than the settings say.
+    OtherSide { other: Arc<str> } => say!(it_is_cut_on_the_other_side, other);
     /// A block of the program, on a line from 1, does not follow this segment of the drawing; `off` is in the drawing's
     /// unit.
     Segment { other: Arc<str>, line: usize, off: f64 }
@@ -68,6 +72,7 @@ impl Unlike {
             | Unlike::Lead { off, .. }
             | Unlike::Stated { off, .. }
             | Unlike::Inside { off, .. }
+            | Unlike::Astray { off, .. }
             | Unlike::Segment { off, .. }
             | Unlike::Begin { off, .. } => Some(*off),
             _ => None,

@@ -70,6 +70,8 @@ declare! {
     a_stop_is_missing_before_this_block(drawing) => "the program does not stop before this block, where {drawing} and its settings have a stop";
     the_arc_has_the_wire_on_its_other_side(said, meant, drawing) => "{said} where {drawing} needs {meant}: the arc has the wire on its other side, and its radius is wrong by twice the correction";
     the_wire_cuts_into_the_part(drawing, off) => "the wire leaves the contour here and cuts {off} mm into the part of {drawing}";
+    the_way_in_ends_beside_its_contour(drawing, off) => "way in ends {off} mm beside the path of its contour in {drawing}, and the contour is cut from there";
+    it_is_cut_on_the_other_side(drawing) => "the wire runs on the other side of the contour than {drawing} and its settings say";
     the_contour_is_left_before_it_is_cut_all_round(segment, handle, drawing) => "contour is left here although {drawing} goes on with segment {segment} of {handle}";
     no_contour_of_the_drawing_is_like_this(drawing) => "no contour of {drawing} matches this one at any correction of the program";
     the_program_does_not_follow_this_segment(program, line, off) => "{program} does not follow this segment: its line {line} ends {off} mm from where the drawing has it; write the program again if the drawing has changed";
