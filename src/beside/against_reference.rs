@@ -74,13 +74,16 @@ impl Told {
     }
 
     /// The evidence against it; the least evidence sorts first.
-    pub(crate) fn doubt(&self) -> (bool, usize, bool, usize) {
+    pub(crate) fn doubt(&self) -> (bool, usize, bool, usize, u64) {
+        let off = self.comparison.differences.iter().map(|one| one.off);
+        let off = (off.sum::<f64>() * 1e3).round() as u64;
         let many = self.comparison.differences.len().min(2) + self.elsewhere.min(2);
         (
             !self.is_exact(),
             many,
             self.has_gap || self.strays,
             self.words.len(),
+            off,
         )
     }
 
@@ -192,8 +195,6 @@ impl Pairs<'_> {
         let most = FEW.min(traced.blocks.len() / 3);
         let (mut found, mut stated) = (Vec::new(), Vec::new());
         let (mut elsewhere, mut ways, mut unlike, mut strays) = (0, 0, 0, false);
-        // Ways to a contour that lies elsewhere.
-        let mut aside = 0..0;
         let is_located = LazyCell::new(|| self.has_placed_contour(from));
         let mut displaced = displaced(self, from, SLIP).into_iter().peekable();
         // Of the last that is named: its number, whether the program is elsewhere since, and whether it is a way to another
@@ -205,22 +206,14 @@ impl Pairs<'_> {
             while displaced.next_if(|it| it.ways.end < number).is_some() {}
             if let Some(contour) = displaced.peek()
                 && number >= contour.ways.start
-                && (*off > alike || number == contour.ways.end)
             {
-                if !contour.is_behind_one {
-                    found.push(Difference::of(
-                        own,
-                        contour.segment,
-                        contour.off,
-                        Kind::Moved,
-                    ));
+                if number == contour.way && !contour.is_behind_one {
+                    let (segment, off) = (contour.segment, contour.off);
+                    found.push(Difference::of(own, segment, off, Kind::Moved));
                 }
-                let end = contour.ways.end;
-                aside = number..end;
-                displaced.next();
-            }
-            if aside.contains(&number) {
-                continue;
+                if number < contour.ways.end {
+                    continue;
+                }
             }
             if let Some((_, is_elsewhere, _)) = &mut run {
                 *is_elsewhere &= *off > alike || !self.is_placed(number, from);
@@ -239,7 +232,6 @@ impl Pairs<'_> {
             }
             let source = reference.source_of(&meant.motion);
             ways += usize::from(source.is_none());
-            unlike += usize::from(source.is_some());
             let is_of_contour = source.is_some();
             let goes_on = run.is_some_and(|(last, is_elsewhere, is_aside)| {
                 if is_aside && is_of_contour {
@@ -255,6 +247,7 @@ impl Pairs<'_> {
             if goes_on && self.comes_back(number, from) {
                 continue;
             }
+            unlike += usize::from(is_of_contour);
             // The wire is threaded elsewhere, and the contour begins and closes where it comes from there.
             if elsewhere > 0 && *off > SLIP && self.is_at_its_entry(number, from) {
                 run = None;

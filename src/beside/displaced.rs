@@ -1,18 +1,22 @@
 //! Contours of a program that lie elsewhere than the others: all have one datum.
 
 use super::pairs::{Pair, Pairs};
-use super::traced::Block;
+use super::traced::{Block, Motion};
 use crate::drawing::EntityId;
 use crate::geometry::Vector;
 use std::ops::Range;
 
 /// Places of one contour are moved alike within this, µm.
 const ALIKE: f64 = 4.0;
+/// The most ways of being moved that are told apart.
+const GROUPS: usize = 32;
 
 /// A contour that is moved as a whole.
 pub(super) struct Displaced {
-    /// Numbers of the pairs that lead there, and of those of its contour.
+    /// Numbers of the pairs that lead there.
     pub ways: Range<usize>,
+    /// The one that leads astray; the first of the contour where none of them does.
+    pub way: usize,
     /// The segment of the drawing where it begins.
     pub segment: Option<(EntityId, usize)>,
     /// By how much, µm.
@@ -21,33 +25,74 @@ pub(super) struct Displaced {
     pub is_behind_one: bool,
 }
 
-/// The contours that lie farther than `least` from where the drawing has them, where the program lies at `from`.
+/// The contours that lie farther than `least` from where the drawing has them beside most of the others, or beside the
+/// first, where the program lies at `from`.
 pub(super) fn displaced(pairs: &Pairs, from: Vector, least: f64) -> Vec<Displaced> {
+    let number = |nth: usize| pairs.pairs.partition_point(|pair| pair.nth < nth);
+    let cuts = pairs.reference.traced.cuts.iter();
+    let all: Vec<(Range<usize>, Option<Vector>)> = cuts
+        .map(|[_, contour]| number(contour.start)..number(contour.end))
+        .map(|own| (own.clone(), moved(&pairs.pairs[own], from)))
+        .collect();
+    let known: Vec<Vector> = all.iter().filter_map(|(_, by)| *by).collect();
+    let Some(base) = shared_by_most(&known) else {
+        return Vec::new();
+    };
     let mut found = Vec::new();
     let (mut end, mut last): (usize, Option<Vector>) = (0, None);
-    let mut is_one_in_place = false;
-    for [_, contour] in &pairs.reference.traced.cuts {
-        let number = |nth: usize| pairs.pairs.partition_point(|pair| pair.nth < nth);
-        let own = number(contour.start)..number(contour.end);
-        let by = moved(&pairs.pairs[own.clone()], from);
-        is_one_in_place |= by.is_some_and(|by| by.norm() <= ALIKE);
-        let by = by.filter(|by| by.norm() > least);
+    let mut before = base;
+    for (own, at) in all {
+        let by = at.map(|by| by - base).filter(|by| by.norm() > least);
         if let Some(by) = by {
             let first = &pairs.pairs[own.start];
+            let ways = end..own.start;
+            let apart = |number: usize| {
+                let pair = pairs.pairs.get(number)?;
+                let ([start, end], [from, to]) =
+                    (pair.own.motion.ends()?, pair.meant.motion.ends()?);
+                Some((end - start) - (to - from))
+            };
+            let leads_there = |number: &usize| {
+                let apart = apart(*number);
+                apart.is_some_and(|apart| (apart - (by + base - before)).norm() <= ALIKE)
+            };
+            let is_way =
+                |number: &usize| matches!(pairs.pairs[*number].own.motion, Motion::Way(..));
+            let way = ways
+                .clone()
+                .find(leads_there)
+                .or_else(|| ways.clone().find(is_way));
             found.push(Displaced {
-                ways: end..own.start,
+                way: way.unwrap_or(own.start),
+                ways,
                 segment: pairs.reference.source_of(&first.meant.motion),
                 off: by.norm(),
                 is_behind_one: last.is_some_and(|last| (last - by).norm() <= ALIKE),
             });
         }
-        (end, last) = (own.end.max(end), by);
-    }
-    // All of them together lie where the program lies.
-    if !is_one_in_place {
-        found.clear();
+        (end, last, before) = (own.end.max(end), by, at.unwrap_or(before));
     }
     found
+}
+
+/// Of these vectors the first of those that are alike more often than any others.
+fn shared_by_most(all: &[Vector]) -> Option<Vector> {
+    let mut groups: Vec<(Vector, usize)> = Vec::new();
+    for by in all {
+        let known = groups
+            .iter_mut()
+            .take(GROUPS)
+            .find(|(own, _)| (own - by).norm() <= ALIKE);
+        match known {
+            Some((_, count)) => *count += 1,
+            None => groups.push((*by, 1)),
+        }
+    }
+    let most = groups.iter().map(|(_, count)| *count).max()?;
+    groups
+        .into_iter()
+        .find(|(_, count)| *count == most)
+        .map(|(by, _)| by)
 }
 
 /// By how much most of these blocks are moved, with the place where they begin.

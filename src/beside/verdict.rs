@@ -58,12 +58,12 @@ pub(super) fn is_certain(traced: &Traced, told: &Told, under: &Under) -> bool {
 /// Of guesses that are not exact the nearest comes first: one that is farther off may hide a change. They come before
 /// those with lost or superfluous blocks, which may be an overlap. Of exact ones for 4B, whose ways in and out tell the
 /// correction, the one that has most of these comes first.
-pub(super) fn rank(traced: &Traced, told: &Told) -> ((bool, usize, bool, usize), usize, f64) {
+pub(super) fn rank(traced: &Traced, told: &Told) -> ((bool, usize, bool, usize, u64), usize, f64) {
     match told.is_exact() {
-        true if told.has_gap => ((true, 0, true, 0), 0, told.mean),
+        true if told.has_gap => ((true, 0, true, 0, 0), 0, told.mean),
         true if traced.four_b => (told.doubt(), told.ways, told.mean),
         true => (told.doubt(), 0, told.mean),
-        false => ((true, 0, false, 0), 0, told.mean),
+        false => ((true, 0, false, 0, 0), 0, told.mean),
     }
 }
 
