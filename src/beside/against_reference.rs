@@ -75,7 +75,9 @@ impl Told {
 
     /// The evidence against it; the least evidence sorts first.
     pub(crate) fn doubt(&self) -> (bool, usize, bool, usize, u64) {
-        let off = self.comparison.differences.iter().map(|one| one.off);
+        // Nothing but a contour out of place is one by itself.
+        let all = self.comparison.differences.iter();
+        let off = all.filter(|one| one.kind != Kind::Moved).map(|one| one.off);
         let off = (off.sum::<f64>() * 1e3).round() as u64;
         let many = self.comparison.differences.len().min(2) + self.elsewhere.min(2);
         (
@@ -106,7 +108,7 @@ pub(super) fn against_reference(drawn: &Drawn, traced: &Traced, under: &Under) -
     let pairs = Pairs::of(traced, reference)?;
     // Placed as the drawing is, or anywhere: by its start, or by most of it.
     let anywhere = traced.begin()? - reference.traced.begin()?;
-    let as_drawn = (traced.is_placed && reference.traced.is_placed).then(Vector::zeros);
+    let as_drawn = traced.is_placed.then_some(reference.shift);
     let mut best: Option<Told> = None;
     let many = |told: &Option<Told>| match told {
         Some(told) => told.comparison.differences.len(),
@@ -131,7 +133,7 @@ pub(super) fn against_reference(drawn: &Drawn, traced: &Traced, under: &Under) -
             1 => Some(anywhere),
             _ => Some(pairs.away()),
         };
-        let told = from.and_then(|from| pairs.told(from));
+        let told = from.and_then(|from| pairs.told(from, as_drawn == Some(from)));
         if many(&told) < many(&best) {
             best = told;
         }
@@ -145,7 +147,7 @@ pub(super) fn against_reference(drawn: &Drawn, traced: &Traced, under: &Under) -
 
 impl Pairs<'_> {
     /// The differences of a program at this distance from the rewritten one.
-    fn told(&self, from: Vector) -> Option<Told> {
+    fn told(&self, from: Vector, is_as_drawn: bool) -> Option<Told> {
         let (traced, reference) = (self.traced, self.reference);
         let is_offset = |of: &Traced| of.blocks.iter().any(Block::is_offset);
         if is_offset(traced) && !is_offset(&reference.traced) {
@@ -157,8 +159,12 @@ impl Pairs<'_> {
             .filter(|pair| !pair.words.are_same)
             .count();
         let is_in_our_words = 2 * rewritten <= traced.blocks.len();
+        let displaced = displaced(self, from, SLIP);
         let (mut before, mut beside, mut all) = (false, 0.0, Vec::new());
-        for pair in &self.pairs {
+        let mut contours = displaced.iter().peekable();
+        for (number, pair) in self.pairs.iter().enumerate() {
+            while contours.next_if(|it| it.contour.end <= number).is_some() {}
+            let elsewhere = contours.peek().filter(|it| it.contour.contains(&number));
             let (own, meant, words) = (pair.own, pair.meant, pair.words);
             let is_behind = before || pair.behind_gap;
             let away = match words.apart {
@@ -166,6 +172,9 @@ impl Pairs<'_> {
                 Some(apart) if own.is_lost && is_in_our_words => Some(apart),
                 _ => own.motion.away_from(&meant.motion, from, is_behind),
             };
+            let by_contour = elsewhere
+                .and_then(|it| own.motion.away_from(&meant.motion, from + it.by, is_behind));
+            let away = away.map(|away| away.min(by_contour.unwrap_or(away)));
             // After a block that is lost or superfluous the next one may be of another kind.
             let away = away.or(pair.behind_gap.then_some(0.0))?;
             // J of a circle is off by four times what its radius is; where it is wrong, so is the end.
@@ -174,7 +183,9 @@ impl Pairs<'_> {
             // The same arc, whose centre an ISO program counts from another place.
             let is_said_otherwise =
                 |apart: f64| !traced.counts && arc.is_some() && apart > SLIP && away <= ALIKE;
-            let off = match words.apart {
+            // Coordinates of a contour elsewhere differ, each by as much.
+            let apart = words.apart.filter(|_| elsewhere.is_none() || traced.counts);
+            let off = match apart {
                 Some(apart) if is_in_our_words && !is_circle && !is_said_otherwise(apart) => {
                     away.max(apart)
                 }
@@ -196,7 +207,7 @@ impl Pairs<'_> {
         let (mut found, mut stated) = (Vec::new(), Vec::new());
         let (mut elsewhere, mut ways, mut unlike, mut strays) = (0, 0, 0, false);
         let is_located = LazyCell::new(|| self.has_placed_contour(from));
-        let mut displaced = displaced(self, from, SLIP).into_iter().peekable();
+        let mut displaced = displaced.into_iter().peekable();
         // Of the last that is named: its number, whether the program is elsewhere since, and whether it is a way to another
         // hole.
         let mut run: Option<(usize, bool, bool)> = None;
@@ -233,6 +244,7 @@ impl Pairs<'_> {
             let source = reference.source_of(&meant.motion);
             ways += usize::from(source.is_none());
             let is_of_contour = source.is_some();
+            unlike += usize::from(is_of_contour && !is_as_drawn);
             let goes_on = run.is_some_and(|(last, is_elsewhere, is_aside)| {
                 if is_aside && is_of_contour {
                     return false;
@@ -247,7 +259,7 @@ impl Pairs<'_> {
             if goes_on && self.comes_back(number, from) {
                 continue;
             }
-            unlike += usize::from(is_of_contour);
+            unlike += usize::from(is_of_contour && is_as_drawn);
             // The wire is threaded elsewhere, and the contour begins and closes where it comes from there.
             if elsewhere > 0 && *off > SLIP && self.is_at_its_entry(number, from) {
                 run = None;
@@ -272,7 +284,8 @@ impl Pairs<'_> {
             if found.len() == most {
                 return None;
             }
-            strays |= !self.ends_near(number, from, SLIP) && self.ends_on_wall(number, from);
+            strays |= !self.ends_near(number, from, SLIP)
+                && !(is_as_drawn && !self.ends_on_wall(number, from));
             found.push(Difference::of(own, segment, *off, kind));
         }
         if stated.len() <= FEW {

@@ -41,6 +41,7 @@ pub fn compare(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
         _ if !known.is_exact() => true,
         // Nobody sets anything otherwise by so little.
         [one] if known.elsewhere == 0 && !known.has_gap && one.off <= SLIP => false,
+        [one] if one.kind == Kind::Moved && known.elsewhere == 0 && !known.has_gap => false,
         [_] => known.has_gap || known.elsewhere > 0 || blocks < SMALL,
         all => 16 * all.len() > blocks || all.iter().any(|one| one.off < ROUNDING),
     };

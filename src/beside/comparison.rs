@@ -408,7 +408,6 @@ impl Tried {
         if !self.is_sound(traced) {
             return None;
         }
-        let named: Vec<usize> = self.unlike.iter().map(|unlike| unlike.block).collect();
         let beside = self.laid.as_ref().map(|(rounds, placement)| {
             let seen = Seen {
                 drawn,
@@ -418,7 +417,10 @@ impl Tried {
                 on: &self.on,
             };
             let mut found = words(&seen);
-            found.extend(gouges(&seen, &named));
+            // Behind a change the program lies elsewhere.
+            if self.unlike.is_empty() {
+                found.extend(gouges(&seen));
+            }
             found
         });
         let differences = self.unlike.into_iter().map(|unlike| {

@@ -19,7 +19,10 @@ pub(super) struct Displaced {
     pub way: usize,
     /// The segment of the drawing where it begins.
     pub segment: Option<(EntityId, usize)>,
-    /// By how much, µm.
+    /// Numbers of its own pairs, with the way out, and their distance from where the drawing has them; and how much of that it has not in
+    /// common with the others, µm.
+    pub contour: Range<usize>,
+    pub by: Vector,
     pub off: f64,
     /// It lies beside the contour before it as it should.
     pub is_behind_one: bool,
@@ -41,7 +44,11 @@ pub(super) fn displaced(pairs: &Pairs, from: Vector, least: f64) -> Vec<Displace
     let mut found = Vec::new();
     let (mut end, mut last): (usize, Option<Vector>) = (0, None);
     let mut before = base;
-    for (own, at) in all {
+    for (nth, (own, at)) in all.iter().enumerate() {
+        let (own, at) = (own.clone(), *at);
+        let next = all
+            .get(nth + 1)
+            .map_or(pairs.pairs.len(), |(next, _)| next.start);
         let by = at.map(|by| by - base).filter(|by| by.norm() > least);
         if let Some(by) = by {
             let first = &pairs.pairs[own.start];
@@ -66,6 +73,8 @@ pub(super) fn displaced(pairs: &Pairs, from: Vector, least: f64) -> Vec<Displace
                 way: way.unwrap_or(own.start),
                 ways,
                 segment: pairs.reference.source_of(&first.meant.motion),
+                contour: own.start..next.max(own.end),
+                by: by + base,
                 off: by.norm(),
                 is_behind_one: last.is_some_and(|last| (last - by).norm() <= ALIKE),
             });
@@ -95,28 +104,23 @@ fn shared_by_most(all: &[Vector]) -> Option<Vector> {
         .map(|(by, _)| by)
 }
 
-/// By how much most of these blocks are moved, with the place where they begin.
+/// By how much most of these blocks are moved, from where the drawing has them.
 fn moved(contour: &[Pair], from: Vector) -> Option<Vector> {
     let middle = contour.get(contour.len() / 2)?;
     let away = |pair: &Pair| {
-        let ([start, end], [from_start, to]) = (pair.own.motion.ends()?, pair.meant.motion.ends()?);
+        let ([_, end], [_, to]) = (pair.own.motion.ends()?, pair.meant.motion.ends()?);
         let center = |pair: [&Block; 2]| {
             let [own, meant] = pair.map(|block| block.segment()?.as_arc());
             own.zip(meant)
                 .map(|(own, meant)| own.center - from - meant.center)
         };
         let by = end - from - to;
-        Some((
-            start - from - from_start,
-            by,
-            center([pair.own, pair.meant]).unwrap_or(by),
-        ))
+        Some((by, center([pair.own, pair.meant]).unwrap_or(by)))
     };
-    let (_, by, _) = away(middle)?;
+    let (by, _) = away(middle)?;
     let is_alike = |other: Vector| (other - by).norm() <= ALIKE;
     let is_moved =
-        |pair: &&Pair| away(pair).is_some_and(|(_, end, center)| is_alike(end) && is_alike(center));
+        |pair: &&Pair| away(pair).is_some_and(|(end, center)| is_alike(end) && is_alike(center));
     let count = contour.iter().filter(is_moved).count();
-    let (start, ..) = away(contour.first()?)?;
-    (3 * count >= 2 * contour.len() && is_alike(start)).then_some(by)
+    (3 * count >= 2 * contour.len()).then_some(by)
 }

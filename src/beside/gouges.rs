@@ -13,9 +13,8 @@ const MOST: usize = 400_000;
 /// Distances from two pieces that meet are alike within this, µm.
 const SAME: f64 = 1e-6;
 
-/// The first block of each cut that leads from the wire's side of its contour into the part, except for those that are
-/// `named` already.
-pub(super) fn gouges(seen: &Seen, named: &[usize]) -> Vec<Difference> {
+/// The first block of each cut that leads from the wire's side of its contour into the part.
+pub(super) fn gouges(seen: &Seen) -> Vec<Difference> {
     let (mut found, mut fuel) = (Vec::new(), MOST);
     for [all, _] in &seen.traced.cuts {
         let rounds = all
@@ -70,10 +69,8 @@ pub(super) fn gouges(seen: &Seen, named: &[usize]) -> Vec<Difference> {
                 continue;
             };
             if let Some(off) = deepest(segment, &mut into).filter(|off| *off > LEAST) {
-                if !named.iter().any(|block| block.abs_diff(index) <= 1) {
-                    let block = &seen.traced.blocks[index];
-                    found.push(Difference::of(block, None, off, Kind::Inside));
-                }
+                let block = &seen.traced.blocks[index];
+                found.push(Difference::of(block, None, off, Kind::Inside));
                 break;
             }
         }

@@ -97,7 +97,7 @@ impl<'a> Pairs<'a> {
         };
         let moving = |blocks: &[Block]| blocks.iter().filter(|block| !is_stop(block)).count();
         if moving(own) == moving(meant) {
-            let (both, unstopped) = beside_each_other(own, meant);
+            let (both, unstopped) = beside_each_other(own, meant)?;
             return (!own.is_empty()).then(|| Pairs {
                 traced,
                 reference,
@@ -163,20 +163,21 @@ fn is_stop(block: &Block) -> bool {
 }
 
 /// The numbers of the blocks of two programs that move as often, in pairs, and those of the pairs before which the first
-/// program lacks a stop of the second. A stop too many is none of the drawing's.
-fn beside_each_other(own: &[Block], meant: &[Block]) -> (Vec<(usize, usize)>, Vec<usize>) {
+/// program lacks a stop of the second; `None` where it stops anywhere else.
+fn beside_each_other(own: &[Block], meant: &[Block]) -> Option<(Vec<(usize, usize)>, Vec<usize>)> {
     let mut pairs = Vec::with_capacity(own.len());
     let mut unstopped = Vec::new();
-    let (mut at, mut nth) = (0, 0);
-    while let (Some(one), Some(other)) = (own.get(at), meant.get(nth)) {
-        let (stops, should_stop) = (is_stop(one), is_stop(other));
-        if stops == should_stop {
-            pairs.push((at, nth));
-        } else if should_stop {
-            unstopped.push(pairs.len());
+    let mut at = 0;
+    for (nth, other) in meant.iter().enumerate() {
+        let one = own.get(at)?;
+        match (is_stop(one), is_stop(other)) {
+            (false, true) => unstopped.push(pairs.len()),
+            (true, false) => return None,
+            _ => {
+                pairs.push((at, nth));
+                at += 1;
+            }
         }
-        at += usize::from(stops || !should_stop);
-        nth += usize::from(should_stop || !stops);
     }
-    (pairs, unstopped)
+    (at == own.len()).then_some((pairs, unstopped))
 }

@@ -22,7 +22,7 @@ pub(super) struct Reference {
     pub(crate) traced: Traced,
     pieces: Vec<(Segment, Source)>,
     /// From its places to those of the drawing.
-    shift: Vector,
+    pub(super) shift: Vector,
 }
 
 /// The conditions under which a program is written.
