@@ -89,6 +89,12 @@ impl Told {
         )
     }
 
+    /// A contour of it lies elsewhere than the others.
+    pub(crate) fn has_moved(&self) -> bool {
+        let mut all = self.comparison.differences.iter();
+        all.any(|one| one.kind == Kind::Moved)
+    }
+
     /// All that differs.
     pub(crate) fn whole(self) -> Comparison {
         let Told {
@@ -119,9 +125,9 @@ pub(super) fn against_reference(drawn: &Drawn, traced: &Traced, under: &Under) -
         // of which some contours lie elsewhere than the others.
         let all =
             |told: &Told, is: fn(&Difference) -> bool| told.comparison.differences.iter().all(is);
-        let is_moved = best.as_ref().is_some_and(|told| {
-            traced.counts && told.elsewhere > 0 || !all(told, |one| one.kind != Kind::Moved)
-        });
+        let is_moved = best
+            .as_ref()
+            .is_some_and(|told| traced.counts && told.elsewhere > 0 || told.has_moved());
         let enough = if is_moved { 0 } else { enough };
         // Placed as it says, it has changes of blocks: laid elsewhere, a few micrometres would hide in its datum.
         let is_slight = |told: &Told| as_drawn.is_some() && all(told, |one| one.off * 1e3 <= SLIP);
@@ -285,7 +291,7 @@ impl Pairs<'_> {
                 return None;
             }
             strays |= !self.ends_near(number, from, SLIP)
-                && !(is_as_drawn && !self.ends_on_wall(number, from));
+                && (!is_as_drawn || self.lies_on_wall(number, from));
             found.push(Difference::of(own, segment, *off, kind));
         }
         if stated.len() <= FEW {
@@ -382,6 +388,13 @@ impl Pairs<'_> {
         begins.is_some_and(|(start, meant)| {
             (start - meant).norm() > SLIP && !self.reference.is_on_wall(start, ROUNDED)
         })
+    }
+
+    /// Whether a block may be a part of a wall: a tab or an overlap ends within one.
+    fn lies_on_wall(&self, number: usize, from: Vector) -> bool {
+        let own = self.pairs.get(number).and_then(|pair| pair.own.segment());
+        let is_on = |place| self.reference.is_on_wall(place - from, ROUNDED);
+        own.is_none_or(|own| is_on(own.point_at(0.5)) && is_on(own.end()))
     }
 
     fn ends_on_wall(&self, number: usize, from: Vector) -> bool {

@@ -48,7 +48,12 @@ pub fn compare(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
     if !is_doubtful {
         return Some(known.whole());
     }
-    let guessed = otherwise(drawn, traced).filter(|told| told.doubt() < known.doubt());
+    // No setting moves a contour as a whole: where it is said to be moved, other changes do not explain it better.
+    let is_better = |told: &Told| {
+        let explains = told.comparison.differences.is_empty() || told.has_moved();
+        told.doubt() < known.doubt() && (explains || !known.is_exact() || !known.has_moved())
+    };
+    let guessed = otherwise(drawn, traced).filter(is_better);
     let known = guessed.unwrap_or(known).whole();
     if known.differences.len() < 2 {
         return Some(known);

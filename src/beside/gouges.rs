@@ -61,7 +61,7 @@ pub(super) fn gouges(seen: &Seen) -> Vec<Difference> {
         };
         let deepest = |segment: &Segment, into: &mut dyn FnMut(Point) -> Option<f64>| {
             let shares = [0.5, 1.0].map(|share| segment.point_at(share));
-            let [middle, end] = shares.map(|place| into(place));
+            let [middle, end] = shares.map(&mut *into);
             Some(middle?.max(end?))
         };
         for index in all.clone().filter(|index| is_aside(*index)) {

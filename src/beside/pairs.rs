@@ -162,9 +162,12 @@ fn is_stop(block: &Block) -> bool {
     block.motion == Motion::Stop
 }
 
+/// Numbers of two blocks that belong together.
+type Numbers = Vec<(usize, usize)>;
+
 /// The numbers of the blocks of two programs that move as often, in pairs, and those of the pairs before which the first
 /// program lacks a stop of the second; `None` where it stops anywhere else.
-fn beside_each_other(own: &[Block], meant: &[Block]) -> Option<(Vec<(usize, usize)>, Vec<usize>)> {
+fn beside_each_other(own: &[Block], meant: &[Block]) -> Option<(Numbers, Vec<usize>)> {
     let mut pairs = Vec::with_capacity(own.len());
     let mut unstopped = Vec::new();
     let mut at = 0;

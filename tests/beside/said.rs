@@ -181,13 +181,14 @@ fn an_arc_of_4b_with_the_wire_on_its_other_side_is_told() {
 /// A program of another writer, from the middle of a side, whose blocks are none of ours.
 #[test]
 fn a_contour_without_its_correction_is_told_whoever_wrote_it() {
-    const LINES: [&str; 26] = [
+    const LINES: [&str; 27] = [
         "G21",
         "G90",
         "G92 X7.000 Y3.000",
         "G41 D1",
         "G01 X5.500 Y0.000",
         "G01 X20.000 Y0.000",
+        "G01 X20.000 Y5.000",
         "G01 X20.000 Y10.000",
         "G03 X18.000 Y12.000 I-2.000 J0.000",
         "G01 X9.000 Y12.000",
@@ -216,7 +217,7 @@ fn a_contour_without_its_correction_is_told_whoever_wrote_it() {
         let own = document(&shapes(Role::Opening), &settings_of(keys));
         let text = LINES.join("\n") + "\nM02\n";
         assert_eq!(told(&own, &text, Format::Iso), [], "{keys}");
-        for number in [3, 17] {
+        for number in [3, 18] {
             let lost = told(&own, &with_line(&text, number, None), Format::Iso);
             assert!(
                 matches!(lost[..], [(at, DifferenceKind::Side { said: None, .. })] if at.abs_diff(number) <= 2),
