@@ -1,7 +1,7 @@
 //! Where among its stops and ends a program differs from a guess: there another tab, lead or pass is as likely as a change.
 
 use super::against_reference::Told;
-use super::comparison::Difference;
+use super::difference::Difference;
 use super::traced::{Block, Motion, Traced};
 
 /// The deviation of a block at a stop where a tab was guessed wrong, mm.

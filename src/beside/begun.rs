@@ -1,6 +1,6 @@
 //! Where an ISO program states its start, beside our own for its drawing.
 
-use super::comparison::Difference;
+use super::difference::Difference;
 use super::traced::Traced;
 use super::walk::Kind;
 use crate::geometry::Vector;

@@ -1,11 +1,14 @@
 //! Compares a program with its drawing: as we write it under the drawing's settings, under others, else by the places
 //! of its blocks.
 
-use super::against_reference::against_reference;
-use super::comparison::{Comparison, looked_at};
+use super::against_reference::{Told, against_reference};
+use super::comparison::looked_at;
+use super::difference::{Comparison, Difference};
 use super::drawn::Drawn;
 use super::guess::otherwise;
-use super::traced::Traced;
+use super::traced::{Block, Traced};
+use super::walk::Kind;
+use crate::settings::Compensation;
 
 /// In a program of fewer blocks, one deviating block may mean other settings.
 const SMALL: usize = 40;
@@ -24,11 +27,12 @@ pub fn compare(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
     if traced.mills {
         // Layers that are not there are so by other settings.
         let known = known.filter(|told| !told.has_gap);
-        return known.map(|told| told.comparison);
+        return known.map(Told::whole);
     }
     let Some(known) = known else {
-        let guessed = otherwise(drawn, traced).map(|told| told.comparison);
-        return guessed.or_else(|| looked_at(drawn, traced));
+        let guessed = otherwise(drawn, traced).map(Told::whole);
+        let seen = guessed.or_else(|| looked_at(drawn, traced));
+        return seen.or_else(|| on_other_side(drawn, traced));
     };
     let blocks = traced.blocks.len();
     // Of few blocks any may be as other settings have it; of many, a few may be as another writer rounds them.
@@ -37,18 +41,42 @@ pub fn compare(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
         _ if !known.is_exact() => true,
         // Nobody sets anything otherwise by so little.
         [one] if known.elsewhere == 0 && !known.has_gap && one.off <= SLIP => false,
+        [one] if one.kind == Kind::Moved && known.elsewhere == 0 && !known.has_gap => false,
         [_] => known.has_gap || known.elsewhere > 0 || blocks < SMALL,
         all => 16 * all.len() > blocks || all.iter().any(|one| one.off < ROUNDING),
     };
     if !is_doubtful {
-        return Some(known.comparison);
+        return Some(known.whole());
     }
-    let guessed = otherwise(drawn, traced).filter(|told| told.doubt() < known.doubt());
-    let known = guessed.unwrap_or(known).comparison;
+    // No setting moves a contour as a whole: where it is said to be moved, other changes do not explain it better.
+    let is_better = |told: &Told| {
+        let explains = told.comparison.differences.is_empty() || told.has_moved();
+        told.doubt() < known.doubt() && (explains || !known.is_exact() || !known.has_moved())
+    };
+    let guessed = otherwise(drawn, traced).filter(is_better);
+    let known = guessed.unwrap_or(known).whole();
     if known.differences.len() < 2 {
         return Some(known);
     }
     // One may be as another writer has it in a place or two.
     let is_clean = |seen: &Comparison| seen.differences.is_empty();
     looked_at(drawn, traced).filter(is_clean).or(Some(known))
+}
+
+/// The first block of a program that follows all of the drawing on the other side of its contours.
+fn on_other_side(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
+    let is_offset = traced.blocks.iter().any(Block::is_offset);
+    if is_offset || traced.four_b || drawn.settings.compensation == Compensation::None {
+        return None;
+    }
+    let seen = looked_at(&drawn.turned()?, traced)?;
+    let first = seen
+        .follows
+        .first()
+        .filter(|_| seen.differences.is_empty())?;
+    let first = traced.blocks.iter().find(|block| block.range == *first)?;
+    Some(Comparison {
+        differences: vec![Difference::of(first, None, 0.0, Kind::OtherSide)],
+        follows: Vec::new(),
+    })
 }

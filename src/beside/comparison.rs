@@ -1,8 +1,10 @@
 //! The differences between a program and its drawing.
 
+use super::alongside::{Seen, words};
 use super::anchor::{anchor, others};
 use super::drawn::Drawn;
 use super::foreign::{foreign, segments};
+use super::gouges::gouges;
 use super::infer;
 use super::members::Members;
 use super::placement::Placement;
@@ -11,36 +13,13 @@ use super::single::single;
 use super::traced::Traced;
 use super::walk::{Kind, Unlike, Walk, Walked};
 use super::{REACH, TOLERANCE};
-use crate::drawing::EntityId;
 use crate::geometry::Segment;
 use crate::settings::{Compensation, Corner, Effective, LengthSetting};
 use std::ops::Range;
 use std::rc::Rc;
 
+pub use super::difference::{Comparison, Difference};
 pub use super::walk::Kind as DifferenceKind;
-
-/// A block that does not follow its drawing.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Difference {
-    /// Bytes of the block.
-    pub range: Range<usize>,
-    /// Its line, from 0.
-    pub line: usize,
-    /// The segment of the drawing that it should follow, where that is known.
-    pub segment: Option<(EntityId, usize)>,
-    /// Its deviation, mm.
-    pub off: f64,
-    pub kind: Kind,
-}
-
-/// The result of comparing a program with its drawing.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Comparison {
-    /// The differences, in the order of the program.
-    pub differences: Vec<Difference>,
-    /// Bytes of the blocks that end where the drawing says.
-    pub follows: Vec<Range<usize>>,
-}
 
 /// Up to this many differences are one change each, whatever their share.
 pub(super) const FEW: usize = 6;
@@ -64,7 +43,7 @@ pub(super) fn looked_at(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
     let courses = courses(&drawn.settings, traced);
     let own = try_with(drawn, traced, &courses, true);
     if own.is_sure {
-        return own.told(traced);
+        return own.told(drawn, traced);
     }
     let near = nearest(drawn, traced, &courses);
     let own = near.exactly(drawn, traced).or_better(|| own);
@@ -79,13 +58,13 @@ pub(super) fn looked_at(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
     // Under settings that are not those of the drawing, a difference may be meant.
     let is_meant = |tried: &Tried| tried.is_guess && !tried.is_clean() && !tried.is_one_change();
     if own.is_own() && !is_loose && !is_meant(&own) {
-        return own.told(traced);
+        return own.told(drawn, traced);
     }
     let near = near.surely(traced);
     if is_meant(&near) {
         return None;
     }
-    near.told(traced)
+    near.told(drawn, traced)
 }
 
 /// The placement of a program on its drawing that explains it best, with room for roundings.
@@ -119,7 +98,7 @@ fn courses(settings: &Effective, traced: &Traced) -> Vec<Course> {
     if traced.four_b {
         return vec![Course::FourB, Course::Drawn];
     }
-    let is_offset = traced.blocks.iter().any(|block| block.is_offset);
+    let is_offset = traced.blocks.iter().any(|block| block.is_offset());
     if is_offset || settings.compensation == Compensation::None {
         return vec![Course::Drawn];
     }
@@ -144,6 +123,7 @@ struct Tried {
     /// Blocks that follow.
     followed: usize,
     follows: Vec<usize>,
+    on: Vec<Option<(usize, bool)>>,
     laid: Option<(Rc<Rounds>, Placement)>,
     /// Every block is known to follow.
     is_sure: bool,
@@ -272,6 +252,7 @@ impl Tried {
             unlike: Vec::new(),
             followed: 0,
             follows: Vec::new(),
+            on: Vec::new(),
             laid: None,
             is_sure: false,
             is_guess: false,
@@ -295,6 +276,7 @@ impl Tried {
             unlike,
             followed: walked.runs.iter().filter(|runs| **runs).count(),
             follows: walked.follows,
+            on: walked.on,
             laid: Some(laid),
             is_sure: false,
             is_guess: false,
@@ -352,7 +334,7 @@ impl Tried {
         if self.is_sure {
             return self;
         }
-        let Some((rounds, placement)) = self.laid.take() else {
+        let Some((rounds, placement)) = self.laid.clone() else {
             return self;
         };
         let miss =
@@ -422,10 +404,25 @@ impl Tried {
         }
     }
 
-    fn told(self, traced: &Traced) -> Option<Comparison> {
+    fn told(self, drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
         if !self.is_sound(traced) {
             return None;
         }
+        let beside = self.laid.as_ref().map(|(rounds, placement)| {
+            let seen = Seen {
+                drawn,
+                traced,
+                rounds,
+                placement,
+                on: &self.on,
+            };
+            let mut found = words(&seen);
+            // Behind a change the program lies elsewhere.
+            if self.unlike.is_empty() {
+                found.extend(gouges(&seen));
+            }
+            found
+        });
         let differences = self.unlike.into_iter().map(|unlike| {
             let block = &traced.blocks[unlike.block];
             Difference {
@@ -437,8 +434,11 @@ impl Tried {
             }
         });
         let follows = self.follows.iter();
+        let mut differences: Vec<Difference> = differences.collect();
+        differences.extend(beside.into_iter().flatten());
+        differences.sort_by_key(|difference| difference.range.start);
         Some(Comparison {
-            differences: differences.collect(),
+            differences,
             follows: follows
                 .map(|&block| traced.blocks[block].range.clone())
                 .collect(),

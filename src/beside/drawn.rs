@@ -79,6 +79,25 @@ impl Drawn {
         all.filter(|outline| outline.contour.double_of.is_none())
     }
 
+    /// The same with the wire on the other side of each closed contour; `None` where no side is known.
+    pub(super) fn turned(&self) -> Option<Drawn> {
+        let is_sided = |contour: &Contour| contour.closed && contour.side.is_some();
+        let turned = |contour: &Contour| Contour {
+            side: match contour.closed {
+                true => contour.side.map(Side::reversed),
+                false => contour.side,
+            },
+            ..contour.clone()
+        };
+        let contours = self.contours();
+        contours.iter().any(is_sided).then(|| Drawn {
+            contours: Arc::new(OnceLock::from(
+                contours.iter().map(turned).collect::<Vec<_>>(),
+            )),
+            ..self.clone()
+        })
+    }
+
     /// The same under other settings.
     pub(super) fn under(&self, settings: Effective) -> Drawn {
         Drawn {

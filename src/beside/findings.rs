@@ -3,6 +3,7 @@
 use super::compare::compare;
 use super::{Comparison, Difference, DifferenceKind, Drawn, Traced};
 use crate::finding::{Detail, Finding, Place, Rule, Severity, Unlike};
+use crate::geometry::Side;
 use crate::settings::Effective;
 use std::sync::Arc;
 
@@ -136,10 +137,45 @@ pub(crate) fn of_program(
                 other: other(),
                 off,
             },
+            DifferenceKind::Side { said, meant } => Unlike::Side {
+                other: other(),
+                said: switch(said),
+                meant: switch(meant),
+            },
+            DifferenceKind::Register { said, meant } => Unlike::Register {
+                other: other(),
+                said,
+                meant,
+            },
+            DifferenceKind::Unstopped => Unlike::Unstopped { other: other() },
+            DifferenceKind::Turned { meant } => Unlike::Turned {
+                other: other(),
+                said: if meant { "D" } else { "DD" }.into(),
+                meant: if meant { "DD" } else { "D" }.into(),
+            },
+            DifferenceKind::Inside => Unlike::Inside {
+                other: other(),
+                off,
+            },
+            DifferenceKind::Astray => Unlike::Astray {
+                other: other(),
+                off,
+            },
+            DifferenceKind::OtherSide => Unlike::OtherSide { other: other() },
         };
         finding(unlike, Place::Text { range }, settings)
     }));
     found
+}
+
+/// The word that switches the correction.
+fn switch(side: Option<Side>) -> String {
+    let word = match side {
+        Some(Side::Left) => "G41",
+        Some(Side::Right) => "G42",
+        None => "G40",
+    };
+    word.into()
 }
 
 /// The findings at a drawing.
@@ -188,9 +224,7 @@ pub fn of_drawing(
                     other: other(),
                     line,
                 },
-                DifferenceKind::Foreign | DifferenceKind::Lead | DifferenceKind::Stated => {
-                    return None;
-                }
+                _ => return None,
             };
             finding(unlike, Place::Segment { entity, segment }, settings)
         });

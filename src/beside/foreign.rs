@@ -47,7 +47,7 @@ fn switched(traced: &Traced, walked: &Walked, all: Range<usize>) -> Vec<Range<us
     });
     let is_foreign = |pass: &Range<usize>| {
         let cut = segments(&traced.blocks[pass.clone()]).count();
-        traced.blocks[pass.start].is_offset
+        traced.blocks[pass.start].is_offset()
             && cut > LEADS
             && !walked.runs[pass.clone()].iter().any(|runs| *runs)
     };

@@ -110,7 +110,7 @@ struct Search<'a> {
 
 impl<'a> Search<'a> {
     fn of(drawn: &'a Drawn, traced: &'a Traced, sides: Sides) -> Option<Search<'a>> {
-        let is_offset = traced.blocks.iter().any(|block| block.is_offset);
+        let is_offset = traced.blocks.iter().any(|block| block.is_offset());
         let settings = &*drawn.settings;
         let compensation = match (settings.compensation, is_offset) {
             (Compensation::Path, true) => Compensation::Controller,

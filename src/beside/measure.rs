@@ -248,7 +248,7 @@ pub(super) fn leads(traced: &Traced, correction: f64) -> Vec<(f64, Option<f64>)>
     // Passes after the first come nearer to the wall.
     lengths.extend(first);
     lengths.dedup();
-    let is_offset = traced.blocks.iter().any(|block| block.is_offset);
+    let is_offset = traced.blocks.iter().any(|block| block.is_offset());
     let of = |um: f64| {
         let unstated = hundredths(um + correction * 1e3);
         // The control adds the correction to the way that is written, or takes it away.

@@ -20,6 +20,7 @@ pub(super) struct Members {
     pub(crate) spot: Option<Spot>,
     pub(crate) entry: Option<Spot>,
     runs: Vec<bool>,
+    on: Vec<Option<(usize, bool)>>,
     /// Blocks that end where the drawing says.
     follows: Vec<usize>,
     coverage: Coverage,
@@ -57,6 +58,7 @@ impl Members {
             spot: None,
             entry: None,
             runs: vec![false; traced.blocks.len()],
+            on: vec![None; traced.blocks.len()],
             follows: Vec::new(),
             coverage: Coverage::default(),
             base: None,
@@ -77,7 +79,7 @@ impl Members {
         if let Some(before) = before
             && before.stretch != block.stretch
         {
-            self.is_broken |= before.is_offset && self.stretch.is_foreign();
+            self.is_broken |= before.is_offset() && self.stretch.is_foreign();
             self.stretch = Stretch::default();
         }
         let segment = match &block.motion {
@@ -140,6 +142,7 @@ impl Members {
         (self.left, self.away) = (None, 0);
         self.stretch.follow += 1;
         self.runs[index] = true;
+        self.on[index] = Some((from.round, from.back));
         self.follows.extend(whole.then_some(index));
         self.miss += miss;
         self.contours.push(rounds.rounds[from.round].contour);
@@ -221,6 +224,7 @@ impl Members {
         let whole = members.coverage.are_whole(rounds);
         let walked = Walked {
             runs: members.runs,
+            on: members.on,
             follows: members.follows,
             contours: members.contours,
             ..Walked::default()

@@ -36,13 +36,17 @@ pub(crate) fn drawing_named(
         path,
         others: Vec::new(),
     };
+    // Where nothing else is the drawing of the program, that is told.
+    let mut gone = None;
     if let Some(name) = in_comment(head) {
         // Only the file name of a path on another machine is used.
         let file = name.rsplit(['/', '\\']).next().unwrap_or(&name);
         let places = [folder.join(name.replace('\\', "/")), folder.join(file)];
-        if let Some(path) = places.into_iter().find(|path| exists(path)) {
+        let there = places.iter().find(|path| exists(path)).cloned();
+        if let Some(path) = there.or_else(|| whatever_case(&places, exists)) {
             return Some(alone(plain(&path)));
         }
+        gone = Some(alone(plain(&folder.join(file))));
     }
     if let Some(setting) = setting {
         return Some(alone(plain(&folder.join(setting))));
@@ -61,8 +65,31 @@ pub(crate) fn drawing_named(
         }
     }
     let others = found.split_off(found.len().min(1));
-    let path = found.pop()?;
-    Some(Named { path, others })
+    match found.pop() {
+        Some(path) => Some(Named { path, others }),
+        None => gone,
+    }
+}
+
+/// The file whose name is that of one of these, whatever the case of its letters.
+fn whatever_case(places: &[PathBuf], exists: &dyn Fn(&Path) -> bool) -> Option<PathBuf> {
+    let cased = |place: &PathBuf| {
+        let name = place.file_name()?.to_str()?;
+        let known =
+            [name.to_lowercase(), name.to_uppercase()].map(|name| place.with_file_name(name));
+        if let Some(path) = known.into_iter().find(|path| exists(path)) {
+            return Some(path);
+        }
+        let folder = place.parent().filter(|folder| *folder != Path::new(""));
+        let files = std::fs::read_dir(folder.unwrap_or(Path::new("."))).ok()?;
+        let names = files.filter_map(|file| file.ok()?.file_name().into_string().ok());
+        let lower = name.to_lowercase();
+        let mut alike: Vec<String> = names.filter(|own| own.to_lowercase() == lower).collect();
+        alike.sort();
+        let mut paths = alike.into_iter().map(|own| place.with_file_name(own));
+        paths.find(|path| exists(path))
+    };
+    places.iter().find_map(cased)
 }
 
 /// The programs among the files of a folder that belong to a drawing, sorted by name. `named` decides for one.
@@ -203,6 +230,8 @@ mod tests {
             &all,
             Some("/job/other.dxf"),
         );
+        check("(OTHER.DXF)\n", None, &all, Some("/job/other.dxf"));
+        check("(part 7.dxf)\n", None, &["/job/a.dxf"], Some("/job/7.dxf"));
         check("(see other.dxfs)\n", None, &all, Some("/job/plate.dxf"));
         check("; of b.dxfb\n", None, &["/job/b.dxfb"], Some("/job/b.dxfb"));
         check(
@@ -229,6 +258,24 @@ mod tests {
         std::fs::write(&drawing, "").unwrap();
         let named = drawing_named(&program, &head_of(&program), None, &Path::is_file);
         assert_eq!(named.map(|named| named.path), Some(drawing));
+    }
+
+    #[test]
+    fn a_drawing_is_known_whatever_the_case_of_its_name() {
+        let folder = tempfile::tempdir().unwrap();
+        let (program, drawing) = (
+            folder.path().join("a.iso"),
+            folder.path().join("Part 7.dxf"),
+        );
+        std::fs::write(&drawing, "").unwrap();
+        for head in ["(DXF: PART 7.DXF)", "; drawing=Part 7.Dxf"] {
+            let named = drawing_named(&program, head.as_bytes(), None, &Path::is_file);
+            assert_eq!(
+                named.map(|named| named.path),
+                Some(drawing.clone()),
+                "{head}"
+            );
+        }
     }
 
     #[test]

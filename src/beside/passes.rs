@@ -94,7 +94,7 @@ pub(super) fn corrections(drawn: &Drawn, traced: &Traced) -> Vec<Vec<f64>> {
         all.insert(0, own);
     }
     if passes.len() > 1 {
-        let of_control = traced.four_b || traced.blocks.iter().any(|block| block.is_offset);
+        let of_control = traced.four_b || traced.blocks.iter().any(|block| block.is_offset());
         let falling = |from: f64| {
             let of = |pass: usize| from * (1.0 - 0.1 * pass as f64);
             (0..passes.len()).map(of).collect()

@@ -22,7 +22,7 @@ pub(super) struct Reference {
     pub(crate) traced: Traced,
     pieces: Vec<(Segment, Source)>,
     /// From its places to those of the drawing.
-    shift: Vector,
+    pub(super) shift: Vector,
 }
 
 /// The conditions under which a program is written.
@@ -274,7 +274,8 @@ mod tests {
             // The rest is just the same.
             let rest = |traced: &Traced| {
                 let blocks = traced.blocks.iter();
-                let blocks = blocks.map(|block| (block.range.clone(), block.line, block.is_offset));
+                let blocks =
+                    blocks.map(|block| (block.range.clone(), block.line, block.is_offset()));
                 let flags = [
                     traced.is_placed,
                     traced.counts,

@@ -1,8 +1,8 @@
 //! The data of a program for comparing: its blocks as they mean it.
 
 use super::BETWEEN;
-use crate::geometry::{Point, Segment, Vector};
-use crate::program::block_words::BlockWords;
+use crate::geometry::{Point, Segment, Side, Vector};
+use crate::program::block_words::{BlockWords, register_in};
 use crate::program::path::{self, Kind, Step, Trace};
 use crate::program::{Document, Format, Language};
 use crate::text::SourceText;
@@ -40,6 +40,33 @@ pub(super) struct Traits {
     pub(super) states_ends: bool,
 }
 
+/// The register in force, as the steps of a program go by.
+#[derive(Default)]
+struct Registers {
+    named: Option<u32>,
+    side: Option<Side>,
+    /// Where the text has been read to; a stop since then.
+    read: usize,
+    has_stopped: bool,
+}
+
+impl Registers {
+    /// The register of a step; its text is read where the correction is switched, and after stops.
+    fn of(&mut self, step: &Step, text: &SourceText) -> Option<u32> {
+        if !step.moves() {
+            self.has_stopped = true;
+            return None;
+        }
+        let is_new = step.side != self.side || self.has_stopped;
+        if is_new && step.side.is_some() {
+            let said = text.slice(self.read.min(step.range.end)..step.range.end);
+            self.named = register_in(said.unwrap_or_default()).or(self.named);
+        }
+        (self.side, self.has_stopped, self.read) = (step.side, false, step.range.end);
+        self.named.filter(|_| step.side.is_some())
+    }
+}
+
 /// One block.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Block {
@@ -47,8 +74,10 @@ pub(super) struct Block {
     pub(crate) range: Range<usize>,
     pub(crate) line: usize,
     pub(crate) motion: Motion,
-    /// The control offsets it.
-    pub(crate) is_offset: bool,
+    /// The side on which the control offsets it.
+    pub(crate) side: Option<Side>,
+    /// The place in the control's table that it takes the correction from, where the program names one.
+    pub(crate) register: Option<u32>,
     /// The stretch of blocks between which the correction is neither switched on nor off: where the text itself ends a
     /// pass.
     pub(crate) stretch: usize,
@@ -104,6 +133,11 @@ impl Motion {
 }
 
 impl Block {
+    /// The control offsets it.
+    pub(super) fn is_offset(&self) -> bool {
+        self.side.is_some()
+    }
+
     pub(super) fn segment(&self) -> Option<&Segment> {
         match &self.motion {
             Motion::Cut(segment) => Some(segment),
@@ -151,6 +185,10 @@ impl Traced {
             Language::ThreeB => (trace.start_is_known, true),
             Language::Iso => (true, false),
         };
+        let text = match text.len() <= LONGEST {
+            true => text.clone(),
+            false => SourceText::default(),
+        };
         let trace = trace.into_meant();
         let (mut stretch, mut side) = (0, None);
         let mut stretch_of = |step: &Step| {
@@ -159,8 +197,10 @@ impl Traced {
             }
             stretch
         };
+        let mut registers = Registers::default();
         let blocks = trace.steps.into_iter().map(|step| Block {
             stretch: stretch_of(&step),
+            register: registers.of(&step, &text),
             line: step.line,
             motion: match (step.kind, step.ideal) {
                 (Kind::Line | Kind::Arc, Some(segment)) => Motion::Cut(segment),
@@ -172,18 +212,15 @@ impl Traced {
                 }
                 (Kind::Pause | Kind::End, _) => Motion::Stop,
             },
-            is_offset: step.side.is_some(),
+            side: step.side,
             is_lost: step.kind == Kind::Arc && step.ideal.is_none(),
             range: step.range,
         });
-        let text = match text.len() <= LONGEST {
-            true => text.clone(),
-            false => SourceText::default(),
-        };
+        let blocks = blocks.collect();
         Traced {
             states_ends,
             text,
-            blocks: blocks.collect(),
+            blocks,
             cuts,
             is_placed,
             counts,
@@ -210,6 +247,31 @@ impl Traced {
             Motion::Way(start, _) => Some(*start),
             Motion::Stop => None,
         })
+    }
+
+    /// The line that switches the correction on or off before a block, or at it: its bytes and its number.
+    pub(super) fn switch_before(&self, index: usize) -> Option<(Range<usize>, usize)> {
+        let own = self.blocks.get(index)?;
+        let from = index.checked_sub(1).and_then(|at| self.blocks.get(at));
+        let first = from.map_or(0, |before| before.line);
+        let mut lines = (first..=own.line).rev();
+        let switches = |line: &[u8]| {
+            let has = |word: &[u8]| memchr::memmem::find(line, word).is_some();
+            [&b"G40"[..], b"G41", b"G42"].into_iter().any(has)
+        };
+        let range = |line: usize| self.text.line_range(line);
+        let line = lines.find(|line| self.text.slice(range(*line)).is_some_and(switches))?;
+        Some((range(line), line))
+    }
+
+    /// Whether nothing that stops the machine may stand between two blocks: no word with an M, and in 3B none at all.
+    pub(super) fn is_bare_between(&self, before: &Block, behind: &Block) -> bool {
+        let between = before.range.end..behind.range.start.max(before.range.end);
+        let between = self.text.slice(between).unwrap_or_default();
+        match self.language {
+            Language::Iso => !between.contains(&b'M'),
+            Language::ThreeB => between.iter().all(|byte| !byte.is_ascii_alphabetic()),
+        }
     }
 
     /// The bytes of a block, and of coordinates after it in its line.

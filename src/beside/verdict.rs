@@ -3,7 +3,8 @@
 
 use super::about_stops::{FAR, differs_from_stop_to_stop, is_amid, parts_at_a_stop};
 use super::against_reference::Told;
-use super::comparison::{Difference, FEW};
+use super::comparison::FEW;
+use super::difference::Difference;
 use super::reference::Under;
 use super::traced::Traced;
 use super::walk::Kind;
@@ -23,7 +24,7 @@ const WHOLE: f64 = 0.1;
 
 /// Where the control adds the correction, the program does not state it, and ways in and out depend on it.
 pub(super) fn without_leads(traced: &Traced, told: Told) -> Told {
-    let is_offset = traced.blocks.iter().any(|block| block.is_offset);
+    let is_offset = traced.blocks.iter().any(|block| block.is_offset());
     let most = if is_offset { SLIGHT } else { SLIP };
     // One number that was changed moves a way by whole micrometres; a guess that is not exact moves both of its ends.
     let is_whole = |um: f64| (um - um.round()).abs() <= WHOLE;
@@ -39,7 +40,7 @@ pub(super) fn is_certain(traced: &Traced, told: &Told, under: &Under) -> bool {
     };
     match &told.comparison.differences[..] {
         _ if told.elsewhere > 0 => false,
-        [] => told.is_exact(),
+        [] => told.is_exact() && told.words.is_empty(),
         // Hardly any setting has one way alone elsewhere by so little.
         [one] if one.kind == Kind::Lead => told.is_exact() && one.off <= SLIGHT,
         [one]
@@ -57,12 +58,12 @@ pub(super) fn is_certain(traced: &Traced, told: &Told, under: &Under) -> bool {
 /// Of guesses that are not exact the nearest comes first: one that is farther off may hide a change. They come before
 /// those with lost or superfluous blocks, which may be an overlap. Of exact ones for 4B, whose ways in and out tell the
 /// correction, the one that has most of these comes first.
-pub(super) fn rank(traced: &Traced, told: &Told) -> ((bool, usize, bool), usize, f64) {
+pub(super) fn rank(traced: &Traced, told: &Told) -> ((bool, usize, bool, usize, u64), usize, f64) {
     match told.is_exact() {
-        true if told.has_gap => ((true, 0, true), 0, told.mean),
+        true if told.has_gap => ((true, 0, true, 0, 0), 0, told.mean),
         true if traced.four_b => (told.doubt(), told.ways, told.mean),
         true => (told.doubt(), 0, told.mean),
-        false => ((true, 0, false), 0, told.mean),
+        false => ((true, 0, false, 0, 0), 0, told.mean),
     }
 }
 

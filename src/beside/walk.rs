@@ -15,7 +15,7 @@ use super::placement::{Placement, Reached};
 use super::rounds::{Rounds, Spot};
 use super::traced::{Motion, Traced};
 use crate::drawing::EntityId;
-use crate::geometry::Vector;
+use crate::geometry::{Side, Vector};
 use std::ops::Range;
 
 /// A block that does not follow, by its index.
@@ -42,6 +42,23 @@ pub enum Kind {
     Lead,
     /// The coordinates after a block of such a program differ from its end.
     Stated,
+    /// The control lets the wire run on one side, or none, and should on another.
+    Side {
+        said: Option<Side>,
+        meant: Option<Side>,
+    },
+    /// A pass takes its correction from the place of another one.
+    Register { said: u32, meant: u32 },
+    /// The machine should stop before this block.
+    Unstopped,
+    /// The wire runs on the other side of an arc of 4B; it should run inside of it, or outside.
+    Turned { meant: bool },
+    /// The wire runs into the part, by as much as it is off.
+    Inside,
+    /// A way in ends this far beside the path of its contour, which goes on from there.
+    Astray,
+    /// The wire runs on the other side of its contour than the settings say.
+    OtherSide,
 }
 
 /// The result of a walk.
@@ -50,6 +67,8 @@ pub(super) struct Walked {
     pub unlike: Vec<Unlike>,
     /// For each block: it is part of a run, or of something named in one.
     pub runs: Vec<bool>,
+    /// For each block that follows a round, its number, and whether it goes against its direction.
+    pub on: Vec<Option<(usize, bool)>>,
     /// The blocks that end where the drawing says.
     pub follows: Vec<usize>,
     /// Contours that were followed.
@@ -119,6 +138,7 @@ impl<'a> Walk<'a> {
             moved: Vec::new(),
             walked: Walked {
                 runs: vec![false; traced.blocks.len()],
+                on: vec![None; traced.blocks.len()],
                 ..Walked::default()
             },
         }
@@ -217,6 +237,7 @@ impl<'a> Walk<'a> {
     /// Notes what a block has cut.
     fn take(&mut self, run: &mut Run, reached: &Reached, index: usize) {
         self.walked.runs[index] = true;
+        self.walked.on[index] = Some((run.spot.round, run.spot.back));
         // The overlap past its start, and the start of a tab, are the program's own.
         if reached.whole && !run.complete {
             self.walked.follows.push(index);

@@ -25,6 +25,23 @@ told! {
     /// The coordinates after a block differ from the end in the drawing; `off` is in mm.
     Stated { other: Arc<str>, off: f64 }
         => say!(the_coordinates_are_not_where_its_drawing_has_the_end, other, mm(*off));
+    /// A contour, a pass or a way is cut under one word of the correction where the drawing needs another.
+    Side { other: Arc<str>, said: String, meant: String }
+        => say!(the_correction_is_on_another_side, said, meant, other);
+    /// A pass takes its correction from another register than the same pass elsewhere.
+    Register { other: Arc<str>, said: u32, meant: u32 }
+        => say!(the_correction_is_that_of_another_pass, said, meant, other);
+    /// The machine should stop before this block.
+    Unstopped { other: Arc<str> } => say!(a_stop_is_missing_before_this_block, other);
+    /// The wire runs on the other side of an arc of 4B.
+    Turned { other: Arc<str>, said: String, meant: String }
+        => say!(the_arc_has_the_wire_on_its_other_side, said, meant, other);
+    /// The wire leaves its contour into the part, by `off` mm.
+    Inside { other: Arc<str>, off: f64 } => say!(the_wire_cuts_into_the_part, other, mm(*off));
+    /// A way in ends beside the path of its contour, by `off` mm, and the contour goes on from there.
+    Astray { other: Arc<str>, off: f64 } => say!(the_way_in_ends_beside_its_contour, other, mm(*off));
+    /// The wire runs on the other side of its contours than the settings say.
+    OtherSide { other: Arc<str> } => say!(it_is_cut_on_the_other_side, other);
     /// A block of the program, on a line from 1, does not follow this segment of the drawing; `off` is in the drawing's
     /// unit.
     Segment { other: Arc<str>, line: usize, off: f64 }
@@ -54,6 +71,8 @@ impl Unlike {
             | Unlike::Moved { off, .. }
             | Unlike::Lead { off, .. }
             | Unlike::Stated { off, .. }
+            | Unlike::Inside { off, .. }
+            | Unlike::Astray { off, .. }
             | Unlike::Segment { off, .. }
             | Unlike::Begin { off, .. } => Some(*off),
             _ => None,

@@ -13,6 +13,31 @@ pub(crate) struct BlockWords {
     numbers: Vec<f64>,
     /// Coordinates that stand after the block, µm.
     pub(crate) stated: Option<[f64; 2]>,
+    /// The wire runs inside of the arc (DD of 4B).
+    pub(crate) concave: Option<bool>,
+}
+
+/// The last place of a correction that a text of ISO names (D, H).
+pub(crate) fn register_in(text: &[u8]) -> Option<u32> {
+    if !text.iter().any(|byte| matches!(byte, b'D' | b'H')) {
+        return None;
+    }
+    let mut named = None;
+    for line in text.split(|byte| *byte == b'\n') {
+        iso::words(line, 1, |token, _| {
+            if let Token::Word {
+                letter: b'D' | b'H',
+                number,
+            } = token
+            {
+                named = number
+                    .whole()
+                    .and_then(|whole| u32::try_from(whole).ok())
+                    .or(named);
+            }
+        });
+    }
+    named
 }
 
 impl BlockWords {
@@ -38,6 +63,7 @@ impl BlockWords {
                 let radius = part.map(|part| part.radius as f64);
                 let numbers = [block.x, block.y, block.j].map(|number| number as f64);
                 said = Some(BlockWords {
+                    concave: part.map(|part| part.concave),
                     words: format!(
                         "{:?}{:?}{:?}",
                         block.motion,

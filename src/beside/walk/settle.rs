@@ -110,7 +110,7 @@ impl Walk<'_> {
     fn is_lacking(&self, run: &Run) -> bool {
         let own = &self.rounds.rounds[run.spot.round];
         let blocks = &self.traced.blocks;
-        let is_offset = blocks[run.first].is_offset;
+        let is_offset = blocks[run.first].is_offset();
         let others = self
             .complete
             .iter()

@@ -65,6 +65,13 @@ declare! {
     the_contour_does_not_begin_where_its_drawing_has_it(handle, drawing, off) => "contour begins {off} mm from where {drawing} has it ({handle})";
     the_way_does_not_lead_where_its_drawing_has_it(drawing, off) => "way of the wire in, out or between contours is {off} mm from where {drawing} and its settings have it";
     the_coordinates_are_not_where_its_drawing_has_the_end(drawing, off) => "coordinates after the block are {off} mm from where {drawing} has its end";
+    the_correction_is_on_another_side(said, meant, drawing) => "it is cut under {said} where {drawing} and its settings need {meant}";
+    the_correction_is_that_of_another_pass(said, meant, drawing) => "correction {said} where the same pass of the other contours of {drawing} has {meant}: it is that of another pass";
+    a_stop_is_missing_before_this_block(drawing) => "the program does not stop before this block, where {drawing} and its settings have a stop";
+    the_arc_has_the_wire_on_its_other_side(said, meant, drawing) => "{said} where {drawing} needs {meant}: the arc has the wire on its other side, and its radius is wrong by twice the correction";
+    the_wire_cuts_into_the_part(drawing, off) => "the wire leaves the contour here and cuts {off} mm into the part of {drawing}";
+    the_way_in_ends_beside_its_contour(drawing, off) => "way in ends {off} mm beside the path of its contour in {drawing}, and the contour is cut from there";
+    it_is_cut_on_the_other_side(drawing) => "the wire runs on the other side of the contour than {drawing} and its settings say";
     the_contour_is_left_before_it_is_cut_all_round(segment, handle, drawing) => "contour is left here although {drawing} goes on with segment {segment} of {handle}";
     no_contour_of_the_drawing_is_like_this(drawing) => "no contour of {drawing} matches this one at any correction of the program";
     the_program_does_not_follow_this_segment(program, line, off) => "{program} does not follow this segment: its line {line} ends {off} mm from where the drawing has it; write the program again if the drawing has changed";

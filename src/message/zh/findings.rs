@@ -65,6 +65,13 @@ translate! {
     the_contour_does_not_begin_where_its_drawing_has_it(handle, drawing, off) => "轮廓的起点偏离 {drawing} 中的位置 {off} mm（{handle}）";
     the_way_does_not_lead_where_its_drawing_has_it(drawing, off) => "引线或轮廓之间的空走线偏离 {drawing} 及其设置给出的位置 {off} mm";
     the_coordinates_are_not_where_its_drawing_has_the_end(drawing, off) => "程序段后的坐标偏离 {drawing} 给出的终点 {off} mm";
+    the_correction_is_on_another_side(said, meant, drawing) => "此处按 {said} 切割，而 {drawing} 及其设置需要 {meant}";
+    the_correction_is_that_of_another_pass(said, meant, drawing) => "补偿号为 {said}，而 {drawing} 其他轮廓的同一次切割为 {meant}：用了另一次切割的补偿";
+    a_stop_is_missing_before_this_block(drawing) => "此段之前没有暂停，而 {drawing} 及其设置在此有暂停";
+    the_arc_has_the_wire_on_its_other_side(said, meant, drawing) => "写为 {said}，而 {drawing} 需要 {meant}：丝在圆弧的另一侧，半径相差两倍补偿量";
+    the_wire_cuts_into_the_part(drawing, off) => "丝在此离开轮廓，切入 {drawing} 的工件 {off} mm";
+    the_way_in_ends_beside_its_contour(drawing, off) => "引入线终点偏离 {drawing} 中轮廓的路径 {off} mm，轮廓从那里开始切割";
+    it_is_cut_on_the_other_side(drawing) => "丝走在轮廓的另一侧，与 {drawing} 及其设置不符";
     the_contour_is_left_before_it_is_cut_all_round(segment, handle, drawing) => "在此离开了轮廓，而 {drawing} 接着是 {handle} 的第 {segment} 段";
     no_contour_of_the_drawing_is_like_this(drawing) => "按程序的任何补偿量，{drawing} 中都没有与此相符的轮廓";
     the_program_does_not_follow_this_segment(program, line, off) => "{program} 不沿这一段：其第 {line} 行的终点偏离图形位置 {off} mm；若图形已改，请重新生成程序";
