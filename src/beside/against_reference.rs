@@ -390,11 +390,16 @@ impl Pairs<'_> {
         })
     }
 
-    /// Whether a block may be a part of a wall: a tab or an overlap ends within one.
+    /// Whether a block may be a part of a wall, and the next one, too: a tab or an overlap ends within one.
     fn lies_on_wall(&self, number: usize, from: Vector) -> bool {
-        let own = self.pairs.get(number).and_then(|pair| pair.own.segment());
         let is_on = |place| self.reference.is_on_wall(place - from, ROUNDED);
-        own.is_none_or(|own| is_on(own.point_at(0.5)) && is_on(own.end()))
+        let lies = |pair: &Pair| {
+            let own = pair.own.segment();
+            own.is_none_or(|own| is_on(own.point_at(0.5)) && is_on(own.end()))
+        };
+        let next = self.pairs.get(number + 1);
+        let next = next.filter(|next| self.is_of_contour(next));
+        self.pairs.get(number).is_none_or(lies) && next.is_none_or(lies)
     }
 
     fn ends_on_wall(&self, number: usize, from: Vector) -> bool {

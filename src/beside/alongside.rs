@@ -69,8 +69,12 @@ fn sides(seen: &Seen) -> Vec<Difference> {
             meant: Some(meant),
         };
         let mut one = Difference::of(&traced.blocks[run.blocks.start], None, 0.0, kind);
+        // It is switched on before the way in.
+        let stretch =
+            |at: &usize| traced.blocks[*at].stretch == traced.blocks[run.blocks.start].stretch;
+        let first = (0..=run.blocks.start).rev().take_while(stretch).last();
         if run.side.is_some()
-            && let Some((range, line)) = traced.switch_before(run.blocks.start)
+            && let Some((range, line)) = first.and_then(|first| traced.switch_before(first))
         {
             (one.range, one.line) = (range, line);
         }
