@@ -496,7 +496,7 @@ fn program_session(program: &Program, rounds: usize) {
             version
         });
     }
-    edits.rows(&format!("{name}: a digit of every line"), "1 s");
+    edits.rows(&format!("{name}: a digit of every line"), "");
     language_rows(&mut client, name, uri, line, text.lines().count(), rounds);
     let whole = json!({ "textDocument": { "uri": uri }, "options": { "tabSize": 4, "insertSpaces": true } });
     let format =
