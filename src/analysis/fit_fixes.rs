@@ -24,6 +24,7 @@ impl Analysis {
         let before = self.pair_at(drawing, (entity, segment), partner)?;
         let spot = spot_of(&before, finding, (entity, segment)).filter(|spot| spot.turn > 0.0)?;
         let corner = Corner {
+            binding: self.binding_about(drawing, &spot),
             spot: &spot,
             clearance: clearance / self.limits.unit_mm,
             is_drawn: self.chains.contour_of(spot.segment.0)
@@ -92,7 +93,7 @@ impl Analysis {
         own: SegmentOf,
         partner: Option<SegmentOf>,
     ) -> Option<Arc<Fitted>> {
-        let pairs = self.pairs_of(drawing, own)?;
+        let pairs = self.pairs_about(drawing, &[own]);
         let with_both = partner.and_then(|partner| {
             let at = self.outline_at(drawing, partner)?;
             pairs.iter().find(|pair| pair.contains(&at))
@@ -100,16 +101,22 @@ impl Analysis {
         self.laid_pair(drawing, *with_both.or(pairs.first())?)
     }
 
-    /// The pairs to whose outlines a segment belongs.
-    fn pairs_of(&self, drawing: &Drawing, segment: SegmentOf) -> Option<Vec<[usize; 2]>> {
-        let at = self.outline_at(drawing, segment)?;
-        Some(match self.settings.partners()? {
-            Partners::CutTwice(_) => vec![[at, at]],
-            Partners::Drawn => {
-                let pairs = self.drawn_partners(drawing).pairs.into_iter();
-                pairs.filter(|pair| pair.contains(&at)).collect()
+    /// The pairs to whose outlines some segments belong.
+    fn pairs_about(&self, drawing: &Drawing, segments: &[SegmentOf]) -> Vec<[usize; 2]> {
+        let outlines = segments
+            .iter()
+            .filter_map(|at| self.outline_at(drawing, *at));
+        let mut outlines: Vec<usize> = outlines.collect();
+        outlines.dedup();
+        match self.settings.partners() {
+            Some(Partners::CutTwice(_)) => outlines.into_iter().map(|at| [at; 2]).collect(),
+            Some(Partners::Drawn) => {
+                let mut pairs = self.drawn_partners(drawing).pairs;
+                pairs.retain(|pair| outlines.iter().any(|at| pair.contains(at)));
+                pairs
             }
-        })
+            None => Vec::new(),
+        }
     }
 
     fn outline_at(&self, drawing: &Drawing, (entity, segment): SegmentOf) -> Option<usize> {
@@ -133,15 +140,10 @@ impl Analysis {
 
     /// In how many places the pairs bind to whose outlines the segments of a spot belong.
     fn binding_about(&self, drawing: &Drawing, spot: &Spot) -> usize {
-        let of_both = [spot.segment, spot.other]
-            .map(|(entity, _)| self.pairs_of(drawing, (entity, 0)).unwrap_or_default());
-        let mut pairs = of_both.concat();
-        pairs.sort_unstable();
-        pairs.dedup();
+        let both = [spot.segment, spot.other].map(|(entity, _)| (entity, 0));
+        let pairs = self.pairs_about(drawing, &both).into_iter();
         let binds = |(_, left): &(Point, f64)| *left < -self.limits.tolerances.report;
-        let laid = pairs
-            .into_iter()
-            .filter_map(|pair| self.laid_pair(drawing, pair));
+        let laid = pairs.filter_map(|pair| self.laid_pair(drawing, pair));
         laid.map(|pair| pair.held.clearances().filter(binds).count())
             .sum()
     }
@@ -241,14 +243,15 @@ impl Analysis {
         let near = |(at, _): &(Point, f64)| (at - spot.at).norm() <= wide;
         let left = pair.held.clearances().filter(near).map(|(_, left)| left);
         let left = left.fold(corner.clearance, f64::min);
-        let [before, now] = [(self, drawing), (&after, &edited)]
-            .map(|(analysis, drawing)| analysis.binding_about(drawing, spot));
-        (now < before || (left < 0.0 && now == before)).then_some(left)
+        let now = after.binding_about(&edited, spot);
+        (now < corner.binding || (left < 0.0 && now == corner.binding)).then_some(left)
     }
 }
 
 /// A corner in which two parts bind.
 struct Corner<'a> {
+    /// In how many places its pairs bind before it is mended.
+    binding: usize,
     spot: &'a Spot,
     clearance: f64,
     /// Both parts are drawn.

@@ -3,9 +3,6 @@
 use crate::geometry::Bounds;
 use crate::toolpath::{Nearby, Part};
 
-/// A corner is examined up to this many half kerfs from where the wire turned.
-pub(super) const FARTHEST: f64 = 16.0;
-
 /// Of two edges that are as near as each other but for so small a share of the rounding the first one counts.
 pub(super) const TIE: f64 = 1e-3;
 

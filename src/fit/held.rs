@@ -5,7 +5,7 @@
 //! radius: there the farthest place of the other part that is nearest to that point says how much.
 
 use super::Spot;
-use super::about::{About, FARTHEST, Limits};
+use super::about::{About, Limits};
 use super::observations::{Observations, Verdict};
 use super::reuse::Reuse;
 use super::walls::wall;
@@ -30,6 +30,9 @@ pub(crate) struct Held {
     /// What the two are called.
     pub(super) names: [Arc<str>; 2],
 }
+
+/// A corner is examined up to this many half kerfs from where the wire turned.
+const FARTHEST: f64 = 16.0;
 
 /// Edges that one core takes at a time.
 const AT_A_TIME: usize = 256;

@@ -1,10 +1,13 @@
 //! Walls of a drawn punch and its drawn plate that lie too near to each other, or run into each other.
 
-use super::about::{About, FARTHEST, Limits, TIE};
+use super::about::{About, Limits, TIE};
 use super::observations::Verdict;
 use super::penetration::deepest;
 use crate::geometry::{Bounds, Point, Segment};
 use crate::toolpath::{Nearby, Part};
+
+/// A tip is looked for within half a kerf and this many clearances about a wall: partners lie within five of each other.
+const AROUND: f64 = 16.0;
 
 /// A wall of a drawn punch that lies too near to one of the plate, or runs into it.
 pub(super) fn wall(
@@ -90,9 +93,7 @@ fn tip(
 ) -> Option<(f64, Point, usize)> {
     let wall = &punch.edges[index].geometry;
     let mut way = Nearby::of(&punch.path);
-    let area = wall
-        .bounds()
-        .grown(punch.half + FARTHEST * limits.clearance);
+    let area = wall.bounds().grown(punch.half + AROUND * limits.clearance);
     about.asked.merge(&area);
     let (mut found, mut asked) = (None, Bounds::EMPTY);
     let mut most = depth + limits.rounding;
