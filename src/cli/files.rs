@@ -17,7 +17,6 @@ use crate::text::{Again, SourceText, Writing};
 use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A file that has been read.
 pub(crate) struct Opened {
@@ -266,10 +265,9 @@ fn document(
 
 /// Reports an unusual encoding once, however many files there are.
 fn say_encoding(writing: Writing) {
-    static SAID: AtomicBool = AtomicBool::new(false);
-    if writing == Writing::Gb18030 && !SAID.swap(true, Ordering::Relaxed) {
+    if writing == Writing::Gb18030 {
         let note = output::styled(output::NOTE, say!(note));
-        output::say(&say!(read_as_gb_18030, note));
+        output::say_once(&say!(read_as_gb_18030, note));
     }
 }
 
@@ -301,12 +299,7 @@ fn settings_for(
     for error in settings.contradictions(&|_| None) {
         let is_of_files = of_files.iter().any(|own| own.message == error.message);
         if !is_of_files && let Some(options) = at_fault(last, &error.key) {
-            let sentence = say!(says, options, error.message);
-            if error.severity == Severity::Error {
-                return Err(Failure(sentence));
-            }
-            let warning = output::styled(output::WARNING, say!(warning));
-            output::say_once(&say!(says, warning, readable(&sentence)));
+            said_of_options(say!(says, options, error.message), error.severity)?;
             continue;
         }
         let place = |(file, text, source): &(&PathBuf, String, SourceText)| {
@@ -318,8 +311,7 @@ fn settings_for(
         };
         match sources.iter().rev().find_map(place) {
             Some(row) => rows.push(row),
-            None if error.severity == Severity::Error => return Err(Failure(error.message)),
-            None => say_of_options(&error),
+            None => said_of_options(error.message, error.severity)?,
         }
     }
     let name = path
@@ -328,13 +320,14 @@ fn settings_for(
     Ok((Effective::of_document(&settings, name), rows))
 }
 
-/// Says once what options have set that may not be meant.
-fn say_of_options(error: &SettingsError) {
-    static SAID: AtomicBool = AtomicBool::new(false);
-    if !SAID.swap(true, Ordering::Relaxed) {
-        let heading = output::styled(output::WARNING, say!(warning));
-        output::say(&say!(says, heading, error.message));
+/// An error in what options have set; what may not be meant is only said, once for all files.
+fn said_of_options(sentence: String, severity: Severity) -> Result<(), Failure> {
+    if severity == Severity::Error {
+        return Err(Failure(sentence));
     }
+    let warning = output::styled(output::WARNING, say!(warning));
+    output::say_once(&say!(says, warning, readable(&sentence)));
+    Ok(())
 }
 
 fn settings_row(file: &Path, source: &SourceText, error: SettingsError) -> Row {

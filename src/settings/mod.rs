@@ -169,7 +169,8 @@ impl Settings {
         let allowed = clearances.fold(0.0, f64::max) + self.resolution().max(1e-3);
         let of_kerf = stated.map_or(Severity::Warning, |_| severity);
         let beyond = passes::cuts_beyond(self, allowed).into_iter();
-        { faults.into_iter() }
+        faults
+            .into_iter()
             .map(|fault| (fault, severity))
             .chain(beyond.map(|fault| (fault, of_kerf)))
             .map(error)

@@ -121,7 +121,7 @@ fn shared_registers(corrections: &[f64], passes: &Passes) -> Vec<PassFault> {
         let shares = |(_, (other, own)): &(usize, (&String, &f64))| {
             register_of(other) == (letters.clone(), number) && (*own - correction).abs() > ROUNDING
         };
-        if let Some((other, (_, own))) = { before.enumerate() }.find(shares) {
+        if let Some((other, (_, own))) = before.enumerate().find(shares) {
             let (name, other) = (name(pass), name(other));
             let message = say!(
                 a_register_of_two_corrections,
@@ -183,7 +183,9 @@ pub(super) fn cuts_beyond(settings: &Settings, allowed: f64) -> Vec<PassFault> {
             message: message(),
         })
     };
-    { corrections.into_iter().enumerate() }
+    corrections
+        .into_iter()
+        .enumerate()
         .filter_map(beyond)
         .collect()
 }
