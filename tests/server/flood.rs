@@ -51,14 +51,16 @@ fn flood_unread(message: fn(i64) -> Value, count: i64) -> u64 {
     let mut pipe = client.take_stdin();
     std::thread::scope(|scope| {
         let sent = &sent;
-        scope.spawn(move || {
+        // The pipe stays open until the server is stopped: one that closes ends it, and what has ended uses no memory.
+        let _open = scope.spawn(move || {
             for number in 0..count {
                 let body = frame(&message(number).to_string());
                 if std::io::Write::write_all(&mut pipe, &body).is_err() {
-                    return;
+                    break;
                 }
                 sent.store(number + 1, Ordering::Relaxed);
             }
+            pipe
         });
         let (mut last, mut still) = (-1, 0);
         // Done when all is through, or the server has held back for a while.
