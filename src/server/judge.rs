@@ -114,6 +114,13 @@ impl Job {
             && self.tasks.iter().all(is_small_task)
     }
 
+    /// True where all of the document is read, which leaves memory behind.
+    pub(crate) fn reads(&self) -> bool {
+        let is_whole =
+            |task: &Task| matches!(task, Task::Text { .. } | Task::Drawing(_) | Task::Rebuild);
+        self.tasks.iter().any(is_whole)
+    }
+
     fn kind(&self) -> Kind {
         let of_task = |task: &Task| match task {
             Task::Text { kind, .. } => Some(*kind),

@@ -11,7 +11,7 @@ use super::jobs::Workers;
 use super::judge::{Job, Judged, Task};
 use super::open::Open;
 use super::partner::Links;
-use super::transport::{Publish, Writer, Written, panic_text};
+use super::transport::{Publish, Writer, Written, give_back, panic_text};
 use crate::text::Encoding;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::VecDeque;
@@ -394,6 +394,7 @@ impl State {
         } else {
             self.away += 1;
             let mailbox = self.mailbox.clone();
+            let reads = job.reads();
             self.workers.judge(move || {
                 let judged = job.run();
                 mailbox.tell("judging", None, move |state| {
@@ -402,6 +403,9 @@ impl State {
                     state.take_back(judged);
                     state.go_on(&uri);
                 });
+                if reads {
+                    give_back();
+                }
             });
         }
     }

@@ -10,7 +10,7 @@ use std::time::Duration;
 
 /// Messages of less than this together leave little behind.
 const LARGE: usize = 1024 * 1024;
-/// Long enough for the work that the message set off.
+/// Long enough for most work that the message set off; what reads a whole document gives back behind that as well.
 const DELAY: Duration = Duration::from_millis(400);
 
 #[derive(Clone, Default)]
@@ -43,14 +43,14 @@ impl Memory {
 }
 
 #[cfg(all(target_os = "linux", target_env = "gnu"))]
-pub(super) fn give_back() {
+pub(crate) fn give_back() {
     // SAFETY: the allocator locks what it trims; memory in use is not touched.
     unsafe { libc::malloc_trim(0) };
 }
 
 /// Other allocators return memory by themselves.
 #[cfg(not(all(target_os = "linux", target_env = "gnu")))]
-pub(super) fn give_back() {}
+pub(crate) fn give_back() {}
 
 #[cfg(test)]
 mod tests {

@@ -13,6 +13,7 @@ mod weight;
 mod writer;
 mod written;
 
+pub(crate) use memory::give_back;
 pub(crate) use writer::{Publish, Writer};
 pub(crate) use written::{AsWritten, Written};
 
