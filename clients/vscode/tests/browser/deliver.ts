@@ -1,4 +1,4 @@
-// What a job begins and ends with: the wedm.toml, the programs of a pair, the report.
+// What a job begins and ends with: the wedm.toml, the programs of a pair, the report, and the walkthrough that leads to them.
 
 import { readdir, readFile, writeFile } from "node:fs/promises";
 import { join } from "node:path";
@@ -149,6 +149,30 @@ export async function deliver(checks: Checks): Promise<void> {
       await checks.shot("report-refused");
       expectEqual("kept", await text("report/index.html")(), "mine");
       await window.command("Notifications: Clear All Notifications");
+    });
+    await checks.check("the walkthrough leads from a drawing to a program", async () => {
+      await window.command("Welcome: Open Walkthrough...");
+      await answer("Wire EDM", "Get Started with Wire EDM");
+      const steps = host.page.locator(".gettingStartedContainer .getting-started-step");
+      await expectSoon("five steps", async () => (await steps.count()) === 5, async () => String(await steps.count()));
+      for (const title of ["Open a Drawing", "See an Arc", "Write a Proved Program", "Punch and Plate", "Say What Your Machine"]) {
+        await steps.filter({ hasText: title }).first().click();
+        await expectSoon(`the page of ${title}`, async () => (await read()).trim() !== "");
+        await host.page.waitForTimeout(1_000);
+        const images = (await page()).locator("img");
+        expectEqual(`pictures of ${title}`, await images.evaluateAll((all) => all.filter((image) => (image as HTMLImageElement).naturalWidth === 0).length), 0);
+        await checks.shot(`walkthrough-${title.replaceAll(/\W+/g, "-")}`);
+      }
+      await steps.locator("a, .button", { hasText: "Create wedm.toml…" }).first().click();
+      await window.tab("wedm.toml");
+      await window.turnTo("washer.dxf");
+      await window.command("Wire EDM: Open Picture Beside");
+      await window.pictureOf("washer.dxf");
+      await host.page.locator(".tabs-container .tab", { hasText: "Walkthrough" }).click();
+      const done = steps.filter({ has: host.page.locator(".codicon.complete") });
+      const ticked = async (): Promise<string> => (await done.locator(".step-title").allInnerTexts()).join(", ");
+      await expectSoon("what has been done is ticked", async () => (await ticked()) === "Open a Drawing, Say What Your Machine Cuts With", ticked);
+      await checks.shot("walkthrough-ticked");
     });
   } finally {
     await host.stop();
