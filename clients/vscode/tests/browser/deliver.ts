@@ -5,14 +5,16 @@ import { join } from "node:path";
 import { type Checks, expectEqual, expectSoon } from "./checks";
 import { drawn, FILLET } from "./drawings";
 import { Host } from "./host";
-import { WEDM } from "./paths";
+import { PROJECT, WEDM } from "./paths";
 import { Window } from "./window";
 
 const WASHER = drawn("0", "CIRCLE", "5", "2A", "8", "WASHER", "10", "0", "20", "0", "40", "5");
+/** Its corners are sharp: as the plate they stay round, and the punch binds there. */
+const DIE = await readFile(join(PROJECT, "docs/pictures/die.dxf"), "utf8");
 const PAIR = 'wire-diameter = 0.18\ngap = 0.01\n[pair]\ndrawn-as = "plate"\nclearance = 0.02\n';
 
 export async function deliver(checks: Checks): Promise<void> {
-  const host = await Host.start({ "wedm.server.path": WEDM }, { "washer.dxf": WASHER, "tight.dxf": FILLET });
+  const host = await Host.start({ "wedm.server.path": WEDM }, { "washer.dxf": WASHER, "tight.dxf": FILLET, "die.dxf": DIE });
   const window = new Window(host.page);
   checks.page = host.page;
   const text = (name: string) => (): Promise<string> => readFile(join(host.folder, name), "utf8");
@@ -107,6 +109,21 @@ export async function deliver(checks: Checks): Promise<void> {
       await answer("How the ISO program is written", "generic");
       await answer("The folder that it is written to");
       await window.tab("washer-punch.iso");
+      await window.command("Notifications: Clear All Notifications");
+    });
+    await checks.check("parts that do not fit are refused, and written all the same when that is said", async () => {
+      await window.openOurs("die.dxf");
+      await window.command("Wire EDM: Generate the Programs of the Pair…");
+      await answer("What the machine reads", "3B");
+      const refused = window.notification("No program: ");
+      await refused.getByRole("button", { name: "Show Problems" }).waitFor();
+      await checks.shot("pair-refused");
+      expectEqual("nothing written", (await readdir(host.folder)).filter((name) => name.startsWith("die-")), []);
+      await refused.getByRole("button", { name: "Generate All the Same" }).click();
+      await answer("The folder that it is written to");
+      await window.tab("die-punch.3b");
+      const said = window.notification("3B: punch");
+      await expectSoon("what stands in the drawing", async () => /The drawing has \d+ findings\./.test(await said.innerText()), () => said.innerText());
       await window.command("Notifications: Clear All Notifications");
     });
     await checks.check("a report of the drawing in front is made of what stands in its text, and shown", async () => {
