@@ -34,6 +34,15 @@ async function entries(folder) {
   return names.filter((name) => name.endsWith(".test.ts")).map((name) => `${folder}/${name}`);
 }
 
+/**
+ * The pictures that pages show, which are those of the documentation.
+ * @param {string} folder
+ */
+async function pictures(folder) {
+  const texts = await Promise.all((await readdir(folder)).map((name) => readFile(`${folder}/${name}`, "utf8")));
+  return new Set(texts.flatMap((text) => [...text.matchAll(/\(\.\.\/dist\/pictures\/([\w.-]+)\)/g)].map(([, name]) => name)));
+}
+
 const extension = { entryPoints: ["src/extension.ts"], outfile: "dist/extension.js", format: "cjs", external: ["vscode"], metafile: true };
 const { metafile } = await build({ ...node, ...extension });
 if (asked.has("--production")) {
@@ -41,6 +50,9 @@ if (asked.has("--production")) {
 }
 await build({ ...common, platform: "browser", entryPoints: ["webview/picture.ts"], outfile: "dist/picture.js", format: "iife" });
 await cp("webview/picture.css", "dist/picture.css");
+for (const picture of await pictures("walkthrough")) {
+  await cp(`../../docs/pictures/${picture}`, `dist/pictures/${picture}`);
+}
 if (asked.has("--unit")) {
   await build({ ...node, entryPoints: await entries("tests/unit"), outdir: "dist/unit", format: "esm", outExtension: { ".js": ".mjs" }, minify: false });
 }

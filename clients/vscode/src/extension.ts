@@ -4,10 +4,13 @@ import * as vscode from "vscode";
 import { PathCheck } from "./commands/check";
 import { convertToDxf } from "./commands/convert";
 import { changeCorrection } from "./commands/correction";
+import { createSettings } from "./commands/createSettings";
 import { saveDrillList } from "./commands/drillList";
 import { exportPicture } from "./commands/exportPicture";
 import { fixAll } from "./commands/fixAll";
 import { generate } from "./commands/generate";
+import { generatePair } from "./commands/generatePair";
+import { report } from "./commands/report";
 import { scaleProgram } from "./commands/scale";
 import { completeSettings } from "./completion";
 import { detectPrograms } from "./detect";
@@ -42,6 +45,7 @@ export function activate(context: vscode.ExtensionContext): void {
     "wedm.generate4b": (uri) => generate(server, front, pictures, "4b", uri),
     "wedm.generateIso": (uri) => generate(server, front, pictures, "iso", uri),
     "wedm.generateMilling": (uri) => generate(server, front, pictures, "milling", uri),
+    "wedm.generatePair": (uri) => generatePair(server, front, pictures, uri),
     "wedm.openPicture": (uri) => pictures.open(uri, false),
     "wedm.openText": (uri) => editor.openAs(uri, "default"),
     "wedm.openDrawing": (uri) => editor.openAs(uri, EDITOR),
@@ -57,6 +61,8 @@ export function activate(context: vscode.ExtensionContext): void {
     "wedm.radii.onlyFaults": () => radii.filter(true),
     "wedm.radii.all": () => radii.filter(false),
     "wedm.radii.reveal": (handle, segment) => radii.revealInText(handle, segment),
+    "wedm.report": (uri, all) => report(server, front, uri, all),
+    "wedm.createSettings": (uri, table) => createSettings(server, front, uri, table),
     "wedm.changeCorrection": () => changeCorrection(server, front),
     "wedm.restartServer": () => server.restart(),
     "wedm.showLog": () => {

@@ -3,7 +3,7 @@
 import * as vscode from "vscode";
 import type { Server } from "../server/server";
 import { type Listed, read } from "./listed";
-import { run } from "./run";
+import { complaint, optionsFor, programOf, runNoticed } from "./run";
 import { uriOf } from "./subject";
 import { t } from "../words";
 
@@ -34,42 +34,25 @@ export class PathCheck implements vscode.Disposable {
       void vscode.window.showErrorMessage(t("Wire EDM: {0} is not a file on disk.", target.toString()));
       return;
     }
-    const found = await this.server.find();
-    if (found.program === null) {
-      void vscode.window.showErrorMessage(`Wire EDM: ${found.reason}.`);
-      return;
+    const program = await programOf(this.server);
+    if (program !== undefined) {
+      await this.#check(program, target);
     }
-    await this.#check(found.program, target);
   }
 
   async #check(program: string, target: vscode.Uri): Promise<void> {
-    const options = ["check", "--output", "json", ...(await this.#settings(target)), "--", target.fsPath];
-    const outcome = await vscode.window.withProgress(
-      { location: vscode.ProgressLocation.Notification, title: t("Checking {0}", vscode.workspace.asRelativePath(target)), cancellable: true },
-      async (_progress, token) => ({ ...(await run(program, options, token)), cancelled: token.isCancellationRequested }),
-    );
-    if (outcome.cancelled) {
+    const options = ["check", "--output", "json", ...(await optionsFor(this.server, target)), "--", target.fsPath];
+    const outcome = await runNoticed(program, options, t("Checking {0}", vscode.workspace.asRelativePath(target)));
+    if (outcome === undefined) {
       return;
     }
     const list = read(outcome.output);
     if (list === null) {
-      void vscode.window.showErrorMessage(`Wire EDM: ${outcome.errors.trim() || t("{0} ended with code {1}", "wedm check", outcome.code ?? "–")}`);
+      void vscode.window.showErrorMessage(complaint("check", outcome));
       return;
     }
     this.#show(list);
     await this.#say(target, list, outcome.errors);
-  }
-
-  /** The correction set in VS Code, unless a `wedm.toml` sets it: on the command line it would override the file. */
-  async #settings(target: vscode.Uri): Promise<string[]> {
-    try {
-      const isFolder = ((await vscode.workspace.fs.stat(target)).type & vscode.FileType.Directory) !== 0;
-      const asked = isFolder ? vscode.Uri.joinPath(target, "any.dxf") : target;
-      const inForce = await this.server.request("wedm/settings", { uri: asked.toString() });
-      return inForce.correctionFrom === "client" ? ["--correction", String(inForce.correction)] : [];
-    } catch {
-      return [];
-    }
   }
 
   #show(list: Listed[]): void {

@@ -7,8 +7,8 @@ import * as vscode from "vscode";
 import type { Front } from "../front";
 import { isProgram } from "../languages";
 import type { Server } from "../server/server";
-import { write } from "./output";
-import { run } from "./run";
+import { openMade, write } from "./output";
+import { complaint, programOf, run } from "./run";
 import { subject } from "./subject";
 import { t } from "../words";
 
@@ -16,12 +16,8 @@ const EXTENSIONS: Record<string, string> = { "3b": ".3b", "wire-iso": ".iso" };
 
 export async function convertToDxf(server: Server, front: Front, argument: unknown): Promise<void> {
   const document = await subject(front, argument, isProgram);
-  const found = await server.find();
-  if (document === undefined) {
-    return;
-  }
-  if (found.program === null) {
-    void vscode.window.showErrorMessage(`Wire EDM: ${found.reason}.`);
+  const program = document && (await programOf(server));
+  if (document === undefined || program === undefined) {
     return;
   }
   const stem = document.uri.path.replace(/\.[^./]*$/, "");
@@ -33,14 +29,13 @@ export async function convertToDxf(server: Server, front: Front, argument: unkno
   if (target === undefined) {
     return;
   }
-  const drawing = await converted(found.program, document);
+  const drawing = await converted(program, document);
   if (typeof drawing !== "string") {
-    void vscode.window.showErrorMessage(`Wire EDM: ${drawing.reason}`);
+    void vscode.window.showErrorMessage(drawing.reason);
     return;
   }
   await write(target, drawing);
-  const shown = vscode.window.visibleTextEditors.find((editor) => editor.document === document);
-  await vscode.window.showTextDocument(target, { viewColumn: shown?.viewColumn ?? vscode.ViewColumn.Active, preview: false });
+  await openMade(document, target);
 }
 
 /** The text as it stands in the editor, saved or not, goes through a folder of its own. */
@@ -53,7 +48,7 @@ async function converted(program: string, document: vscode.TextDocument): Promis
     await writeFile(source, document.getText());
     const outcome = await run(program, ["convert", source, "-o", drawing]);
     if (outcome.code !== 0) {
-      return { reason: outcome.errors.trim() || t("{0} ended with code {1}", "wedm convert", outcome.code ?? "–") };
+      return { reason: complaint("convert", outcome) };
     }
     return await readFile(drawing, "utf8");
   } finally {

@@ -4,6 +4,7 @@ import * as vscode from "vscode";
 import type { Front } from "../front";
 import type { SettingsInForce } from "../protocol";
 import type { Server } from "../server/server";
+import { isAboveZero, numberOf } from "./numbers";
 import { t } from "../words";
 
 const KEYS = /^\s*(corrections?|wire[-_]?diameter|tool[-_]?diameter|gap)\s*=/i;
@@ -45,14 +46,14 @@ async function ask(present: number | undefined): Promise<void> {
     title: t("Correction"),
     prompt: t("How far the wire's centre runs from the contour, in mm: wire radius + spark gap. Empty: the default."),
     value: present === undefined ? "" : String(present),
-    validateInput: (text) => (text.trim() === "" || Number(text.replace(",", ".")) > 0 ? null : t("expected a number above 0, in mm")),
+    validateInput: (text) => (text.trim() === "" || isAboveZero(text) ? null : t("expected a number above 0, in mm")),
   });
   if (entered === undefined) {
     return;
   }
   const hasFolder = (vscode.workspace.workspaceFolders?.length ?? 0) > 0;
   const target = hasFolder ? vscode.ConfigurationTarget.Workspace : vscode.ConfigurationTarget.Global;
-  const value = entered.trim() === "" ? undefined : Number(entered.replace(",", "."));
+  const value = entered.trim() === "" ? undefined : numberOf(entered);
   const settings = vscode.workspace.getConfiguration("wedm");
   await settings.update("correction", value, target);
 }

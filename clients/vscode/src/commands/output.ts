@@ -1,4 +1,4 @@
-// Output files are written beside their target and renamed: nobody reads half a program.
+// Output files are written beside their target and renamed: nobody reads half a program. What is made is opened where it was made from.
 
 import { randomBytes } from "node:crypto";
 import * as vscode from "vscode";
@@ -12,4 +12,10 @@ export async function write(target: vscode.Uri, content: string | Uint8Array): P
     await vscode.workspace.fs.delete(beside).then(undefined, () => undefined);
     throw error;
   }
+}
+
+/** Opens what is made of a document where that stands, so that the picture beside it becomes that of the file. */
+export async function openMade(document: vscode.TextDocument, target: vscode.Uri): Promise<void> {
+  const shown = vscode.window.visibleTextEditors.find((editor) => editor.document === document);
+  await vscode.window.showTextDocument(target, { viewColumn: shown?.viewColumn ?? vscode.ViewColumn.Active, preview: false });
 }

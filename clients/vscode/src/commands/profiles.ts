@@ -1,4 +1,4 @@
-// How an ISO program can be written, as a list to choose from. Knows nothing of VS Code.
+// How an ISO program can be written, and what a machine reads, as lists to choose from. Knows nothing of VS Code.
 
 import { t } from "../words";
 
@@ -25,4 +25,10 @@ export function choices(set: string | null, own: readonly string[]): Choice[] {
     ...SHIPPED.map(([profile, detail]) => ({ label: profile, detail: t(detail), profile })),
     ...others.map((profile) => ({ label: profile, detail: t("Set in wedm.profiles"), profile })),
   ];
+}
+
+/** What `wedm init` knows a machine to read. */
+export function machines(): (Choice & { profile: string })[] {
+  const blocks = { label: "3B", detail: t("Fast-wire controllers that take 3B"), profile: "3b" };
+  return [blocks, ...SHIPPED.map(([profile, detail]) => ({ label: `ISO: ${profile}`, detail: t(detail), profile }))];
 }

@@ -3,6 +3,7 @@
 import * as vscode from "vscode";
 import type { Front } from "../front";
 import { isProgram } from "../languages";
+import { isAboveZero, numberOf } from "./numbers";
 import { subject } from "./subject";
 import { t } from "../words";
 
@@ -17,13 +18,9 @@ export async function scaleProgram(front: Front, argument: unknown): Promise<voi
   const entered = await vscode.window.showInputBox({
     title: t("Scale Program"),
     prompt: t("Factor by which every length of the program is multiplied."),
-    validateInput: (text) => (factorOf(text) > 0 && Number.isFinite(factorOf(text)) ? null : t("expected a number above 0")),
+    validateInput: (text) => (isAboveZero(text) ? null : t("expected a number above 0")),
   });
   if (entered !== undefined) {
-    await vscode.commands.executeCommand(COMMAND, { uri: document.uri.toString(), factor: factorOf(entered) });
+    await vscode.commands.executeCommand(COMMAND, { uri: document.uri.toString(), factor: numberOf(entered) });
   }
-}
-
-function factorOf(text: string): number {
-  return text.trim() === "" ? Number.NaN : Number(text.replace(",", "."));
 }

@@ -3,10 +3,15 @@
 import * as vscode from "vscode";
 import type { Server } from "../server/server";
 
+/** The one that holds; undefined where there is none. */
+export async function settingsThere(server: Server, uri: vscode.Uri): Promise<vscode.Uri | undefined> {
+  const { file } = await server.request("wedm/settings", { uri: uri.toString() });
+  return file === undefined ? undefined : vscode.Uri.parse(file);
+}
+
 /** The one that holds, or the one that would stand beside the drawing. */
 export async function settingsFile(server: Server, uri: vscode.Uri): Promise<vscode.Uri> {
-  const settings = await server.request("wedm/settings", { uri: uri.toString() });
-  return settings.file === undefined ? vscode.Uri.joinPath(uri, "..", "wedm.toml") : vscode.Uri.parse(settings.file);
+  return (await settingsThere(server, uri)) ?? vscode.Uri.joinPath(uri, "..", "wedm.toml");
 }
 
 /** Makes the file where it is not there, changes its text and saves it; undo works in that file. */

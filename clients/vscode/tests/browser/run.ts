@@ -2,6 +2,7 @@
 
 import { Checks } from "./checks";
 import { badDays } from "./badDays";
+import { deliver } from "./deliver";
 import { drawing } from "./drawing";
 import { job } from "./job";
 import { large } from "./large";
@@ -17,7 +18,8 @@ import { withServer } from "./withServer";
 const ONLY_BY_NAME = "readme";
 type Scenario = (checks: Checks) => Promise<void>;
 const pages = { states, large, themes };
-const scenarios: Record<string, Scenario> = { text, picture, drawing, job, ...pages, program, badDays, withServer, [ONLY_BY_NAME]: readme };
+const jobs = { program, job, deliver };
+const scenarios: Record<string, Scenario> = { text, picture, drawing, ...jobs, ...pages, badDays, withServer, [ONLY_BY_NAME]: readme };
 const checks = new Checks();
 const named = process.argv.slice(2);
 

@@ -12,6 +12,7 @@ const manifest = JSON.parse(await readFile(new URL("package.json", root), "utf8"
     grammars: { language: string; path: string }[];
     commands: { command: string }[];
     menus: Record<string, { command: string }[]>;
+    walkthroughs: { steps: { id: string; media: { markdown: string }; completionEvents: string[] }[] }[];
   };
 };
 
@@ -39,5 +40,28 @@ test("every command that is offered is registered, and menus offer no other", as
   // Code lenses of the server name these.
   for (const command of ["wedm.simulate", "wedm.openPicture", "wedm.convertToDxf"]) {
     assert.ok(registered.has(command), command);
+  }
+});
+
+test("a walkthrough names commands that are there, and its pages are there in both languages with their pictures", async () => {
+  const offered = new Set(manifest.contributes.commands.map(({ command }) => command));
+  const steps = manifest.contributes.walkthroughs.flatMap((walkthrough) => walkthrough.steps);
+  const events = steps.flatMap(({ completionEvents }) => completionEvents);
+  const words = await Promise.all(["package.nls.json", "package.nls.zh-cn.json"].map((file) => readFile(new URL(file, root), "utf8")));
+  const named = [...events.join("\n").matchAll(/onCommand:(wedm\.\S+)/g), ...words.join("\n").matchAll(/\(command:(wedm\.\w+)\)/g)];
+  for (const [, command = ""] of named) {
+    assert.ok(offered.has(command), command);
+  }
+  const pictures = async (file: string): Promise<(string | undefined)[]> => {
+    const page = await readFile(new URL(file, root), "utf8");
+    return [...page.matchAll(/!\[[^\]]+\]\(\.\.\/dist\/pictures\/([^)]+)\)/g)].map(([, picture]) => picture);
+  };
+  for (const { id, media, completionEvents } of steps) {
+    assert.ok(completionEvents.length > 0, id);
+    const shown = await pictures(media.markdown);
+    assert.deepEqual(await pictures(media.markdown.replace(/\.md$/, ".nls.zh-cn.md")), shown);
+    for (const picture of shown) {
+      await access(new URL(`../../docs/pictures/${picture ?? ""}`, root));
+    }
   }
 });
