@@ -46,6 +46,8 @@ pub(super) struct Told {
     pub ways: usize,
     /// The same for blocks of contours, and the number of both.
     unlike: [usize; 2],
+    /// Blocks whose words differ from the expected ones.
+    changed: usize,
 }
 
 impl Told {
@@ -58,6 +60,16 @@ impl Told {
     pub(crate) fn is_mostly_unlike(&self) -> bool {
         let [unlike, all] = self.unlike;
         LIKE * unlike >= all
+    }
+
+    /// All is to the last digit as expected but for one block, which differs, is lost or stands twice: whatever else that
+    /// may come to, other settings change more.
+    pub(crate) fn is_one_change(&self) -> bool {
+        let all = &self.comparison.differences;
+        self.is_exact()
+            && self.elsewhere == 0
+            && matches!(&all[..], [one] if one.kind != Kind::Moved)
+            && self.changed + usize::from(self.has_gap) == 1
     }
 
     /// Several moved ways in and out come from another setting, whether or not they are one change, and so does one
@@ -209,6 +221,9 @@ impl Pairs<'_> {
         if 2 * all.iter().filter(|(off, _)| *off > alike).count() > moving {
             return None;
         }
+        let is_changed =
+            |(pair, (off, _)): &(&Pair, &(f64, bool))| *off > alike && !pair.words.are_same;
+        let changed = self.pairs.iter().zip(&all).filter(is_changed).count();
         let most = FEW.min(traced.blocks.len() / 3);
         let (mut found, mut stated) = (Vec::new(), Vec::new());
         let (mut elsewhere, mut ways, mut unlike, mut strays) = (0, 0, 0, false);
@@ -336,6 +351,7 @@ impl Pairs<'_> {
             ways,
             words: Vec::new(),
             unlike: [unlike, moving],
+            changed,
         })
     }
 

@@ -11,6 +11,9 @@ use std::ops::Range;
 
 /// The most cuts from which a place is tried.
 const TRIED: usize = 60;
+/// The first cuts from which every place is tried, and the most of these.
+const FIRST: usize = 12;
+const PLACES: usize = 32;
 /// A place farther away than this is not caused by a wrong block, µm.
 const FAR: f64 = 1e4;
 /// A place that this many consecutive blocks follow is the right one.
@@ -60,6 +63,31 @@ pub(super) fn others(traced: &Traced, rounds: &Rounds, placement: &Placement) ->
         true => others.filter_map(|other| other.exactly()).collect(),
         false => others.collect(),
     }
+}
+
+/// All places where the program may lie: where several contours are alike, the first of them in the program may be any.
+pub(super) fn places(traced: &Traced, rounds: &Rounds) -> Vec<Placement> {
+    let still = Placement::at(Vector::zeros());
+    let walk = Walk::new(traced, rounds, still);
+    let mut all: Vec<Placement> = traced
+        .is_placed
+        .then(|| still.gridded())
+        .into_iter()
+        .collect();
+    for index in cuts(traced, 0..traced.blocks.len()).into_iter().take(FIRST) {
+        for found in matching(rounds, traced, index, &still) {
+            let (count, ends) = walk.verify(found.placement, found.spot, found.spot, index, SURE);
+            if count + usize::from(ends) < 2 {
+                continue;
+            }
+            let place = refined(traced, rounds, found, index);
+            let is_known = |other: &Placement| (other.shift - place.shift).norm() <= 0.5;
+            if all.len() < PLACES && !all.iter().any(is_known) {
+                all.push(place);
+            }
+        }
+    }
+    all
 }
 
 /// Cuts among these blocks from which a place is tried.

@@ -5,6 +5,7 @@ use super::against_reference::{Told, against_reference};
 use super::comparison::looked_at;
 use super::difference::{Comparison, Difference};
 use super::drawn::Drawn;
+use super::followed::followed;
 use super::guess::otherwise;
 use super::traced::{Block, Traced};
 use super::walk::Kind;
@@ -30,8 +31,14 @@ pub fn compare(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
         return known.map(Told::whole);
     }
     let Some(known) = known else {
-        let guessed = otherwise(drawn, traced).map(Told::whole);
-        let seen = guessed.or_else(|| looked_at(drawn, traced));
+        let guessed = otherwise(drawn, traced);
+        let seen = match guessed {
+            Some(told) if told.comparison.differences.is_empty() || is_slip(&told) => {
+                Some(told.whole())
+            }
+            guessed => followed(drawn, traced).or(guessed.map(Told::whole)),
+        };
+        let seen = seen.or_else(|| looked_at(drawn, traced));
         return seen.or_else(|| on_other_side(drawn, traced));
     };
     let blocks = traced.blocks.len();
@@ -40,11 +47,18 @@ pub fn compare(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
         [] => false,
         _ if !known.is_exact() => true,
         // Nobody sets anything otherwise by so little.
-        [one] if known.elsewhere == 0 && !known.has_gap && one.off <= SLIP => false,
+        _ if is_slip(&known) => false,
         [one] if one.kind == Kind::Moved && known.elsewhere == 0 && !known.has_gap => false,
         [_] => known.has_gap || known.elsewhere > 0 || blocks < SMALL,
         all => 16 * all.len() > blocks || all.iter().any(|one| one.off < ROUNDING),
     };
+    if (is_doubtful || known.has_moved())
+        && !known.is_one_change()
+        && is_of_contours(&known)
+        && let Some(seen) = followed(drawn, traced)
+    {
+        return Some(seen);
+    }
     if !is_doubtful {
         return Some(known.whole());
     }
@@ -61,6 +75,23 @@ pub fn compare(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
     // One may be as another writer has it in a place or two.
     let is_clean = |seen: &Comparison| seen.differences.is_empty();
     looked_at(drawn, traced).filter(is_clean).or(Some(known))
+}
+
+/// One block differs, by so little that nobody sets anything otherwise.
+fn is_slip(told: &Told) -> bool {
+    let is_one = matches!(&told.comparison.differences[..], [one] if one.off <= SLIP);
+    is_one && told.is_exact() && told.elsewhere == 0 && !told.has_gap
+}
+
+/// What differs is of contours, not of the ways between them.
+fn is_of_contours(told: &Told) -> bool {
+    let is_contour = |one: &Difference| {
+        matches!(
+            one.kind,
+            Kind::Block | Kind::Moved | Kind::Unfinished | Kind::Foreign
+        )
+    };
+    told.comparison.differences.iter().any(is_contour)
 }
 
 /// The first block of a program that follows all of the drawing on the other side of its contours.

@@ -25,6 +25,8 @@ pub use super::walk::Kind as DifferenceKind;
 pub(super) const FEW: usize = 6;
 /// The deviation of a 4B block that another rounding of its transitions explains, µm.
 const ROUNDED: f64 = 2.5;
+/// A block of another writer ends farther than this from its node where its numbers are those of a writer of steps, µm.
+const SNAPPED: f64 = 0.75;
 /// Of several differing blocks one deviates by at least this, µm.
 const CHANGED: f64 = 2.5;
 /// For each differing block this many must be as we write them: then it is a change, and not another writer's rounding.
@@ -53,8 +55,12 @@ pub(super) fn looked_at(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
         own
     };
     // The start of a contour in 4B decides how its transitions are rounded, and it is not known to the micrometre.
-    let is_rounding = |unlike: &Unlike| unlike.off <= ROUNDED;
-    let is_loose = traced.four_b && near.is_clean() && own.unlike.iter().all(is_rounding);
+    let is_rounding = |unlike: &Unlike| match traced.four_b {
+        true => unlike.off <= ROUNDED,
+        // One that ends where it should has its centre elsewhere.
+        false => (SNAPPED..=TOLERANCE).contains(&unlike.off),
+    };
+    let is_loose = near.is_clean() && own.unlike.iter().all(is_rounding);
     // Under settings that are not those of the drawing, a difference may be meant.
     let is_meant = |tried: &Tried| tried.is_guess && !tried.is_clean() && !tried.is_one_change();
     if own.is_own() && !is_loose && !is_meant(&own) {
@@ -94,7 +100,7 @@ fn nearest(drawn: &Drawn, traced: &Traced, courses: &[Course]) -> Tried {
     best
 }
 
-fn courses(settings: &Effective, traced: &Traced) -> Vec<Course> {
+pub(super) fn courses(settings: &Effective, traced: &Traced) -> Vec<Course> {
     if traced.four_b {
         return vec![Course::FourB, Course::Drawn];
     }
@@ -106,7 +112,7 @@ fn courses(settings: &Effective, traced: &Traced) -> Vec<Course> {
     corrections.into_iter().map(Course::Beside).collect()
 }
 
-fn with_other_corner(drawn: &Drawn) -> Drawn {
+pub(super) fn with_other_corner(drawn: &Drawn) -> Drawn {
     let corner = match drawn.settings.corner {
         Corner::Arc => Corner::Intersection,
         Corner::Intersection => Corner::Arc,
@@ -118,7 +124,7 @@ fn with_other_corner(drawn: &Drawn) -> Drawn {
 }
 
 /// One placement of the program on the drawing.
-struct Tried {
+pub(super) struct Tried {
     unlike: Vec<Unlike>,
     /// Blocks that follow.
     followed: usize,
@@ -205,7 +211,11 @@ fn along(
 }
 
 /// All blocks of a program, each with its place on the drawing; and the sum of their deviations, µm.
-fn sound(traced: &Traced, rounds: &Rounds, placement: Placement) -> Option<(Walked, f64)> {
+pub(super) fn sound(
+    traced: &Traced,
+    rounds: &Rounds,
+    placement: Placement,
+) -> Option<(Walked, f64)> {
     let members = Members::all(traced, rounds, placement);
     members.filter(|(walked, _)| foreign(traced, walked).is_empty())
 }
@@ -259,7 +269,7 @@ impl Tried {
         }
     }
 
-    fn of(
+    pub(super) fn of(
         traced: &Traced,
         mut walked: Walked,
         foreign: &[Range<usize>],
@@ -404,7 +414,7 @@ impl Tried {
         }
     }
 
-    fn told(self, drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
+    pub(super) fn told(self, drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
         if !self.is_sound(traced) {
             return None;
         }

@@ -43,7 +43,7 @@ pub(super) fn displaced(pairs: &Pairs, from: Vector, least: f64) -> Vec<Displace
     };
     let mut found = Vec::new();
     let (mut end, mut last): (usize, Option<Vector>) = (0, None);
-    let mut before = base;
+    let (mut before, mut before_it) = (base, 0..0);
     for (nth, (own, at)) in all.iter().enumerate() {
         let (own, at) = (own.clone(), *at);
         let next = all
@@ -65,23 +65,46 @@ pub(super) fn displaced(pairs: &Pairs, from: Vector, least: f64) -> Vec<Displace
             };
             let is_way =
                 |number: &usize| matches!(pairs.pairs[*number].own.motion, Motion::Way(..));
-            let way = ways
-                .clone()
-                .find(leads_there)
-                .or_else(|| ways.clone().find(is_way));
-            found.push(Displaced {
-                way: way.unwrap_or(own.start),
-                ways,
-                segment: pairs.reference.source_of(&first.meant.motion),
-                contour: own.start..next.max(own.end),
-                by: by + base,
-                off: by.norm(),
-                is_behind_one: last.is_some_and(|last| (last - by).norm() <= ALIKE),
+            let leading = ways.clone().find(leads_there);
+            let begins = first.own.motion.ends().zip(first.meant.motion.ends());
+            let begins_there = begins.is_none_or(|([start, _], [from_there, _])| {
+                (start - from - from_there - (by + base)).norm() <= ALIKE
             });
+            let step = by + base - before;
+            // Where places are stated, its first block may lead there.
+            let is_within = pairs.traced.counts && leading.is_none() && !begins_there;
+            // A block of the contour before it moves all that comes after.
+            let is_moved_before = leading.is_none()
+                && (before_it.clone().any(|number| leads_there(&number)) || pairs.skips(step));
+            let way = leading.or_else(|| ways.clone().find(is_way));
+            if !is_within {
+                found.push(Displaced {
+                    way: way.unwrap_or(own.start),
+                    ways,
+                    segment: pairs.reference.source_of(&first.meant.motion),
+                    contour: own.start..next.max(own.end),
+                    by: by + base,
+                    off: by.norm(),
+                    is_behind_one: is_moved_before
+                        || last.is_some_and(|last| (last - by).norm() <= ALIKE),
+                });
+            }
         }
+        before_it = own.clone();
         (end, last, before) = (own.end.max(end), by, at.unwrap_or(before));
     }
     found
+}
+
+impl Pairs<'_> {
+    /// Whether a block that is lost or superfluous moves what comes after it by this.
+    fn skips(&self, step: Vector) -> bool {
+        let by = self.gap.and_then(|(_, of)| {
+            let [start, end] = of.motion.ends()?;
+            Some(end - start)
+        });
+        by.is_some_and(|by| (by - step).norm().min((by + step).norm()) <= ALIKE)
+    }
 }
 
 /// Of these vectors the first of those that are alike more often than any others.

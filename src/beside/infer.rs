@@ -5,7 +5,7 @@
 //! together has a vote.
 
 use super::drawn::Contour;
-use crate::geometry::{Bounds, Segment, Vector, positive_angle, turn};
+use crate::geometry::{Bounds, Point, Segment, Vector, positive_angle, turn};
 
 /// The range of corrections, µm.
 const LEAST: f64 = 5.0;
@@ -115,7 +115,7 @@ fn votes<'a>(
             votes.extend([wider.abs(); 3]);
         }
         // A circle has no corners: each arc of the program votes, wherever it begins.
-        if let Some(radius) = circle(&segments) {
+        if let Some((_, radius)) = circle(&segments) {
             let arcs = blocks.iter().filter_map(Segment::as_arc);
             votes.extend(arcs.map(|arc| (arc.radius - radius).abs()));
         }
@@ -149,8 +149,8 @@ fn most(mut votes: Vec<f64>) -> Vec<f64> {
     found.into_iter().map(|(_, mm)| mm).collect()
 }
 
-/// The radius of segments that are one circle.
-fn circle(segments: &[Segment]) -> Option<f64> {
+/// Centre and radius of segments that are one circle.
+pub(super) fn circle(segments: &[Segment]) -> Option<(Point, f64)> {
     let first = segments.first()?.as_arc()?;
     let is_of_it = |segment: &Segment| {
         let arc = segment.as_arc();
@@ -158,7 +158,10 @@ fn circle(segments: &[Segment]) -> Option<f64> {
             (arc.center - first.center).norm() + (arc.radius - first.radius).abs() < ONE
         })
     };
-    segments.iter().all(is_of_it).then_some(first.radius)
+    segments
+        .iter()
+        .all(is_of_it)
+        .then_some((first.center, first.radius))
 }
 
 fn turned(segments: &[Segment], closed: bool) -> Vec<Turned> {
@@ -211,7 +214,7 @@ fn vote(own: &Turned, block: &Turned) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{Point, direction};
+    use crate::geometry::direction;
     use proptest::prelude::*;
 
     /// A line or an arc of any direction.

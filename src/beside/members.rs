@@ -5,10 +5,10 @@
 //! cut is cut as often everywhere.
 
 use super::coverage::Coverage;
-use super::placement::Placement;
+use super::placement::{Placement, lever, stretch};
 use super::rounds::{Rounds, Spot};
 use super::traced::{Motion, Traced};
-use super::walk::Walked;
+use super::walk::{Kind, Unlike, Walked};
 use super::{BETWEEN, COVERED, LEADS, REACH};
 use crate::geometry::{Segment, Vector};
 
@@ -35,7 +35,11 @@ pub(super) struct Members {
     is_broken: bool,
     miss: f64,
     stretch: Stretch,
+    slips: Vec<Unlike>,
 }
+
+/// What no writer rounds the numbers of a block by, µm: both of its ends, or its start and its centre, lie on the grid.
+const NUMBER: f64 = 1.6;
 
 /// The blocks since the correction was switched on or off.
 #[derive(Clone, Copy, Default)]
@@ -69,6 +73,7 @@ impl Members {
             is_broken: false,
             miss: 0.0,
             stretch: Stretch::default(),
+            slips: Vec::new(),
         }
     }
 
@@ -123,6 +128,16 @@ impl Members {
             whole,
             miss,
         } = found;
+        if whole && !traced.four_b && rounds.is_begin(&from) {
+            let (meant, _) = stretch(rounds, &from, &entry);
+            let off = numbers_apart(segment, &meant, traced.counts);
+            self.slips.extend((off > NUMBER).then(|| Unlike {
+                block: index,
+                source: rounds.piece(&from).source,
+                off,
+                kind: Kind::Block,
+            }));
+        }
         if self.base.is_none() {
             self.base = rounds.beside(&from).map(|by| placement.shift - by);
         }
@@ -227,9 +242,26 @@ impl Members {
             on: members.on,
             follows: members.follows,
             contours: members.contours,
+            slips: members.slips,
             ..Walked::default()
         };
         (whole && !walked.contours.is_empty()).then_some((walked, members.miss))
+    }
+}
+
+/// By how much the numbers of a block differ from those of its piece, µm: where it leads from its start, and where its
+/// centre lies from there. Where a machine counts, the end of an arc is none of them.
+fn numbers_apart(own: &Segment, meant: &Segment, counts: bool) -> f64 {
+    let ends = ((own.end() - own.start()) - (meant.end() - meant.start())).amax();
+    match (own.as_arc(), meant.as_arc()) {
+        (Some(arc), Some(other)) => {
+            let centers = (arc.center - arc.start) - (other.center - other.start);
+            let apart = centers.amax() - lever(arc);
+            if counts { apart } else { apart.max(ends) }
+        }
+        // A chord, or an arc that is nearly straight.
+        (None, None) => ends,
+        _ => 0.0,
     }
 }
 

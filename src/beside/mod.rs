@@ -21,6 +21,7 @@ mod difference;
 mod displaced;
 mod drawn;
 mod findings;
+mod followed;
 mod foreign;
 mod gouges;
 mod guess;

@@ -57,6 +57,8 @@ const COUNTED: f64 = 1.52;
 /// µm.
 const CENTRED: f64 = 1.501;
 const ASIDE: f64 = 2.6;
+/// The largest sum of the roundings of single steps, µm: what stands farther away has been moved.
+const DRIFTED: f64 = 2.2;
 /// The largest distance of a node from its assumed place: the program's place was found from rounded places; the arc
 /// before it ended within a piece, µm.
 const UNSURE: f64 = 1.0;
@@ -159,7 +161,13 @@ impl Placement {
         if from == entry {
             self.begun = self.begun.max(self.unsure);
         }
-        let reached = self.reach(rounds, block, kind, from, entry).or_else(|| {
+        let reached = self.reach(rounds, block, kind, from, entry);
+        if reached.is_none()
+            && let Some(drifted) = self.drifting(rounds, block, kind, from, entry)
+        {
+            return Some(drifted);
+        }
+        let reached = reached.or_else(|| {
             // Crumbs are left out by the one or by the other.
             if block.length() <= CRUMB {
                 let end = self.place(block.end());
@@ -176,6 +184,32 @@ impl Placement {
             self.reach(rounds, block, kind, &next, entry)
         })?;
         self.stand(rounds, &reached, (from, entry), counts);
+        Some(reached)
+    }
+
+    /// The same where each step of an incremental program has been rounded by itself: the program stands beside the
+    /// node by the sum of that, and goes on from there as the drawing does. What it stands aside by stays.
+    fn drifting(
+        &mut self,
+        rounds: &Rounds,
+        block: &Segment,
+        (counts, four_b): (bool, bool),
+        from: &Spot,
+        entry: &Spot,
+    ) -> Option<Reached> {
+        let by = self.place(block.start()) - from.at;
+        if self.exact || counts || four_b || by.norm() > DRIFTED {
+            return None;
+        }
+        let there = Placement {
+            lag: self.lag - by,
+            ..*self
+        };
+        let reached = there.reach(rounds, block, (counts, four_b), from, entry)?;
+        if !reached.whole || reached.off.norm() > SNAPPED {
+            return None;
+        }
+        *self = there;
         Some(reached)
     }
 
@@ -326,7 +360,10 @@ impl Placement {
     /// Whether an arc has its centre where the grid has one for that of the drawing.
     fn is_centred(&self, way: &Segment, rest: &Segment) -> bool {
         match (way.as_arc(), rest.as_arc()) {
-            (Some(own), Some(meant)) => (own.center - meant.center).amax() <= CENTRED + self.unsure,
+            (Some(own), Some(meant)) => {
+                let room = CENTRED + self.unsure + lever(own);
+                (own.center - meant.center).amax() <= room
+            }
             _ => true,
         }
     }
@@ -384,6 +421,16 @@ impl Placement {
             None => limit,
         }
     }
+}
+
+/// How far the rounding of its ends moves the centre of an arc that spans less than half a turn, µm: by the more the
+/// shorter it is beside its radius.
+pub(super) fn lever(arc: &Arc) -> f64 {
+    let chord = (arc.end - arc.start).norm();
+    if arc.sweep.abs() >= std::f64::consts::PI || chord < LEAST_PART {
+        return 0.0;
+    }
+    2.0 * SNAPPED * (arc.radius / chord - 0.5).max(0.0)
 }
 
 /// The rest of a spot's piece, up to `entry` where that lies ahead on it; and the spot after that.

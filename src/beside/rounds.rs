@@ -1,6 +1,7 @@
 //! The ways of the wire round the contours of a drawing, as places along which a program moves.
 
 use super::drawn::{Contour, Drawn};
+use super::infer::circle;
 use crate::drawing::EntityId;
 use crate::geometry::{Arc, Bounds, Grid, Point, Segment, Side, Vector, left_normal};
 use crate::program::write::scaled;
@@ -180,6 +181,8 @@ impl Rounds {
                 segment => round.push(segment, source),
             }
         }
+        let segments: Vec<Segment> = round.pieces.iter().map(|piece| piece.segment).collect();
+        round.circle = round.circle.or_else(|| circle(&segments));
         let number = self.rounds.len() as u32;
         self.leads.take();
         self.index.reserve(round.pieces.len());

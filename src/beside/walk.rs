@@ -73,6 +73,8 @@ pub(super) struct Walked {
     pub follows: Vec<usize>,
     /// Contours that were followed.
     pub contours: Vec<usize>,
+    /// Blocks that follow within the tolerance, with numbers that no writer rounds so.
+    pub slips: Vec<Unlike>,
 }
 
 /// This many blocks must follow so that others before them count as changed.
