@@ -5,8 +5,9 @@
 //! [`dxf`], [`settings`]; [`finding`]; [`drawing`]; [`rule`]; [`geometry`], [`text`], [`message`], `disk`.
 //! `docs/architecture.md` is the map and describes each.
 //!
-//! Nothing here may panic. Rooms that read foreign input do not index; elsewhere an index comes
-//! from the same list a few lines before, and property tests and fuzz targets exercise it.
+//! Nothing here may panic. Text is nowhere cut at a number of bytes, which may lie within a character. Rooms that read
+//! foreign input do not index; elsewhere an index comes from the same list a few lines before, and property tests and
+//! fuzz targets exercise it.
 
 #![warn(
     unreachable_pub,
@@ -21,27 +22,27 @@
 #[macro_use]
 pub mod message;
 
-#[allow(clippy::indexing_slicing, clippy::string_slice)]
+#[allow(clippy::indexing_slicing)]
 pub mod analysis;
-#[allow(clippy::indexing_slicing, clippy::string_slice)]
+#[allow(clippy::indexing_slicing)]
 pub mod beside;
-#[allow(clippy::indexing_slicing, clippy::string_slice)]
+#[allow(clippy::indexing_slicing)]
 pub mod cli;
 mod disk;
 pub mod document;
-#[allow(clippy::indexing_slicing, clippy::string_slice)]
+#[allow(clippy::indexing_slicing)]
 pub mod drawing;
 pub mod dxf;
 pub mod finding;
-#[allow(clippy::indexing_slicing, clippy::string_slice)]
+#[allow(clippy::indexing_slicing)]
 pub mod fit;
-#[allow(clippy::indexing_slicing, clippy::string_slice)]
+#[allow(clippy::indexing_slicing)]
 pub mod geometry;
-#[allow(clippy::indexing_slicing, clippy::string_slice)]
+#[allow(clippy::indexing_slicing)]
 pub mod ide;
 pub mod job;
 pub mod picture;
-#[allow(clippy::indexing_slicing, clippy::string_slice)]
+#[allow(clippy::indexing_slicing)]
 pub mod program;
 pub mod protocol;
 pub mod rule;
@@ -50,5 +51,5 @@ pub(crate) mod rules;
 pub mod server;
 pub mod settings;
 pub mod text;
-#[allow(clippy::indexing_slicing, clippy::string_slice)]
+#[allow(clippy::indexing_slicing)]
 pub mod toolpath;

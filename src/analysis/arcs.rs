@@ -104,7 +104,7 @@ impl Analysis {
     }
 
     /// Contours that have tight arcs, in machining order, with the wire side of each.
-    pub(super) fn with_tight_arcs(&self, drawing: &Drawing) -> Vec<(ContourKey, Option<Side>)> {
+    fn with_tight_arcs(&self, drawing: &Drawing) -> Vec<(ContourKey, Option<Side>)> {
         let ordered = self.in_machining_order(drawing);
         let roles = self.roles(drawing, ordered);
         let tight = ordered.iter().zip(roles).filter(|(key, _)| {
@@ -117,7 +117,7 @@ impl Analysis {
             .collect()
     }
 
-    pub(super) fn tight_in_entity_order(&self, key: ContourKey) -> Vec<usize> {
+    fn tight_in_entity_order(&self, key: ContourKey) -> Vec<usize> {
         self.known
             .get(&key)
             .map_or_else(Vec::new, |known| known.index.tight().collect())

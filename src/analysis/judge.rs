@@ -278,7 +278,7 @@ impl Analysis {
     }
 
     /// The size of the largest contour, where it suggests another unit than the drawing's.
-    pub(super) fn report_size(&self, drawing: &Drawing, report: &mut Report) {
+    fn report_size(&self, drawing: &Drawing, report: &mut Report) {
         let is_there = |key| self.is_there(drawing, key);
         let bounds_of = |key: ContourKey| {
             self.known

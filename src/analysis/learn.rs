@@ -16,7 +16,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 impl Analysis {
-    pub(super) fn enter_known(&mut self, key: ContourKey, known: Arc<Known>) {
+    fn enter_known(&mut self, key: ContourKey, known: Arc<Known>) {
         self.segments += known.index.len();
         self.stated += usize::from(known.stated.is_some());
         self.enter_vicinity(key, &known.index);
@@ -118,7 +118,7 @@ impl Analysis {
 
     /// Compares the pairs of segments that these runs form with each other and with others; the runs are new or have
     /// been forgotten.
-    pub(super) fn look_at_pairs(&mut self, drawing: &Drawing, runs: &[RunId]) {
+    fn look_at_pairs(&mut self, drawing: &Drawing, runs: &[RunId]) {
         let mut pairs = std::mem::take(&mut self.pairs);
         let outlook = |key| self.outlook(drawing, key);
         pairs.check(&outlook, &self.limits, &self.settings, runs);
@@ -267,7 +267,7 @@ impl Analysis {
     }
 
     /// The run with the first segment of a contour that is one closed entity.
-    pub(super) fn beginning_of(&self, drawing: &Drawing, key: ContourKey) -> Option<RunId> {
+    fn beginning_of(&self, drawing: &Drawing, key: ContourKey) -> Option<RunId> {
         let first = self.chains.first_of(key).filter(|&first| {
             drawing
                 .get(first)

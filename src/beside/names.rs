@@ -176,7 +176,7 @@ fn name_in(comment: &str) -> Option<String> {
     // A name with spaces stands after a word and a colon.
     let label = named.find([':', '=']).filter(|at| !is_drive(named, *at));
     let name = match label {
-        Some(at) => &named[at + 1..],
+        Some(at) => named.get(at + 1..)?,
         None => named.rsplit(char::is_whitespace).next()?,
     };
     let name = name.trim().trim_matches('"');
@@ -185,7 +185,8 @@ fn name_in(comment: &str) -> Option<String> {
 
 /// The colon of `C:\`.
 fn is_drive(text: &str, at: usize) -> bool {
-    text[at..].starts_with(":\\") || text[at..].starts_with(":/")
+    let behind = text.get(at..).unwrap_or_default();
+    behind.starts_with(":\\") || behind.starts_with(":/")
 }
 
 #[cfg(test)]

@@ -157,40 +157,31 @@ fn shown(text: &str, has_colours: bool) -> Cow<'_, str> {
         let (plain, behind) = rest.split_at(plain.unwrap_or(rest.len()));
         out.push_str(plain);
         rest = behind;
-        let Some(character) = rest.chars().next() else {
+        if let Some((style, behind)) = style_at_head(rest) {
+            out.push_str(if has_colours { style } else { "" });
+            rest = behind;
+            continue;
+        }
+        let mut characters = rest.chars();
+        let Some(character) = characters.next() else {
             return Cow::Owned(out);
         };
-        let style = if character == '\u{1b}' {
-            style_length(rest)
-        } else {
-            0
-        };
-        let length = style.max(character.len_utf8());
+        rest = characters.as_str();
         match character {
-            _ if style > 0 && has_colours => out.push_str(&rest[..style]),
-            _ if style > 0 => {}
-            '\r' if rest[1..].starts_with('\n') => {}
+            '\r' if rest.starts_with('\n') => {}
             hidden if is_hidden(hidden) => out.push(char::REPLACEMENT_CHARACTER),
             other => out.push(other),
         }
-        rest = &rest[length..];
     }
 }
 
-/// Bytes of the colour or weight that `text` begins with: `ESC [ digits m`.
-fn style_length(text: &str) -> usize {
-    let Some(numbers) = text.strip_prefix("\u{1b}[") else {
-        return 0;
-    };
-    let end = numbers
-        .bytes()
-        .position(|byte| !matches!(byte, b'0'..=b'9' | b';'))
-        .unwrap_or(numbers.len());
-    if numbers[end..].starts_with('m') {
-        2 + end + 1
-    } else {
-        0
-    }
+/// The colour or weight that `text` begins with, `ESC [ digits m`, and the rest.
+fn style_at_head(text: &str) -> Option<(&str, &str)> {
+    let numbers = text.strip_prefix("\u{1b}[")?;
+    let behind =
+        numbers.trim_start_matches(|letter: char| letter.is_ascii_digit() || letter == ';');
+    let behind = behind.strip_prefix('m')?;
+    text.split_at_checked(text.len() - behind.len())
 }
 
 /// JSON with every [`is_hidden`] character escaped. Outside strings there are only line ends.

@@ -170,7 +170,7 @@ impl<'a> Joints<'a> {
 
     /// The number of ends of an entity that meet another one's end in one point, except those for which `leaves_out`
     /// holds.
-    pub(crate) fn count_met(&self, entity: u32, leaves_out: impl Fn(u32) -> bool) -> usize {
+    fn count_met(&self, entity: u32, leaves_out: impl Fn(u32) -> bool) -> usize {
         let meets = |&end: &End| {
             let mut met = false;
             self.each_near(end, |other, distance| {

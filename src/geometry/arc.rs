@@ -278,6 +278,13 @@ impl Arc {
     }
 }
 
+/// The place nearest to a centre that is equally far from two ends; `None` where they coincide.
+pub(crate) fn equally_far(center: Point, start: Point, end: Point) -> Option<Point> {
+    let along = (end - start).try_normalize(0.0)?;
+    let middle = start + (end - start) * 0.5;
+    Some(center - along * (center - middle).dot(&along))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -23,6 +23,7 @@ mod xy;
 
 pub(crate) use approach::{curvature, facing, foot_inside, meetings, reached, shared_length};
 pub use arc::Arc;
+pub(crate) use arc::equally_far;
 pub(crate) use biarc::{Chain, Curve, Unfit, fit};
 pub(crate) use bounds::Bounds;
 pub(crate) use ellipse::EllipticArc;

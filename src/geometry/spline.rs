@@ -4,7 +4,7 @@ use super::biarc::Curve;
 use super::{Bounds, Point, Vector};
 
 /// A higher degree is refused: no program draws it, and each point costs its square.
-pub(crate) const MAX_DEGREE: usize = 24;
+const MAX_DEGREE: usize = 24;
 
 /// A (rational) B-spline. Made by `Spline::new`, so that its numbers are consistent.
 #[derive(Clone, Debug, PartialEq)]

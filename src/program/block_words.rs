@@ -24,7 +24,7 @@ pub(crate) fn register_in(text: &[u8]) -> Option<u32> {
     }
     let mut named = None;
     for line in text.split(|byte| *byte == b'\n') {
-        iso::words(line, 1, |token, _| {
+        iso::words_in(line, |token, _| {
             if let Token::Word {
                 letter: b'D' | b'H',
                 number,
@@ -81,7 +81,7 @@ impl BlockWords {
 
     fn of_iso(line: &[u8]) -> BlockWords {
         let mut said = BlockWords::default();
-        iso::words(line, 1, |token, _| {
+        iso::words_in(line, |token, _| {
             let Token::Word { letter, number } = token else {
                 return;
             };

@@ -171,11 +171,10 @@ pub(in crate::program) fn in_plain_letters(line: &[u8], alike: &[Alike]) -> Vec<
     plain
 }
 
-/// How many bytes of space begin a text, including wide spaces.
+/// How many bytes the wide space has that a text begins with; 0 where there is none.
 pub(in crate::program) fn wide_space(text: &[u8]) -> usize {
-    match text {
-        [0xc2, 0xa0, ..] => 2,
-        [0xe3, 0x80, 0x80, ..] | [0xe2, 0x80, 0x80..=0x8b | 0xaf, ..] | [0xef, 0xbb, 0xbf, ..] => 3,
+    match text.first().map(|_| in_utf_8(text)) {
+        Some((Some(Likeness::Space), length)) => length,
         _ => 0,
     }
 }
@@ -198,5 +197,14 @@ mod tests {
         assert_eq!(alike("直线 é".as_bytes()), []);
         assert_eq!(with_plain_marks("（1）B".as_bytes()).unwrap(), b"(  1)  B");
         assert_eq!(with_plain_marks("Ｂ".as_bytes()), None);
+        for (text, length) in [
+            ("\u{a0}B", 2),
+            ("\u{205f}B", 3),
+            ("\u{3000}", 3),
+            ("Ｂ", 0),
+            ("", 0),
+        ] {
+            assert_eq!(wide_space(text.as_bytes()), length, "{text:?}");
+        }
     }
 }

@@ -18,7 +18,7 @@ pub(super) fn refused(message: impl Into<String>) -> Error {
     }
 }
 
-pub(super) fn refused_with(message: impl Into<String>, diagnostics: Vec<Diagnostic>) -> Error {
+fn refused_with(message: impl Into<String>, diagnostics: Vec<Diagnostic>) -> Error {
     Error {
         data: serde_json::to_value(Refused { diagnostics }).ok(),
         ..refused(message)

@@ -262,7 +262,7 @@ impl State {
     }
 
     /// Drops everything derived from a document, never its text, and derives it again.
-    pub(crate) fn rebuild(&mut self, uri: &Arc<str>) {
+    fn rebuild(&mut self, uri: &Arc<str>) {
         if self.documents.get(uri).is_some_and(|open| {
             matches!(open.content, Content::Settings(_) | Content::Foreign) && open.tasks.is_empty()
         }) {

@@ -399,7 +399,7 @@ pub(super) fn close_up(element: &mut Element, end: Point) {
 const SAME: f64 = 1e-11;
 
 /// The share of a segment at which one of its points lies: an angle need not be worked out for its ends.
-pub(super) fn share_on(segment: &Segment, point: Point) -> f64 {
+fn share_on(segment: &Segment, point: Point) -> f64 {
     let is_at = |end: Point| (point - end).norm_squared() <= SAME * SAME;
     match segment {
         Segment::Arc(arc) if !arc.is_full_turn() && arc.length() > 1e3 * SAME => {

@@ -101,7 +101,7 @@ impl Walk<'_> {
     }
 
     /// Whether a counting arc leads to a block beside the drawing.
-    pub(super) fn comes_by_arcs(&self, index: usize) -> bool {
+    fn comes_by_arcs(&self, index: usize) -> bool {
         let before = (0..index)
             .rev()
             .take_while(|&before| !self.walked.runs[before]);

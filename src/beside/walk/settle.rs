@@ -165,7 +165,7 @@ impl Walk<'_> {
 
     /// Among the blocks before a run, starting with the one that begins where the run returned to, the one that does
     /// not follow, and its deviation.
-    pub(super) fn first_unlike(&self, run: &Run, before: usize) -> (usize, f64) {
+    fn first_unlike(&self, run: &Run, before: usize) -> (usize, f64) {
         let (mut spot, mut worst) = (run.spot, (before, 0.0));
         for block in before..run.first {
             let Some(own) = self.traced.blocks[block].segment() else {

@@ -119,11 +119,11 @@ fn pieces(word: &str) -> Vec<&str> {
     for ((_, before), (at, letter)) in word.char_indices().zip(word.char_indices().skip(1)) {
         let is_joined = "（“".contains(before) || "，。：；、）”…".contains(letter);
         if (is_wide(before) || is_wide(letter)) && !is_joined {
-            found.push(&word[from..at]);
+            found.extend(word.get(from..at));
             from = at;
         }
     }
-    found.push(&word[from..]);
+    found.extend(word.get(from..));
     found
 }
 

@@ -469,20 +469,3 @@ impl Block {
         self.x.is_some() || self.y.is_some()
     }
 }
-
-/// Bytes of the word with `letter` in a line; the last of them where it stands several times.
-pub(crate) fn word_range(
-    line: &[u8],
-    offset: usize,
-    wanted: impl Fn(u8, Number) -> bool,
-) -> Option<Range<usize>> {
-    let mut found = None;
-    words(line, offset, |token, range| {
-        if let Token::Word { letter, number } = token
-            && wanted(letter, number)
-        {
-            found = Some(range);
-        }
-    });
-    found
-}

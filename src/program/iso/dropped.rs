@@ -2,7 +2,7 @@
 
 use super::block::{Note, read_line};
 use super::document::Document;
-use super::plain::{text_of, words};
+use super::plain::{text_of, words_in};
 use super::unfollowed::{UnfollowedWord, unfollowed};
 use super::word::Token;
 use crate::text::says_anything;
@@ -32,14 +32,14 @@ pub(in crate::program) fn dropped(document: &Document, taper: bool) -> Dropped {
     for line in 0..document.text().line_count() {
         let bytes = document.line_bytes(line);
         let mut of_machine = Vec::new();
-        let block = read_line(bytes, 1, |note| {
+        let block = read_line(bytes, 0, |note| {
             if let Note::Foreign { code, range } = note
                 && (taper || !code.is_of_taper() && !code.tilts())
             {
                 of_machine.push(range.start);
             }
         });
-        words(bytes, 1, |token, range| {
+        words_in(bytes, |token, range| {
             let text = text_of(bytes, &range);
             match token {
                 Token::Comment => found.comments |= says_anything(text.as_bytes()),

@@ -5,7 +5,7 @@
 
 use super::block::{Block, Code};
 use super::moves::{FARTHEST_MM, Reading};
-use super::plain::words;
+use super::plain::words_in;
 use super::stretch::Stretch;
 use super::word::{Number, Token};
 use crate::finding::{Fault, Finding, Rule};
@@ -40,8 +40,7 @@ impl Stretch {
     ) -> Option<Finding> {
         let inch = block.inch.unwrap_or(self.after.inch);
         let mut found: Option<Range<usize>> = None;
-        words(line, 1, |token, range| {
-            let own = range.start - 1..range.end - 1;
+        words_in(line, |token, own| {
             if found.is_none() && is_too_far(&token, line.get(own.clone()), &self.reading, inch) {
                 found = Some(own);
             }
@@ -69,7 +68,7 @@ fn is_too_far(token: &Token, text: Option<&[u8]>, reading: &Reading, inch: bool)
             };
             let letters: &[u8] = if *first == b':' { b"XYIJRUV" } else { b"PN" };
             let mut is_any = false;
-            words(rest, 1, |token, _| {
+            words_in(rest, |token, _| {
                 if let Token::Word { letter, number } = token {
                     is_any |= letters.contains(&letter) && is_far(&number);
                 }

@@ -263,9 +263,12 @@ fn bare_fixes(document: &Document, range: &Range<usize>) -> Vec<TextFix> {
     let Some(at) = found.find(|character: char| character.is_ascii_digit()) else {
         return Vec::new();
     };
-    let padded = format!("{:0>4}", &found[at..]);
-    let (whole, thousandths) = padded.split_at(padded.len() - 3);
-    let fine = format!("{}{whole}.{thousandths}", &found[..at]);
+    let (letters, digits) = found.split_at(at);
+    let padded = format!("{digits:0>4}");
+    let Some((whole, thousandths)) = padded.split_at_checked(padded.len() - 3) else {
+        return Vec::new();
+    };
+    let fine = format!("{letters}{whole}.{thousandths}");
     let fix = |meant: String| {
         let edit = TextEdit::new(range.clone(), meant.clone());
         let found = found.clone();

@@ -55,7 +55,7 @@ pub(crate) use mill::write_milled;
 pub(in crate::program) use taper::{Words as TaperWords, refuse_anywhere as refuse_taper};
 
 pub(crate) use names::Unfollowed;
-pub(crate) use plain::words;
+pub(crate) use plain::{words, words_in};
 pub(in crate::program) use tilt::{STEEPEST, Unknown};
 pub(crate) use unfollowed::UnfollowedWord;
 pub(crate) use word::Token;

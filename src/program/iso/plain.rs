@@ -14,13 +14,13 @@ pub(crate) fn words(line: &[u8], offset: usize, each: impl FnMut(Token, Range<us
 }
 
 /// The same for a line that may not begin with a byte order mark; ranges are counted from its start.
-pub(super) fn words_in(line: &[u8], each: impl FnMut(Token, Range<usize>)) {
+pub(crate) fn words_in(line: &[u8], each: impl FnMut(Token, Range<usize>)) {
     tokens(line, 0, false, each);
 }
 
-/// The text of a word whose range is counted from 1, in upper case.
+/// The text of a word of a line, in upper case.
 pub(super) fn text_of(line: &[u8], range: &Range<usize>) -> String {
-    let text = line.get(range.start - 1..range.end - 1).unwrap_or_default();
+    let text = line.get(range.clone()).unwrap_or_default();
     shown(text.trim_ascii()).to_ascii_uppercase()
 }
 
@@ -39,16 +39,21 @@ pub(super) fn words_at(
 }
 
 /// The last of the words of a line that are wanted.
-pub(super) fn word_at(
+pub(crate) fn word_at(
     text: &SourceText,
     line: usize,
     wanted: impl Fn(u8, Number) -> bool,
 ) -> Option<Range<usize>> {
+    let start = text.line_start(line);
+    word_in(text.line(line), wanted).map(|word| start + word.start..start + word.end)
+}
+
+/// The same in a line by itself; its range is counted from the line's start.
+pub(crate) fn word_in(line: &[u8], wanted: impl Fn(u8, Number) -> bool) -> Option<Range<usize>> {
     let mut found = None;
-    words_at(text, line, |letter, number, range| {
-        if wanted(letter, number) {
-            found = Some(range);
-        }
+    words_in(line, |token, range| match token {
+        Token::Word { letter, number } if wanted(letter, number) => found = Some(range),
+        _ => {}
     });
     found
 }

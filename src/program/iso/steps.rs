@@ -244,7 +244,7 @@ impl Program for Document {
         self.stretches()
             .get(stretch)
             .map_or_else(Sum::default, |own| Sum {
-                contours: own.pauses as usize - self.contours().tabs_in(stretch),
+                contours: (own.pauses as usize).saturating_sub(self.contours().tabs_in(stretch)),
                 ..own.sum
             })
     }

@@ -1,8 +1,7 @@
 //! Words that give the upper guide another path than the lower one. Their meaning depends on the order, the direction
 //! and the mode of the moves of X and Y: refactorings that would change it refuse such a program.
 
-use super::plain::words_in;
-use super::word::Token;
+use super::tilt::{Upper, upper_words};
 use crate::program::iso::document::Document;
 use std::ops::Range;
 
@@ -42,17 +41,9 @@ pub(in crate::program) fn refuse_where_it_leans(
 ) -> Result<(), String> {
     let mut leans = None;
     for before in 0..line {
-        words_in(document.line_bytes(before), |token, _| {
-            if let Token::Word {
-                letter: b'G',
-                number,
-            } = token
-            {
-                match number.whole() {
-                    Some(51 | 52 | 141 | 142) => leans = Some(before),
-                    Some(50 | 140) => leans = None,
-                    _ => {}
-                }
+        upper_words(document.line_bytes(before), |upper, _| {
+            if let Upper::Lean { to, .. } = upper {
+                leans = to.map(|_| before);
             }
         });
     }
@@ -65,59 +56,61 @@ pub(in crate::program) fn refuse_where_it_leans(
     }
 }
 
+/// Why the first such word of a line is refused.
 fn reason(document: &Document, line: usize, wanted: Words) -> Option<&'static str> {
-    let code = without_comments(document.line_bytes(line));
-    let mut words = code.iter().enumerate().filter(|(at, byte)| {
-        let before = at.checked_sub(1).and_then(|before| code.get(before));
-        byte.is_ascii_alphabetic() && !before.is_some_and(u8::is_ascii_alphabetic) || **byte == b':'
-    });
-    words.find_map(|(at, letter)| {
-        let number = |from: usize| -> Option<&[u8]> {
-            let rest = code.get(from..)?.trim_ascii_start();
-            let length = rest
-                .iter()
-                .take_while(|byte| byte.is_ascii_digit() || matches!(byte, b'.' | b'-' | b'+'))
-                .count();
-            rest.get(..length).filter(|number| !number.is_empty())
+    let line = document.line_bytes(line);
+    let mut found = None;
+    upper_words(line, |upper, range| {
+        let is_place = |byte: &u8| matches!(byte.to_ascii_uppercase(), b'X' | b'Y');
+        let leads = || line.get(range).is_some_and(|own| own.iter().any(is_place));
+        let reason = match upper {
+            Upper::Guide(..) => say!(the_way_of_the_upper_guide_would_not_be_kept),
+            Upper::Second if leads() => {
+                say!(the_second_contour_behind_the_colon_would_not_be_kept)
+            }
+            // G50 ends a taper, and is none by itself.
+            Upper::Lean { code, .. } if wanted == Words::All && code != 50 => {
+                say!(a_taper_would_not_be_kept)
+            }
+            Upper::Plane(_, Some(_)) if wanted == Words::All => {
+                say!(the_planes_of_a_taper_would_not_be_kept)
+            }
+            _ => return,
         };
-        match letter {
-            b'U' | b'V' if number(at + 1).is_some() => {
-                Some(say!(the_way_of_the_upper_guide_would_not_be_kept))
-            }
-            b':' if code[at..].iter().any(|byte| matches!(byte, b'X' | b'Y')) => {
-                Some(say!(the_second_contour_behind_the_colon_would_not_be_kept))
-            }
-            b'G' if wanted == Words::All => {
-                let whole = number(at + 1)
-                    .and_then(|number| std::str::from_utf8(number).ok())
-                    .and_then(|number| number.parse::<u32>().ok());
-                whole
-                    .filter(|code| matches!(code, 51 | 52 | 140..=142))
-                    .map(|_| say!(a_taper_would_not_be_kept))
-            }
-            b'T' if wanted == Words::All
-                && matches!(code.get(at + 1), Some(b'P' | b'N'))
-                && number(at + 2).is_some() =>
-            {
-                Some(say!(the_planes_of_a_taper_would_not_be_kept))
-            }
-            _ => None,
-        }
-    })
+        found = found.or(Some(reason));
+    });
+    found
 }
 
-/// In upper case.
-fn without_comments(line: &[u8]) -> Vec<u8> {
-    let mut depth = 0_usize;
-    let mut code = Vec::with_capacity(line.len());
-    for byte in line {
-        match byte {
-            b'(' => depth += 1,
-            b')' => depth = depth.saturating_sub(1),
-            b';' if depth == 0 => break,
-            byte if depth == 0 => code.push(byte.to_ascii_uppercase()),
-            _ => {}
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_words_are_found_where_the_control_reads_them() {
+        for (line, guide, all) in [
+            ("G01 X5. U1.", true, true),
+            ("g01x5.v-1.", true, true),
+            // The semicolon that ends the line ends a word before it, too.
+            ("G01 X5.; U1.;", true, true),
+            ("D1; G51 A3.;", false, true),
+            // A block of its own is not read, and a finding says so.
+            ("G01 X5.; G51 A3.;", false, false),
+            ("G01 X5. : G01 X6. Y1.", true, true),
+            ("G52 T2.", false, true),
+            ("G140", false, true),
+            ("TP0.0 TN20.0", false, true),
+            ("G50", false, false),
+            ("T84", false, false),
+            (":0100", false, false),
+            ("G01 X5. ; U1.", false, false),
+            ("(U1. G51) G01 X5.", false, false),
+        ] {
+            let document = Document::read(format!("G92 X0 Y0\n{line}\nM02\n").into_bytes());
+            for (wanted, expected) in [(Words::Guide, guide), (Words::All, all)] {
+                let refused = refuse_anywhere(&document, wanted).is_err();
+                assert_eq!(refused, expected, "{line}: {wanted:?}");
+            }
         }
     }
-    code
 }

@@ -7,21 +7,22 @@
 
 mod angle;
 mod stand;
+mod words;
 
 pub(crate) use angle::{Doubtful, STEEPEST};
 pub(super) use stand::Stand;
+pub(super) use words::{Upper, upper_words};
 
 use super::block::{Offset, read_line};
 use super::document::Document;
 use super::machine::Machine;
 use super::moves::{Move, Place, Reading, added, apart, micrometres};
-use super::plain::words;
-use super::word::{Number, Token};
+use super::word::Number;
 use crate::geometry::{
     Arc, Point, Segment, Side, Vector, circle_circle, left_normal, line_circle, line_line, turn,
 };
 use angle::degrees;
-use std::ops::Range;
+use words::Words;
 
 /// A joint that turns by less is tangent, radians.
 const TANGENT: f64 = 1e-3;
@@ -182,8 +183,7 @@ impl<'a> Reader<'a> {
     /// Executes a line; `machine` is the state after it.
     fn read(&mut self, line: usize, bytes: &[u8], machine: &Machine) {
         self.own = None;
-        let mut said = Words::default();
-        words(bytes, 1, |token, range| said.take(token, range, bytes));
+        let said = Words::of(bytes);
         let switches = said.side.is_some() || said.upright;
         if said.upright {
             self.side = None;
@@ -288,58 +288,6 @@ impl Lean {
         match place {
             [0, 0] => Lean::Upright,
             apart => Lean::Apart(micrometres(apart).coords),
-        }
-    }
-}
-
-/// The words of a line that tilt the wire.
-#[derive(Default)]
-struct Words {
-    side: Option<Side>,
-    upright: bool,
-    /// A and T.
-    angle: Option<Number>,
-    tool: Option<Number>,
-    guide: [Option<Number>; 2],
-    planes: [Option<Number>; 2],
-    /// The byte after the colon.
-    second: Option<usize>,
-}
-
-impl Words {
-    fn take(&mut self, token: Token, range: Range<usize>, bytes: &[u8]) {
-        match token {
-            Token::Word { letter, number } => match (letter, number.whole()) {
-                (b'G', Some(51 | 141)) => self.side = Some(Side::Left),
-                (b'G', Some(52 | 142)) => self.side = Some(Side::Right),
-                (b'G', Some(50 | 140)) => self.upright = true,
-                (b'A', _) => self.angle = Some(number),
-                (b'T', _) => self.tool = Some(number),
-                (b'U', _) => self.guide[0] = Some(number),
-                (b'V', _) => self.guide[1] = Some(number),
-                _ => {}
-            },
-            Token::Foreign => {
-                // Ranges count from 1: a byte order mark begins a text alone.
-                let (from, to) = (range.start - 1, range.end - 1);
-                let word = bytes.get(from..to).unwrap_or_default();
-                let plane = match word {
-                    [b'T' | b't', b'P' | b'p', ..] => 0,
-                    [b'T' | b't', b'N' | b'n', ..] => 1,
-                    [b':', ..] => {
-                        self.second = Some(from + 1);
-                        return;
-                    }
-                    _ => return,
-                };
-                // Its second letter and the number, as a word.
-                words(&word[1..], 1, |token, _| {
-                    if let Token::Word { number, .. } = token {
-                        self.planes[plane] = Some(number);
-                    }
-                });
-            }
-            _ => {}
         }
     }
 }

@@ -6,7 +6,7 @@
 use super::block::{Block, index};
 use super::document::Document;
 use super::names::{Unfollowed, meaning};
-use super::plain::{text_of, words};
+use super::plain::{text_of, words_in};
 use super::word::{Number, Token};
 use std::collections::BTreeSet;
 
@@ -59,7 +59,7 @@ struct Line<'a> {
 impl Line<'_> {
     fn of<'a>(bytes: &[u8], block: &'a Block) -> Line<'a> {
         let mut found = Vec::new();
-        words(bytes, 1, |token, range| {
+        words_in(bytes, |token, range| {
             let text = text_of(bytes, &range);
             found.push((token, text));
         });

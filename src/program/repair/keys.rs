@@ -21,20 +21,20 @@ pub(in crate::program) enum Key {
 /// The numbers that may have been meant, each one keystroke away. `pointed` says whether numbers
 /// have a point, if known. Nobody writes an additional leading zero, but a padded number keeps its length.
 pub(in crate::program) fn meant(text: &str, pointed: Option<bool>) -> Vec<(String, Key)> {
-    let bytes = text.as_bytes();
-    let digits: Vec<usize> = (0..bytes.len())
-        .filter(|at| bytes[*at].is_ascii_digit())
+    let digits: Vec<(usize, &str)> = text
+        .match_indices(|letter: char| letter.is_ascii_digit())
         .collect();
     let mut meant: Vec<(String, Key)> = Vec::new();
     let mut put = |at: usize, end: usize, other: &str, key: Key| {
-        meant.push((format!("{}{other}{}", &text[..at], &text[end..]), key));
+        let mut changed = text.to_owned();
+        changed.replace_range(at..end, other);
+        meant.push((changed, key));
     };
     let all: [&str; 10] = ["0", "1", "2", "3", "4", "5", "6", "7", "8", "9"];
-    for (nth, &at) in digits.iter().enumerate() {
-        let own = &text[at..at + 1];
+    for (nth, &(at, own)) in digits.iter().enumerate() {
         let before = nth.checked_sub(1).map(|nth| digits[nth]);
-        let last = before.map(|before| &text[before..before + 1]);
-        let is_behind = before.is_some_and(|before| before + 1 == at);
+        let last = before.map(|(_, digit)| digit);
+        let is_behind = before.is_some_and(|(before, _)| before + 1 == at);
         for digit in all {
             if digit != own {
                 put(at, at + 1, digit, Key::Digit);
@@ -53,12 +53,16 @@ pub(in crate::program) fn meant(text: &str, pointed: Option<bool>) -> Vec<(Strin
                 if is_doubled { Key::Doubled } else { Key::More },
             );
         }
-        if let Some(&next) = digits.get(nth + 1)
-            && bytes[next] != bytes[at]
+        if let Some(&(next, other)) = digits.get(nth + 1)
+            && other != own
         {
-            let between = &text[at + 1..next];
-            let swapped = format!("{}{between}{own}", &text[next..next + 1]);
-            put(at, next + 1, &swapped, Key::Swapped);
+            let between = text.get(at + 1..next).unwrap_or_default();
+            put(
+                at,
+                next + 1,
+                &format!("{other}{between}{own}"),
+                Key::Swapped,
+            );
         }
     }
     // Behind the last digit, and the last one before the point, or the one that is lost there.
@@ -72,11 +76,11 @@ pub(in crate::program) fn meant(text: &str, pointed: Option<bool>) -> Vec<(Strin
     }
     match (text.find('.'), pointed) {
         (None, Some(true)) => {
-            let places = digits.iter().copied();
+            let places = digits.iter().map(|(at, _)| *at);
             let places = places
                 .clone()
                 .skip(1)
-                .chain([bytes.len()])
+                .chain([text.len()])
                 .chain(places.take(1));
             places.for_each(|at| put(at, at, ".", Key::Point));
         }

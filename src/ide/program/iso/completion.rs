@@ -8,7 +8,7 @@ use crate::program::iso::block::{Block, Compensation, Motion, read_line};
 use crate::program::iso::document::Document;
 use crate::program::iso::machine::Machine;
 use crate::program::iso::moves::Move;
-use crate::program::iso::plain::words;
+use crate::program::iso::plain::{words, words_in};
 use crate::program::iso::steps::BegunCut;
 use crate::program::iso::style::Style;
 use crate::program::iso::word::{Number, Token, WordFault};
@@ -151,10 +151,10 @@ impl Offer<'_> {
         }
         for line in self.document.limits.lines() {
             let line = line.replace(['{', '}'], " ");
-            words(line.as_bytes(), 1, |token, range| {
+            words_in(line.as_bytes(), |token, range| {
                 if let Token::Word { letter: its, .. } = token
                     && its == letter
-                    && let Some(word) = line.get(range.start - 1..range.end - 1)
+                    && let Some(word) = line.get(range)
                 {
                     self.push(word, say!(written_by_the_profile));
                 }

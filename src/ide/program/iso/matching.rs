@@ -1,9 +1,9 @@
 //! Words that belong together: where the correction begins and ends, a call and what it calls, both
 //! ends of a tape.
 
-use crate::program::iso::block::{Compensation, read_line, word_range};
+use crate::program::iso::block::{Block, Compensation, read_line};
 use crate::program::iso::document::Document;
-use crate::program::iso::plain::words;
+use crate::program::iso::plain::{word_at, words};
 use crate::program::iso::word::Token;
 use std::ops::Range;
 
@@ -84,13 +84,9 @@ fn switched(
 ) -> Option<Range<usize>> {
     let text = document.text();
     for line in lines {
-        let range = text.line_range(line);
-        let bytes = text.bytes().get(range.clone())?;
-        if read_line(bytes, 1, |_| {})
-            .compensation
-            .is_some_and(&wanted)
-        {
-            return word_range(bytes, range.start, |letter, number| {
+        let block = Block::of(text.line(line));
+        if block.compensation.is_some_and(&wanted) {
+            return word_at(text, line, |letter, number| {
                 letter == b'G' && matches!(number.whole(), Some(40..=42))
             });
         }
@@ -100,9 +96,7 @@ fn switched(
 
 /// The N or O word of a line.
 fn label_in(document: &Document, line: usize, wanted: u32) -> Option<Range<usize>> {
-    let range = document.text().line_range(line);
-    let bytes = document.text().bytes().get(range.clone())?;
-    word_range(bytes, range.start, |letter, number| {
+    word_at(document.text(), line, |letter, number| {
         matches!(letter, b'N' | b'O')
             && number.whole().and_then(|whole| u32::try_from(whole).ok()) == Some(wanted)
     })

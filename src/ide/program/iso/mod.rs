@@ -14,7 +14,7 @@ mod vocabulary;
 
 use super::{Completion, Language, Part, Signature, WordKind};
 use crate::ide::occurrence::{Occurrence, Stop, Stopped};
-use crate::program::iso::block::word_range;
+use crate::program::iso::plain::word_in;
 use crate::program::iso::{Document, Token, words};
 use std::ops::Range;
 
@@ -97,5 +97,5 @@ fn holds(line: &[u8], letter: u8, number: i64) -> bool {
     let is_it = |its: u8, own: crate::program::iso::word::Number| {
         its == letter && own.whole() == Some(number)
     };
-    word_range(line, 1, is_it).is_some()
+    word_in(line, is_it).is_some()
 }

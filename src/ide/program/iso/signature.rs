@@ -6,7 +6,7 @@ use crate::program::iso::block::{Block, Compensation, Motion, read_line};
 use crate::program::iso::document::Document;
 use crate::program::iso::machine::Machine;
 use crate::program::iso::moves::CenterRule;
-use crate::program::iso::plain::words;
+use crate::program::iso::plain::words_in;
 use crate::program::iso::word::{Token, WordFault};
 
 /// The form of the block that is written at a byte; `None` where there is none.
@@ -42,14 +42,13 @@ pub(crate) fn signature(document: &Document, offset: usize) -> Option<Signature>
 /// has been written yet, and in a comment.
 fn word_before(bytes: &[u8], cursor: usize) -> Option<(u8, bool)> {
     let (mut last, mut is_comment) = (None, false);
-    // Counted from 1 so that no byte order mark is looked for.
-    words(bytes, 1, |token, range| match token {
-        _ if range.start > cursor => {}
+    words_in(bytes, |token, range| match token {
+        _ if range.start >= cursor => {}
         Token::Word { letter, .. } | Token::Fault(WordFault::NoNumber { letter }) => {
-            last = Some((letter, range.end > cursor))
+            last = Some((letter, range.end >= cursor))
         }
         Token::Comment | Token::Fault(WordFault::OpenComment | WordFault::CommentedBlock) => {
-            is_comment = range.end > cursor
+            is_comment = range.end >= cursor
         }
         _ => {}
     });

@@ -5,7 +5,7 @@ use super::super::line::{Bent, Target, line_to};
 use super::super::moves::{Bend, CenterRule, Move, Place, added, apart, distance, micrometres};
 use super::super::style::Style;
 use crate::finding::{CenterFix, FixKind, TextFix};
-use crate::geometry::Arc;
+use crate::geometry::{Arc, equally_far};
 use crate::program::grid::{best_center, snap};
 use std::ops::Range;
 
@@ -87,9 +87,8 @@ fn nearest_center(
     let step = Style::of(document, inch).step();
     let scale = 1e3 / step as f64;
     let [from, to, center] = [made.from, made.to, own].map(|place| micrometres(place) * scale);
-    let along = (to - from).try_normalize(0.0)?;
-    let on_line = center - along * (center - (from + (to - from) / 2.0)).dot(&along);
-    let node = best_center(&Arc::about(on_line, from, to, true), snap(from)?, snap(to)?);
+    let center = equally_far(center, from, to)?;
+    let node = best_center(&Arc::about(center, from, to, true), snap(from)?, snap(to)?);
     let place = [node.x.checked_mul(step)?, node.y.checked_mul(step)?];
     let moved = distance(place, own);
     // Beyond that it is another arc, not a slip.

@@ -1,8 +1,9 @@
 //! The lines of a cut, and what is known of it from those before them; and two of them exchanged.
 
-use crate::program::iso::block::{Block, Motion, word_range};
+use crate::program::iso::block::{Block, Motion};
 use crate::program::iso::document::Document;
 use crate::program::iso::moves::{Place, distance};
+use crate::program::iso::plain::word_in;
 use std::ops::Range;
 
 /// Longer cuts, in lines, are not searched.
@@ -96,9 +97,7 @@ pub(super) fn is_way(block: &Block) -> bool {
 
 /// Two lines exchanged; their block numbers stay where they are.
 pub(super) fn with_numbers_kept(one: &[u8], other: &[u8]) -> Vec<Vec<u8>> {
-    let number = |line: &[u8]| {
-        word_range(line, 1, |letter, _| letter == b'N').map(|range| range.start - 1..range.end - 1)
-    };
+    let number = |line: &[u8]| word_in(line, |letter, _| letter == b'N');
     match (number(one), number(other)) {
         (Some(a), Some(b)) => {
             let with = |line: &[u8], place: Range<usize>, number: &[u8]| {

@@ -219,9 +219,14 @@ impl Words<'_> {
             false => (other, one),
         };
         let (first, second, between) = (self.text(&a), self.text(&b), self.text(&(a.end..b.start)));
+        let (Some((letter, number)), Some((other_letter, other_number))) =
+            (first.split_at_checked(1), second.split_at_checked(1))
+        else {
+            return;
+        };
         let [one, other] = [
-            format!("{}{}", &first[..1], &second[1..]),
-            format!("{}{}", &second[..1], &first[1..]),
+            format!("{letter}{other_number}"),
+            format!("{other_letter}{number}"),
         ];
         let text = format!("{one}{between}{other}");
         let [found, meant] = [format!("{first} {second}"), format!("{one} {other}")];
@@ -229,8 +234,10 @@ impl Words<'_> {
     }
 
     fn as_letter(&mut self, range: Range<usize>, letter: u8, prior: f64) {
-        let meant = format!("{}{}", letter as char, &self.text(&range)[1..]);
-        self.rewrite(range, &meant, prior);
+        if let Some(number) = self.text(&range).get(1..) {
+            let meant = format!("{}{number}", letter as char);
+            self.rewrite(range, &meant, prior);
+        }
     }
 
     fn of_motion(
@@ -313,7 +320,8 @@ impl Words<'_> {
         match fault {
             WordFault::NotANumber { .. } => {
                 for (at, _) in text.match_indices(['.', ',']) {
-                    let meant = format!("{}{}", &text[..at], &text[at + 1..]);
+                    let mut meant = text.clone();
+                    meant.remove(at);
                     self.rewrite(range.clone(), &meant, prior::POINT);
                 }
             }

@@ -1,7 +1,6 @@
 //! Whether the wire stands upright after lines that do not move it.
 
-use super::Words;
-use crate::program::iso::plain::words;
+use super::words::Words;
 use crate::program::iso::word::Number;
 
 /// How lines of words have the wire stand.
@@ -20,8 +19,7 @@ pub(in crate::program::iso) struct Stand {
 impl Stand {
     /// True where the wire leans on a move after this line.
     pub(in crate::program::iso) fn leans_after(&mut self, line: &[u8]) -> bool {
-        let mut said = Words::default();
-        words(line, 1, |token, range| said.take(token, range, line));
+        let said = Words::of(line);
         let is_zero = |number: Number| number.mantissa == 0;
         if said.upright {
             self.is_aside = false;

@@ -126,7 +126,10 @@ impl Lines<'_> {
 /// A word with the number at its end increased.
 fn counted_on(word: &str, by: usize) -> String {
     let name = word.trim_end_matches(|letter: char| letter.is_ascii_digit());
-    let number = word[name.len()..].parse::<u32>().ok().filter(|_| by > 0);
+    let number = word
+        .strip_prefix(name)
+        .and_then(|number| number.parse::<u32>().ok());
+    let number = number.filter(|_| by > 0);
     let number = number.and_then(|number| number.checked_add(u32::try_from(by).ok()?));
     number.map_or_else(|| word.to_owned(), |number| numbered(word, number))
 }

@@ -16,7 +16,7 @@ use super::block::{Motion, PartArc, Quadrant};
 use super::decode::decode;
 use super::encode::{ASIDE_TOLERANCE, Encoded, encode, point_of, runs_along, snap};
 use crate::finding::Finding;
-use crate::geometry::{Arc, Segment, turn};
+use crate::geometry::{Arc, Segment, equally_far, turn};
 use crate::program::encode::aside;
 use crate::program::grid::Node;
 use crate::program::numbering::numbered;
@@ -261,11 +261,9 @@ fn fitted(piece: &Segment, from: Node, to: Node) -> Segment {
     let Segment::Arc(arc) = piece else {
         return Segment::line(start, end);
     };
-    let Some(along) = (end - start).try_normalize(0.0) else {
+    let Some(center) = equally_far(arc.center, start, end) else {
         return *piece;
     };
-    let middle = start + (end - start) * 0.5;
-    let center = arc.center - along * (arc.center - middle).dot(&along);
     let fitted = Segment::Arc(Arc::about(center, start, end, arc.sweep > 0.0));
     let moved = (start - arc.start).norm().max((end - arc.end).norm());
     if aside(&fitted, piece) <= ASIDE_TOLERANCE + moved {

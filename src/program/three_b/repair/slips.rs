@@ -130,7 +130,7 @@ fn of_same_numbers(block: &Block) -> Vec<(Block, Slip, Move)> {
 }
 
 /// The sound blocks that differ from one by a slip and lead to the intended end: those `of_same_numbers`, and others.
-pub(super) fn blocks_to(
+fn blocks_to(
     (block, part): (&Block, Option<PartArc>),
     of_same_numbers: &[(Block, Slip, Move)],
     written: Written<'_>,
