@@ -1,7 +1,7 @@
 //! The levels of settings, and which `wedm.toml` holds for which document.
 
 use crate::settings::{
-    Effective, FILE_NAME, Settings, SettingsError, from_json, from_toml, place_in,
+    Effective, FILE_NAME, Settings, SettingsError, from_json, from_toml, is_there, place_in,
     read_file as read_settings,
 };
 use crate::text::SourceText;
@@ -184,9 +184,7 @@ pub(super) fn read(
 ) -> Option<ProjectFile> {
     match opened(file) {
         Some(text) => Some(parse(file, text)),
-        None => std::fs::metadata(file)
-            .is_ok_and(|metadata| metadata.is_file())
-            .then(|| read_file(file)),
+        None => is_there(file).then(|| read_file(file)),
     }
 }
 
