@@ -74,6 +74,7 @@ use crate::settings::{Compensation, Effective, LengthSetting, Order};
 use contour_path::{Fault, Laid};
 use job::Job;
 use leads::Contours;
+use containment::Nesting;
 use order::Chosen;
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -205,9 +206,14 @@ pub(crate) fn plan_while(
     let job = Job {
         outlines,
         picks,
+    let cut_out = match settings.job.slug_limit {
+        Some(_) => Nesting::new(drawing, outlines, &chosen).cut_out(outlines, &chosen),
+        None => FxHashMap::default(),
+    };
         finishes,
         goes_on,
         ..Job::of(drawing, settings)
+        cut_out,
     };
     job.go_on()?;
     let contours = Contours::new(drawing, outlines);
