@@ -12,6 +12,7 @@ mod programs;
 mod reports;
 mod search;
 mod settings;
+mod specks;
 mod table;
 mod targets;
 mod told;
