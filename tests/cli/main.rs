@@ -16,6 +16,7 @@ mod specks;
 mod table;
 mod targets;
 mod told;
+mod twice;
 mod untrusted;
 mod words;
 
