@@ -71,6 +71,7 @@ translate! {
     the_arc_has_the_wire_on_its_other_side(said, meant, drawing) => "写为 {said}，而 {drawing} 需要 {meant}：丝在圆弧的另一侧，半径相差两倍补偿量";
     the_wire_cuts_into_the_part(drawing, off) => "丝在此离开轮廓，切入 {drawing} 的工件 {off} mm";
     the_way_in_ends_beside_its_contour(drawing, off) => "引入线终点偏离 {drawing} 中轮廓的路径 {off} mm，轮廓从那里开始切割";
+    the_contour_is_cut_at_another_correction(handle, drawing, said, meant) => "{drawing} 的轮廓 {handle} 按补偿量 {said:.3} mm 切割，本程序的其他轮廓按 {meant:.3} mm";
     it_is_cut_on_the_other_side(drawing) => "丝走在轮廓的另一侧，与 {drawing} 及其设置不符";
     the_contour_is_left_before_it_is_cut_all_round(segment, handle, drawing) => "在此离开了轮廓，而 {drawing} 接着是 {handle} 的第 {segment} 段";
     no_contour_of_the_drawing_is_like_this(drawing) => "按程序的任何补偿量，{drawing} 中都没有与此相符的轮廓";
