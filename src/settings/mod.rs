@@ -128,8 +128,14 @@ impl Settings {
             of_levels: true,
             ..SettingsError::new(fault.key, fault.message.clone(), place(&fault))
         });
+        let doubts = job::doubts(self).into_iter().map(|fault| SettingsError {
+            of_levels: true,
+            severity: Severity::Warning,
+            ..SettingsError::new(fault.key, fault.message.clone(), place(&fault))
+        });
         let mut errors = self.pass_errors(place);
         errors.extend(others);
+        errors.extend(doubts);
         errors
     }
 

@@ -245,7 +245,7 @@ fn a_place_narrower_than_the_smallest_radius_names_the_largest_wire() {
     }
     // Walls are as wide apart as a wire that just passes: by the proof of its path.
     let passes = |correction: f64| {
-        let text = format!("correction = {correction}\n[program]\nlead-in = 0.1\n");
+        let text = format!("correction = {correction}\n[program]\nlead-in = {correction}\n");
         let drawing = drawing(vec![polygon("2A", Role::Opening, rooms)]);
         let source = Of::Cad(Arc::new(drawing));
         let document = Document::new(source, Arc::new(settings(&text)));

@@ -55,6 +55,7 @@ declare! {
     a_stop_that_ends(key, word) => "{key} is {word}, which ends the program: what stands would never be cut off";
     a_stop_that_does_not_stop(key, word, pause) => "{key} is {word}, which stops no machine: expected M00 or M01 in ISO, {pause} in 3B";
     the_control_runs_beside_the_drawn_contour(key, other) => "{key} is constant-stock, but {other} is controller: each pass would run beside the drawn contour, as with sharp; expected path as {other}, or sharp";
+    a_lead_within_the_kerf(key, length, correction) => "{key} is {length}, below the correction {correction}: the wire would be threaded within the kerf of its own cut; expected at least the correction";
     a_mass_needs_a_height(key) => "{key} is the mass of a slug: expected job.thickness as well";
     a_limit_needs_a_tab(key) => "{key} has no effect without program.tab: expected the length, mm, that an opening with a heavier slug leaves standing";
     a_punch_within_a_punch(inner, outer, others) => "contour {inner} is a punch within the punch {outer}{others}: the wire would cut into that part; make it an opening, or draw it in a workpiece of its own";

@@ -64,6 +64,7 @@ translate! {
     a_stop_that_ends(key, word) => "{key} 是 {word}，它结束程序：暂留段永远不会切断";
     a_stop_that_does_not_stop(key, word, pause) => "{key} 是 {word}，它不使机床停下：ISO 应为 M00 或 M01，3B 应为 {pause}";
     the_control_runs_beside_the_drawn_contour(key, other) => "{key} 是 constant-stock，而 {other} 是 controller：每次切割都会沿图中轮廓走，与 sharp 一样；{other} 应为 path，或应为 sharp";
+    a_lead_within_the_kerf(key, length, correction) => "{key} 是 {length}，小于补偿量 {correction}：穿丝处会落在自身的切缝内；应至少为补偿量";
     a_mass_needs_a_height(key) => "{key} 是废料的质量：应同时设置 job.thickness";
     a_limit_needs_a_tab(key) => "没有 program.tab，{key} 不起作用：应设废料更重的型孔暂留段的长度，mm";
     a_punch_within_a_punch(inner, outer, others) => "轮廓 {inner} 是凸模，却在凸模 {outer} 之内{others}：丝会切入那个工件；应作为型孔，或画在另一个工件中";
