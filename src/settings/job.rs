@@ -62,7 +62,9 @@ pub(super) fn doubts(settings: &Settings) -> Vec<PassFault> {
     let correction = effective.correction;
     let runs_beside = program.compensation() != Compensation::None && !effective.mills;
     let key = "program.lead-in";
-    let short = program.lead_in.filter(|length| *length < correction - ROUNDING);
+    let short = program
+        .lead_in
+        .filter(|length| *length < correction - ROUNDING);
     let short = short.filter(|_| runs_beside);
     let said = |length| PassFault::of(key, say!(a_lead_within_the_kerf, key, length, correction));
     short.map(said).into_iter().collect()

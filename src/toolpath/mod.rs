@@ -9,6 +9,7 @@ mod containment;
 mod contour_path;
 mod cores;
 mod corners;
+mod crowd;
 mod distance;
 mod drawn_path;
 mod entry;
@@ -35,8 +36,8 @@ mod reuse;
 mod ring;
 mod rotated;
 mod rounds;
-mod settings_check;
 mod said_twice;
+mod settings_check;
 mod skim;
 mod skim_sweep;
 mod spliced;
@@ -62,8 +63,8 @@ pub(crate) use path::lengths;
 pub use path::{PathSegment, Refusal, Source, WirePath};
 pub(crate) use reuse::{NEW, which_it_is, which_it_was};
 pub(crate) use rounds::rounds;
-pub(crate) use settings_check::{is_stated, short_layers, shortened_leads, stated_faults};
 pub(crate) use said_twice::{MOST_SEGMENTS as MOST_SEGMENTS_SAID_TWICE, said_twice};
+pub(crate) use settings_check::{is_stated, short_layers, shortened_leads, stated_faults};
 pub(crate) use standing::weak_tabs;
 pub use work::LargestWire;
 pub use work::Work;
@@ -73,10 +74,10 @@ use crate::drawing::{Drawing, EntityId, Outline};
 use crate::finding::{Detail, Finding, Rule, Severity};
 use crate::geometry::Point;
 use crate::settings::{Compensation, Effective, LengthSetting, Order};
+use containment::Nesting;
 use contour_path::{Fault, Laid};
 use job::Job;
 use leads::Contours;
-use containment::Nesting;
 use order::Chosen;
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -205,17 +206,17 @@ pub(crate) fn plan_while(
             order::outline_of(drawing, outlines, handle)?;
         }
     }
-    let job = Job {
-        outlines,
-        picks,
     let cut_out = match settings.job.slug_limit {
         Some(_) => Nesting::new(drawing, outlines, &chosen).cut_out(outlines, &chosen),
         None => FxHashMap::default(),
     };
+    let job = Job {
+        outlines,
+        picks,
+        cut_out,
         finishes,
         goes_on,
         ..Job::of(drawing, settings)
-        cut_out,
     };
     job.go_on()?;
     let contours = Contours::new(drawing, outlines);

@@ -234,6 +234,7 @@ declare! {
     the_wire_crosses_its_own_path(line, x, y) => "the wire crosses its own path of line {line} here, at ({x:.3}, {y:.3}) mm from the contour's start: it cuts the part in two";
     thousands_of_entities_lie_on_each_other(count) => "thousands of entities lie on or across each other: {count} stretches of contours from here on were not compared with what is near them";
     the_correction_is_so_large_beside_the_segments(contours) => "the correction is so large compared with the segments that what the offset loses was not looked for; contours left out from here on: {contours}";
+    the_correction_is_too_large_for_a_path(segments, most) => "the correction is so large compared with the {segments} segments of this contour that no path is laid: on average more than {most} of them lie in a square of twice the correction; check the correction and the unit";
     so_much_of_the_way_lies_on_one_place(blocks) => "so much of the way of these {blocks} blocks lies in one place that crossings were not looked for in all of it";
     this_insert_draws_too_much(copies, segments, most) => "this INSERT draws {copies} copies, {segments} segments in all, more than the {most} that the references of a file may come to: nothing is drawn for it";
     this_curve_would_take_too_many_arcs(arcs, most) => "this curve would take {arcs} arcs, more than are left of the {most} that all curves of a drawing may take: it is not drawn";

@@ -67,12 +67,12 @@ translate! {
     a_lead_within_the_kerf(key, length, correction) => "{key} 是 {length}，小于补偿量 {correction}：穿丝处会落在自身的切缝内；应至少为补偿量";
     a_mass_needs_a_height(key) => "{key} 是废料的质量：应同时设置 job.thickness";
     a_limit_needs_a_tab(key) => "没有 program.tab，{key} 不起作用：应设废料更重的型孔暂留段的长度，mm";
-    a_punch_within_a_punch(inner, outer, others) => "轮廓 {inner} 是凸模，却在凸模 {outer} 之内{others}：丝会切入那个工件；应作为型孔，或画在另一个工件中";
     a_contour_of_two_roles(name, role, by, other, other_by) => "轮廓 {name} 有两个角色：{by} 定为 {role}，以它为准；{other_by} 定为 {other}";
     its_color => "其颜色";
     the_entity_itself => "图元本身";
     a_point_that_is_given_twice(what, name, x, y, by, x1, y1, other) => "轮廓 {name} 的{what}给了两次：{by} 给 ({x}, {y})，以它为准；{other} 给 ({x1}, {y1})";
     a_mark_o => "标记 O";
+    a_punch_within_a_punch(inner, outer, others) => "轮廓 {inner} 是凸模，却在凸模 {outer} 之内{others}：丝会切入那个工件；应作为型孔，或画在另一个工件中";
     and_more_punches(more) => "，这样的还有 {more} 个";
     an_outline_that_may_be_a_copy(copy, outline, thin) => "轮廓 {copy} 处处与轮廓 {outline} 相距不到 {thin:.3} mm：若是重复绘制，应删去；若真是这样薄的壁，应给两者都指定角色；其内所有轮廓的加工侧都取决于此";
     a_layer_above_the_depth(key, layer, depth) => "{key} 是 {layer}，最多应为 milling.depth {depth}";
