@@ -186,9 +186,8 @@ impl Effective {
         let beyond = |correction: &&f64| **correction + shift <= ROUNDING;
         let count = passes.iter().filter(beyond).count();
         // Passes that are all alike follow each other on either side.
-        let differ = passes
-            .iter()
-            .any(|correction| (correction - passes[0]).abs() > ROUNDING);
+        let mut pairs = passes.iter().zip(passes.iter().skip(1));
+        let differ = pairs.any(|(one, next)| (one - next).abs() > ROUNDING);
         if count == 0 || !differ {
             return None;
         }

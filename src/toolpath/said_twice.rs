@@ -42,15 +42,15 @@ pub(crate) fn said_twice(
                 continue;
             }
             let outline = &outlines[other.0];
+            let [at, elsewhere] =
+                [first, other].map(|given| format!("({}, {})", given.1.x, given.1.y));
             let sentence = say!(
                 a_point_that_is_given_twice,
                 what,
                 name(drawing, outline),
-                first.1.x,
-                first.1.y,
+                at,
                 first.2,
-                other.1.x,
-                other.1.y,
+                elsewhere,
                 other.2
             );
             let entity = outline.contour.pieces.first().map(|piece| piece.entity);

@@ -61,7 +61,7 @@ declare! {
     a_contour_of_two_roles(name, role, by, other, other_by) => "contour {name} is given two roles: {role} by {by}, which decides, and {other} by {other_by}";
     its_color => "its colour";
     the_entity_itself => "the entity itself";
-    a_point_that_is_given_twice(what, name, x, y, by, x1, y1, other) => "the {what} of contour {name} is given twice: ({x}, {y}) by {by}, which counts, and ({x1}, {y1}) by {other}";
+    a_point_that_is_given_twice(what, name, at, by, other, other_by) => "the {what} of contour {name} is given twice: {at} by {by}, which counts, and {other} by {other_by}";
     a_mark_o => "a mark O";
     a_punch_within_a_punch(inner, outer, others) => "contour {inner} is a punch within the punch {outer}{others}: the wire would cut into that part; make it an opening, or draw it in a workpiece of its own";
     and_more_punches(more) => ", and so are {more} more";

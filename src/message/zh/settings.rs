@@ -70,7 +70,7 @@ translate! {
     a_contour_of_two_roles(name, role, by, other, other_by) => "轮廓 {name} 有两个角色：{by} 定为 {role}，以它为准；{other_by} 定为 {other}";
     its_color => "其颜色";
     the_entity_itself => "图元本身";
-    a_point_that_is_given_twice(what, name, x, y, by, x1, y1, other) => "轮廓 {name} 的{what}给了两次：{by} 给 ({x}, {y})，以它为准；{other} 给 ({x1}, {y1})";
+    a_point_that_is_given_twice(what, name, at, by, other, other_by) => "轮廓 {name} 的{what}给了两次：{by} 给 {at}，以它为准；{other_by} 给 {other}";
     a_mark_o => "标记 O";
     a_punch_within_a_punch(inner, outer, others) => "轮廓 {inner} 是凸模，却在凸模 {outer} 之内{others}：丝会切入那个工件；应作为型孔，或画在另一个工件中";
     and_more_punches(more) => "，这样的还有 {more} 个";
