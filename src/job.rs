@@ -421,6 +421,19 @@ fn written(
     let left_out = findings.iter().filter(is_left_out).cloned().collect();
     let mut warnings = findings;
     warnings.retain(|finding| finding.severity <= Severity::Warning);
+    if snapshot
+        .outlines
+        .iter()
+        .map(|outline| outline.contour.len())
+        .sum::<usize>()
+        > toolpath::MOST_SEGMENTS_SAID_TWICE
+    {
+        warnings.extend(toolpath::said_twice(
+            &snapshot.drawing,
+            &snapshot.outlines,
+            settings,
+        ));
+    }
     warnings.extend(toolpath::shortened_leads(
         &snapshot.drawing,
         &snapshot.outlines,

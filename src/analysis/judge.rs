@@ -112,6 +112,7 @@ impl Analysis {
             let ordered = self.in_machining_order(drawing).to_vec();
             let sides: Vec<Option<Side>> = ordered.iter().map(|&key| side_of(self, key)).collect();
             self.report_lost_pockets(drawing, &ordered, &sides, &mut report);
+            self.report_roles_said_twice(drawing, &ordered, &mut report);
             self.report_punches_within(drawing, &ordered, &sides, &mut report);
             self.report_doubtful_nesting(drawing, &ordered, &mut report);
         }
@@ -123,6 +124,10 @@ impl Analysis {
         if toolpath::is_stated(&self.settings) && report.shows_findings() {
             let outlines = self.outlines(drawing).clone();
             of_job.extend(toolpath::stated_faults(drawing, &outlines, &self.settings));
+        }
+        if self.segments <= toolpath::MOST_SEGMENTS_SAID_TWICE && report.shows_findings() {
+            let outlines = self.outlines(drawing).clone();
+            of_job.extend(toolpath::said_twice(drawing, &outlines, &self.settings));
         }
         for found in of_job {
             let own = Some(found.severity);

@@ -8,6 +8,7 @@ use super::drawn::Drawn;
 use super::followed::followed;
 use super::guess::otherwise;
 use super::traced::{Block, Traced};
+use super::uneven::uneven;
 use super::walk::Kind;
 use crate::settings::Compensation;
 
@@ -24,11 +25,38 @@ const SLIP: f64 = 1e-2;
 /// A program of ours is compared block by block, so that a change of 3 µm is found; for another writer's roundings
 /// there is room.
 pub fn compare(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
+    let (seen, is_ours) = compared(drawn, traced);
+    if is_ours || traced.mills {
+        return seen;
+    }
+    let uneven = uneven(drawn, traced);
+    if uneven.is_empty() {
+        return seen;
+    }
+    let mut seen = seen.unwrap_or(Comparison {
+        differences: Vec::new(),
+        follows: Vec::new(),
+    });
+    // A way that is as far off leads to that contour.
+    let is_of_way = |one: &Difference| {
+        one.kind == Kind::Lead
+            && uneven
+                .iter()
+                .any(|contour| (contour.off - one.off).abs() <= ROUNDING)
+    };
+    seen.differences.retain(|one| !is_of_way(one));
+    seen.differences.extend(uneven);
+    seen.differences.sort_by_key(|one| one.range.start);
+    Some(seen)
+}
+
+/// The same without the corrections of contours beside each other, and whether the program is as we write it.
+fn compared(drawn: &Drawn, traced: &Traced) -> (Option<Comparison>, bool) {
     let known = against_reference(drawn, traced, &drawn.as_set());
     if traced.mills {
         // Layers that are not there are so by other settings.
         let known = known.filter(|told| !told.has_gap);
-        return known.map(Told::whole);
+        return (known.map(Told::whole), true);
     }
     let Some(known) = known else {
         let guessed = otherwise(drawn, traced);
@@ -39,7 +67,7 @@ pub fn compare(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
             guessed => followed(drawn, traced).or(guessed.map(Told::whole)),
         };
         let seen = seen.or_else(|| looked_at(drawn, traced));
-        return seen.or_else(|| on_other_side(drawn, traced));
+        return (seen.or_else(|| on_other_side(drawn, traced)), false);
     };
     let blocks = traced.blocks.len();
     // Of few blocks any may be as other settings have it; of many, a few may be as another writer rounds them.
@@ -57,10 +85,11 @@ pub fn compare(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
         && is_of_contours(&known)
         && let Some(seen) = followed(drawn, traced)
     {
-        return Some(seen);
+        return (Some(seen), false);
     }
     if !is_doubtful {
-        return Some(known.whole());
+        let is_ours = known.comparison.differences.is_empty();
+        return (Some(known.whole()), is_ours);
     }
     // No setting moves a contour as a whole: where it is said to be moved, other changes do not explain it better.
     let is_better = |told: &Told| {
@@ -70,11 +99,12 @@ pub fn compare(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
     let guessed = otherwise(drawn, traced).filter(is_better);
     let known = guessed.unwrap_or(known).whole();
     if known.differences.len() < 2 {
-        return Some(known);
+        return (Some(known), false);
     }
     // One may be as another writer has it in a place or two.
     let is_clean = |seen: &Comparison| seen.differences.is_empty();
-    looked_at(drawn, traced).filter(is_clean).or(Some(known))
+    let seen = looked_at(drawn, traced).filter(is_clean);
+    (seen.or(Some(known)), false)
 }
 
 /// One block differs, by so little that nobody sets anything otherwise.

@@ -245,7 +245,7 @@ fn followed_or_named(unlike: &mut Vec<Unlike>, foreign: &[Range<usize>]) {
     unlike.sort_by_key(|unlike| unlike.block);
 }
 
-fn longest_cut(traced: &Traced) -> Vec<Segment> {
+pub(super) fn longest_cut(traced: &Traced) -> Vec<Segment> {
     let longest = traced
         .cuts
         .iter()

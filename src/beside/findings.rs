@@ -147,6 +147,12 @@ pub(crate) fn of_program(
                 said,
                 meant,
             },
+            DifferenceKind::Correction { said, meant } => Unlike::Correction {
+                other: other(),
+                handle,
+                said: f64::from(said) / 1e6,
+                meant: f64::from(meant) / 1e6,
+            },
             DifferenceKind::Unstopped => Unlike::Unstopped { other: other() },
             DifferenceKind::Turned { meant } => Unlike::Turned {
                 other: other(),

@@ -39,7 +39,7 @@ pub(super) struct Members {
 }
 
 /// What no writer rounds the numbers of a block by, µm: both of its ends, or its start and its centre, lie on the grid.
-const NUMBER: f64 = 1.6;
+const NUMBER: f64 = 1.9;
 
 /// The blocks since the correction was switched on or off.
 #[derive(Clone, Copy, Default)]

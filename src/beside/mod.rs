@@ -40,6 +40,7 @@ mod sides;
 mod single;
 mod tabs;
 mod traced;
+mod uneven;
 mod verdict;
 mod walk;
 mod way;

@@ -49,6 +49,8 @@ pub enum Kind {
     },
     /// A pass takes its correction from the place of another one.
     Register { said: u32, meant: u32 },
+    /// A contour is cut at another correction than the others of its program, nm.
+    Correction { said: u32, meant: u32 },
     /// The machine should stop before this block.
     Unstopped,
     /// The wire runs on the other side of an arc of 4B; it should run inside of it, or outside.

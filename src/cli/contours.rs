@@ -110,6 +110,13 @@ pub(super) fn heading(index: usize, contour: &ContoursContour, unit_mm: f64) -> 
         .mark
         .map_or_else(String::new, |[x, y]| say!(start_mark_at, x, y));
     let segments = say!(segments, contour.segments.len());
-    let what = say!(contour_and_what_it_is, index, shape, role, segments, length);
+    let what = say!(
+        contour_and_what_it_is,
+        index + 1,
+        shape,
+        role,
+        segments,
+        length
+    );
     format!("{what}{area}{order}{mark}")
 }

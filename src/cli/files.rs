@@ -364,7 +364,7 @@ fn project_file(path: &Path) -> Option<PathBuf> {
     let file = folder
         .ancestors()
         .map(|folder| folder.join(settings::FILE_NAME))
-        .find(|file| file.is_file())?;
+        .find(|file| settings::is_there(file))?;
     // A file beside the input is named with the input's own path.
     match path.parent() {
         Some(parent) if file.parent() == Some(&folder) => Some(parent.join(settings::FILE_NAME)),

@@ -50,7 +50,7 @@ fn machines() -> clap::builder::PossibleValuesParser {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let path = arguments.folder.join(FILE_NAME);
-    if path.exists() && !arguments.force {
+    if settings::is_there(&path) && !arguments.force {
         return Err(Failure::of(&path, say!(it_is_there_already)));
     }
     let defaults = settings::Settings::default();

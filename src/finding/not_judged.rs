@@ -9,6 +9,9 @@ told! {
     Pairs { count: usize } => say!(thousands_of_entities_lie_on_each_other, count);
     /// The offset of this many contours crosses itself too often to find out what it loses: the correction is much larger than their segments.
     Offsets { contours: usize } => say!(the_correction_is_so_large_beside_the_segments, contours);
+    /// No path is laid along a contour of this many segments: so many of them lie within a square of twice the correction, in the mean `most`
+    /// and more, that its offset would take too long to make.
+    Path { segments: usize, most: usize } => say!(the_correction_is_too_large_for_a_path, segments, most);
     /// Too much of a contour of this many blocks lies in one place: not all crossings were looked for.
     Crossings { blocks: usize } => say!(so_much_of_the_way_lies_on_one_place, blocks);
     /// A reference to a block would draw this many copies and segments: `most` is the limit for all references of a

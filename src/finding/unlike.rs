@@ -31,6 +31,9 @@ told! {
     /// A pass takes its correction from another register than the same pass elsewhere.
     Register { other: Arc<str>, said: u32, meant: u32 }
         => say!(the_correction_is_that_of_another_pass, said, meant, other);
+    /// A contour is cut at another correction, mm, than the others of its program.
+    Correction { other: Arc<str>, handle: String, said: f64, meant: f64 }
+        => say!(the_contour_is_cut_at_another_correction, handle, other, said, meant);
     /// The machine should stop before this block.
     Unstopped { other: Arc<str> } => say!(a_stop_is_missing_before_this_block, other);
     /// The wire runs on the other side of an arc of 4B.

@@ -132,7 +132,8 @@ pub(crate) fn cut_twice_parts(
 ) -> Result<[Part; 2], Refusal> {
     let part_of = |of: Use, before: Option<&Part>| {
         let (own, is_other) = settings.of_use(of).ok_or_else(|| {
-            Refusal::Sentence(say!(passes_run_on_both_sides_of_the_contour, of.name()))
+            let sentence = settings.misfit_of_passes(of);
+            Refusal::Sentence(sentence.unwrap_or_else(|| say!(no_path_can_be_made).into()))
         })?;
         let cutting = Cutting {
             side: side_of(outline, of.role())?,

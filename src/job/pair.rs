@@ -60,9 +60,12 @@ pub fn pair(
     let planned = match partners {
         Partners::CutTwice(drawn_as) => {
             let uses = settings.uses().into_iter().map(|of| {
-                let (own, is_other_side) = settings.of_use(of).ok_or_else(|| {
-                    Refusal::Sentence(say!(passes_run_on_both_sides_of_the_contour, of.name()))
-                })?;
+                if let Some(sentence) = settings.misfit_of_passes(of) {
+                    return Err(Refusal::Sentence(sentence));
+                }
+                let (own, is_other_side) = settings
+                    .of_use(of)
+                    .ok_or_else(|| Refusal::Sentence(say!(no_path_can_be_made).into()))?;
                 Ok(Planned {
                     part: of.name().into(),
                     settings: own,

@@ -43,12 +43,11 @@ pub(crate) fn fit_svg(drawing: &Drawing, fit: &Fit, unit_mm: f64) -> String {
         false => say!(the_parts_do_not_fit),
     };
     let mut sheet = style::opening(legend_top + 48.0, title);
-    let facts = say!(
-        facts_of_the_fit,
-        um(fit.least()),
-        um(fit.clearance),
-        worst.len()
-    );
+    let (least, wanted, places) = (um(fit.least()), um(fit.clearance), worst.len());
+    let facts = match least < 0.0 {
+        true => say!(facts_of_parts_that_bind, -least, wanted, places),
+        false => say!(facts_of_the_fit, least, wanted, places),
+    };
     sheet.heading(title, &facts, None);
     sheet.line(format_args!(
         "<g class=\"figure\">{}",
@@ -155,11 +154,11 @@ fn lens(sheet: &mut Sheet, fit: &Fit, spot: &Spot, lens: &Window, unit_mm: f64) 
         }
     }
     sheet.circle(r#"class="dot""#, (0.0, 0.0), 2.6, "");
-    let figures = say!(
-        um_left_of_um,
-        spot.clearance * unit_mm * 1e3,
-        fit.clearance * unit_mm * 1e3
-    );
+    let [left, wanted] = [spot.clearance, fit.clearance].map(|length| length * unit_mm * 1e3);
+    let figures = match left < 0.0 {
+        true => say!(binds_by_um_of_um, -left, wanted),
+        false => say!(um_left_of_um, left, wanted),
+    };
     let place = say!(the_corner_of_a_part, spot.of, spot.partner);
     lens.close(sheet, &figures, &place);
     let (right, bottom) = lens.lower_right();

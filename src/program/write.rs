@@ -5,9 +5,9 @@
 
 use super::grid::{Node, point_of, snap};
 use crate::finding::{Finding, sentence};
-use crate::geometry::{Arc, Point, Segment};
+use crate::geometry::{Arc, Locus, Point, Segment};
 use crate::settings::{Effective, Jumps};
-use crate::toolpath::{Finished, Milled, Source, WirePath};
+use crate::toolpath::{Finished, Milled, PathSegment, Source, WirePath};
 use std::fmt;
 
 /// A program that has been decoded again and compared with its path.
@@ -98,6 +98,11 @@ pub(crate) fn too_far_out(point: Point) -> ProofError {
 
 /// The largest gap between consecutive pieces of a path, µm.
 const GAP: f64 = 1.5;
+
+/// What is as short as this between two pieces that are at least as long as [`LONG`], µm, is left out: a control reads it as no block at all,
+/// or as one that turns back.
+const SPECK: f64 = 2.0;
+const LONG: f64 = 10.0;
 
 /// Pieces that are handed to a writer at a time.
 const PIECES: usize = 4096;
@@ -194,6 +199,7 @@ pub(crate) fn walk(
         writer.begin(node, first_node, path)?;
         let mut from = first_node;
         let mut reached = begin;
+        let (mut place, mut left_out) = (0, 0);
         for segments in path.segments.chunks(PIECES) {
             if done >= told {
                 told = done + PIECES;
@@ -214,7 +220,18 @@ pub(crate) fn walk(
                     )));
                 }
                 reached = segment.end();
-                let to = node_of(reached)?;
+                place += 1;
+                if left_out > 0 {
+                    left_out -= 1;
+                    continue;
+                }
+                let to = match specks_behind(path, place - 1, steps * step_um) {
+                    Some((count, meeting)) => {
+                        left_out = count;
+                        node_of(meeting * steps)?
+                    }
+                    None => node_of(reached)?,
+                };
                 pieces.push(Piece {
                     segment,
                     from,
@@ -242,6 +259,42 @@ pub(crate) fn walk(
         node = Some(from);
     }
     Ok(())
+}
+
+/// How many pieces behind one of a path beside its contour are left out, and where the ones before and behind them meet, in drawing units;
+/// `um` is the drawing's unit.
+fn specks_behind(path: &WirePath, at: usize, um: f64) -> Option<(usize, Point)> {
+    if path.side.is_some() || path.correction <= 0.0 {
+        return None;
+    }
+    let is_of_contour = |piece: &&PathSegment| {
+        matches!(piece.source, Source::Segment { .. } | Source::Corner { .. })
+    };
+    let is_long = |piece: &&PathSegment| piece.geometry.length() * um >= LONG;
+    let before = path
+        .segments
+        .get(at)
+        .filter(is_of_contour)
+        .filter(is_long)?;
+    let mut behind = path.segments[at + 1..].iter();
+    let (mut count, mut length) = (0, 0.0);
+    let next = loop {
+        let piece = behind.next().filter(is_of_contour)?;
+        if is_long(&piece) {
+            break piece;
+        }
+        count += 1;
+        length += piece.geometry.length() * um;
+        if length > SPECK {
+            return None;
+        }
+    };
+    let (before, next) = (&before.geometry, &next.geometry);
+    let middle = nalgebra::center(&before.end(), &next.start());
+    let met = Locus::of(before).meet(&Locus::of(next)).into_iter();
+    let met = met.min_by(|a, b| (a - middle).norm().total_cmp(&(b - middle).norm()));
+    let is_there = |point: &Point| (point - middle).norm() * um <= SPECK / 2.0;
+    (count > 0).then(|| (count, met.filter(is_there).unwrap_or(middle)))
 }
 
 /// True where there is anything to cut: not where the wire only stands in each hole.

@@ -282,6 +282,9 @@ fn left_out(what: &NotJudged) -> Option<usize> {
     match *what {
         NotJudged::Pairs { count }
         | NotJudged::Offsets { contours: count }
+        | NotJudged::Path {
+            segments: count, ..
+        }
         | NotJudged::Crossings { blocks: count } => Some(count),
         NotJudged::Reference { copies, .. } => usize::try_from(copies).ok(),
         NotJudged::Curve { arcs, .. } => Some(arcs),

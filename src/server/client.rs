@@ -70,6 +70,7 @@ struct Request<'a, P> {
 /// Level of a line in the client's log.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Weight {
+    Error = 1,
     Warning = 2,
     Info = 3,
 }

@@ -1,7 +1,8 @@
 //! The levels of settings, and which `wedm.toml` holds for which document.
 
+use crate::finding::Severity;
 use crate::settings::{
-    Effective, FILE_NAME, Settings, SettingsError, from_json, from_toml, place_in,
+    Effective, FILE_NAME, Settings, SettingsError, from_json, from_toml, is_there, place_in,
     read_file as read_settings,
 };
 use crate::text::SourceText;
@@ -65,9 +66,9 @@ impl Config {
         self.folders.extend(added);
     }
 
-    /// Replaces one level. Returns, as sentences, the values at fault that the user has not been
+    /// Replaces one level. Returns, as sentences with their severities, the values at fault that the user has not been
     /// told of yet.
-    pub(crate) fn set_level(&mut self, level: Level, json: &Value) -> Vec<String> {
+    pub(crate) fn set_level(&mut self, level: Level, json: &Value) -> Vec<(Severity, String)> {
         let (settings, mut errors) = from_json(json);
         match level {
             Level::Initialization => self.initialization = settings,
@@ -76,19 +77,20 @@ impl Config {
         }
         errors.retain(|error| !error.of_levels);
         errors.extend(self.settings_for(None).contradictions(&|_| None));
-        let sentences: Vec<String> = errors
-            .iter()
-            .map(|error| say!(settings_in, level.name(), error.message))
-            .collect();
+        let said = |error: &SettingsError| {
+            let sentence = say!(settings_in, level.name(), error.message);
+            (error.severity, sentence)
+        };
+        let said: Vec<(Severity, String)> = errors.iter().map(said).collect();
+        let sentences = said.iter().map(|(_, sentence)| sentence.clone());
         let old: FxHashSet<String> = self
             .shown
-            .insert(level.name(), sentences.clone())
+            .insert(level.name(), sentences.collect())
             .unwrap_or_default()
             .into_iter()
             .collect();
-        sentences
-            .into_iter()
-            .filter(|sentence| !old.contains(sentence))
+        said.into_iter()
+            .filter(|(_, sentence)| !old.contains(sentence))
             .collect()
     }
 
@@ -184,9 +186,7 @@ pub(super) fn read(
 ) -> Option<ProjectFile> {
     match opened(file) {
         Some(text) => Some(parse(file, text)),
-        None => std::fs::metadata(file)
-            .is_ok_and(|metadata| metadata.is_file())
-            .then(|| read_file(file)),
+        None => is_there(file).then(|| read_file(file)),
     }
 }
 
@@ -316,9 +316,10 @@ mod tests {
         let bad = json!({ "correction": -1 });
         assert_eq!(
             config.set_level(Level::Pushed, &bad),
-            [
-                "settings in workspace/didChangeConfiguration: correction is -1, expected a number above 0"
-            ]
+            [(
+                Severity::Error,
+                "settings in workspace/didChangeConfiguration: correction is -1, expected a number above 0".to_owned()
+            )]
         );
         assert!(config.set_level(Level::Pushed, &bad).is_empty());
         assert!(config.set_level(Level::Pushed, &json!({})).is_empty());

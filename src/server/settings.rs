@@ -8,7 +8,7 @@ use super::judge::Task;
 use super::open::Open;
 use super::state::State;
 use super::transport::Publish;
-use crate::finding::Rule;
+use crate::finding::{Rule, Severity};
 use crate::protocol::Diagnostic;
 use crate::settings::Effective;
 use crate::text::SourceText;
@@ -138,8 +138,12 @@ impl State {
 
     /// Replaces one level of the client's settings.
     pub(crate) fn set_level(&mut self, level: Level, json: &Value) {
-        for misfit in self.config.set_level(level, json) {
-            self.client.show(Weight::Warning, misfit);
+        for (severity, misfit) in self.config.set_level(level, json) {
+            let weight = match severity {
+                Severity::Error => Weight::Error,
+                _ => Weight::Warning,
+            };
+            self.client.show(weight, misfit);
         }
     }
 

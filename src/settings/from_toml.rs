@@ -13,11 +13,25 @@ pub(crate) const FILE_NAME: &str = "wedm.toml";
 /// The most bytes of a settings file; nobody writes that many, and each takes hundreds in memory.
 const LARGEST: usize = 1024 * 1024;
 
+/// Whether there is something of that name that holds settings, or should: a folder and a link to nothing are there, too, and cannot be read.
+pub(crate) fn is_there(path: &Path) -> bool {
+    match std::fs::metadata(path) {
+        Ok(metadata) => metadata.is_file() || metadata.is_dir(),
+        Err(_) => std::fs::symlink_metadata(path).is_ok(),
+    }
+}
+
 /// The bytes of a settings file, bounded even where the file has no end.
 ///
 /// # Errors
 /// A sentence: it cannot be read, or is too long for a settings file.
 pub(crate) fn read_file(path: &Path) -> Result<Vec<u8>, String> {
+    if path.is_dir() {
+        return Err(say!(a_folder_is_no_file).into());
+    }
+    if !path.exists() && is_there(path) {
+        return Err(say!(a_link_to_nothing).into());
+    }
     disk::read_path_at_most(path, 16 * LARGEST as u64)
 }
 

@@ -1,6 +1,9 @@
 //! Contradictory or ineffective settings of a program and its workpiece.
 
-use super::{Compensation, LengthSetting, PassFault, Settings, SkimCorner};
+use super::{Compensation, Effective, LengthSetting, PassFault, Settings, SkimCorner};
+
+/// Two lengths in mm that differ by less are equal.
+const ROUNDING: f64 = 1e-9;
 
 /// Words that end a program of blocks in one controller or another, and such that pause it.
 pub(crate) const ENDS: [&str; 4] = ["DD", "E", "FF", "MJ"];
@@ -50,6 +53,21 @@ pub(super) fn faults(settings: &Settings) -> Vec<PassFault> {
         }
     }
     faults
+}
+
+/// What may be meant: a lead so short that the wire is threaded within the kerf of its own cut.
+pub(super) fn doubts(settings: &Settings) -> Vec<PassFault> {
+    let program = settings.program();
+    let effective = Effective::of(settings);
+    let correction = effective.correction;
+    let runs_beside = program.compensation() != Compensation::None && !effective.mills;
+    let key = "program.lead-in";
+    let short = program
+        .lead_in
+        .filter(|length| *length < correction - ROUNDING);
+    let short = short.filter(|_| runs_beside);
+    let said = |length| PassFault::of(key, say!(a_lead_within_the_kerf, key, length, correction));
+    short.map(said).into_iter().collect()
 }
 
 enum Does {

@@ -37,7 +37,7 @@ pub use effective::Effective;
 pub(crate) use effective::{NEAR, point_of};
 pub(crate) use from_json::from_json;
 pub use from_toml::from_toml;
-pub(crate) use from_toml::{FILE_NAME, place_in, read_file};
+pub(crate) use from_toml::{FILE_NAME, is_there, place_in, read_file};
 pub(crate) use job::{ENDS, PAUSES};
 pub(crate) use keep::{as_lines, keep, table_of_suppressions};
 pub(crate) use keys::{
@@ -128,8 +128,14 @@ impl Settings {
             of_levels: true,
             ..SettingsError::new(fault.key, fault.message.clone(), place(&fault))
         });
+        let doubts = job::doubts(self).into_iter().map(|fault| SettingsError {
+            of_levels: true,
+            severity: Severity::Warning,
+            ..SettingsError::new(fault.key, fault.message.clone(), place(&fault))
+        });
         let mut errors = self.pass_errors(place);
         errors.extend(others);
+        errors.extend(doubts);
         errors
     }
 

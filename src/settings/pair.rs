@@ -179,6 +179,38 @@ impl Effective {
         Some((settings, is_other))
     }
 
+    /// Why no program of several passes is made of a part, as a sentence: its clearance is larger than some correction, or than all.
+    pub(crate) fn misfit_of_passes(&self, of: Use) -> Option<String> {
+        let shift = self.shift_of(of)?;
+        let passes = self.each_correction();
+        let beyond = |correction: &&f64| **correction + shift <= ROUNDING;
+        let count = passes.iter().filter(beyond).count();
+        // Passes that are all alike follow each other on either side.
+        let mut pairs = passes.iter().zip(passes.iter().skip(1));
+        let differ = pairs.any(|(one, next)| (one - next).abs() > ROUNDING);
+        if count == 0 || !differ {
+            return None;
+        }
+        let key = match (of, self.pair.drawn_as) {
+            (Use::Stripper, Some(DrawnAs::Plate)) => "pair.stripper - pair.clearance",
+            (Use::Stripper, _) => "pair.stripper",
+            _ => "pair.clearance",
+        };
+        let listed: Vec<String> = passes.iter().map(f64::to_string).collect();
+        let (listed, length) = (listed.join(say!(comma)), rounded(-shift));
+        let part = part_title(of.name());
+        Some(match count == passes.len() {
+            true => say!(passes_run_beyond_the_contour, part, key, length, listed),
+            false => say!(
+                passes_run_on_both_sides_of_the_contour,
+                part,
+                key,
+                length,
+                listed
+            ),
+        })
+    }
+
     /// The settings for one of the drawn workpieces alone.
     pub(crate) fn of_workpiece(&self, number: u16) -> Effective {
         let mut settings = Effective {
@@ -188,6 +220,11 @@ impl Effective {
         settings.pair.clearance = None;
         settings
     }
+}
+
+/// A length in mm without the rounding of a difference.
+fn rounded(mm: f64) -> f64 {
+    (mm * 1e6).round() / 1e6
 }
 
 /// Contradictory or ineffective settings of a pair.

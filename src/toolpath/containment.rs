@@ -50,6 +50,18 @@ impl Nesting {
         Nesting { around }
     }
 
+    /// What is cut out of each of `chosen` before it, in square drawing units, by the index of its outline: the areas directly within it.
+    pub(crate) fn cut_out(&self, outlines: &[Outline], chosen: &[usize]) -> FxHashMap<usize, f64> {
+        let mut areas = FxHashMap::default();
+        for (inner, around) in self.around.iter().enumerate() {
+            if let Some(&outer) = around.last() {
+                let area = outlines[chosen[inner]].twice_area.abs() / 2.0;
+                *areas.entry(chosen[outer]).or_default() += area;
+            }
+        }
+        areas
+    }
+
     /// When each is cut by the `places` that some are given: a contour at its own, what lies within it no later. Where none is given, last.
     pub(crate) fn turns(&self, chosen: &[usize], places: &Places) -> Vec<u32> {
         let own = |place: usize| places.get(&chosen[place]).copied().unwrap_or(u32::MAX);

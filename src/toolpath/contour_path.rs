@@ -3,6 +3,7 @@
 use super::clearance::Walls;
 use super::cores::{first_fault, sum};
 use super::corners::{Element, Joining, Offsets, Raw};
+use super::crowd::{MOST_IN_A_SQUARE, crowd};
 use super::job::{Job, ROUNDING};
 use super::loops::{self, Found};
 use super::nest::{Before, Nest};
@@ -16,7 +17,7 @@ use super::skim_sweep::along_before;
 use super::spliced::spliced;
 use super::tips::with_tips;
 use crate::drawing::ContourSegment;
-use crate::finding::{Detail, Finding, Place, Rule, Severity};
+use crate::finding::{Detail, Finding, NotJudged, Place, Rule, Severity};
 use crate::geometry::{Point, Segment, cross};
 use crate::settings::Corner;
 use std::borrow::Cow;
@@ -67,6 +68,8 @@ pub(super) enum Fault {
     Several { near: Point, wall: usize },
     /// There is a path, but it does not pass its proof.
     Unproved { wall: usize },
+    /// So many walls lie within the correction of each other that it would take too long to find out.
+    Crowded,
 }
 
 impl Job<'_> {
@@ -98,6 +101,7 @@ impl Job<'_> {
             Ok(_) => &[],
             Err(Fault::Unproved { .. }) => &[CRUMB, SPECK],
             Err(Fault::Nothing | Fault::Several { .. }) => &[CRUMB],
+            Err(Fault::Crowded) => &[],
         };
         let mut longer = 0.0;
         for &most in left_out {
@@ -153,6 +157,9 @@ impl Job<'_> {
         } = along;
         if walls.is_empty() {
             return Ok(Err(Fault::Nothing));
+        }
+        if crowd(own, 2.0 * correction) > MOST_IN_A_SQUARE {
+            return Ok(Err(Fault::Crowded));
         }
         let round = match closed {
             true => Cow::Borrowed(walls),
@@ -398,12 +405,22 @@ impl Job<'_> {
                 Detail::UnprovedPath { near: near(wall) },
                 wall,
             ),
+            Fault::Crowded => {
+                let detail = Detail::NotJudged(NotJudged::Path {
+                    segments: walls.len(),
+                    most: MOST_IN_A_SQUARE,
+                });
+                (Rule::NotJudged, detail, 0)
+            }
         };
         let place = walls
             .get(wall)
             .and_then(|wall| wall.source.place())
             .unwrap_or(Place::Document);
-        let severity = self.settings.severity(rule).unwrap_or(Severity::Error);
+        let severity = match fault {
+            Fault::Crowded => Severity::Error,
+            _ => self.settings.severity(rule).unwrap_or(Severity::Error),
+        };
         Finding {
             rule,
             severity,

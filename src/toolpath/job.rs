@@ -19,6 +19,8 @@ pub(super) struct Job<'a> {
     /// The selection's words for contours, by outline.
     pub(crate) picks: FxHashMap<usize, Pick>,
     pub(crate) unit_mm: f64,
+    /// The area that is cut out of each outline before it, in square drawing units, where it counts.
+    pub(crate) cut_out: FxHashMap<usize, f64>,
     /// The contour that all passes leave is worked out, too.
     pub(crate) finishes: bool,
     /// A loop that is everywhere at its distance is enough: whether the offset has others is not
@@ -38,6 +40,7 @@ impl<'a> Job<'a> {
             settings,
             picks: FxHashMap::default(),
             unit_mm: settings.unit_of(drawing).mm,
+            cut_out: FxHashMap::default(),
             finishes: false,
             a_loop_will_do: false,
             searched: Default::default(),

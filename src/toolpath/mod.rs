@@ -9,6 +9,7 @@ mod containment;
 mod contour_path;
 mod cores;
 mod corners;
+mod crowd;
 mod distance;
 mod drawn_path;
 mod entry;
@@ -35,6 +36,7 @@ mod reuse;
 mod ring;
 mod rotated;
 mod rounds;
+mod said_twice;
 mod settings_check;
 mod skim;
 mod skim_sweep;
@@ -61,6 +63,7 @@ pub(crate) use path::lengths;
 pub use path::{PathSegment, Refusal, Source, WirePath};
 pub(crate) use reuse::{NEW, which_it_is, which_it_was};
 pub(crate) use rounds::rounds;
+pub(crate) use said_twice::{MOST_SEGMENTS as MOST_SEGMENTS_SAID_TWICE, said_twice};
 pub(crate) use settings_check::{is_stated, short_layers, shortened_leads, stated_faults};
 pub(crate) use standing::weak_tabs;
 pub use work::LargestWire;
@@ -71,6 +74,7 @@ use crate::drawing::{Drawing, EntityId, Outline};
 use crate::finding::{Detail, Finding, Rule, Severity};
 use crate::geometry::Point;
 use crate::settings::{Compensation, Effective, LengthSetting, Order};
+use containment::Nesting;
 use contour_path::{Fault, Laid};
 use job::Job;
 use leads::Contours;
@@ -202,9 +206,14 @@ pub(crate) fn plan_while(
             order::outline_of(drawing, outlines, handle)?;
         }
     }
+    let cut_out = match settings.job.slug_limit {
+        Some(_) => Nesting::new(drawing, outlines, &chosen).cut_out(outlines, &chosen),
+        None => FxHashMap::default(),
+    };
     let job = Job {
         outlines,
         picks,
+        cut_out,
         finishes,
         goes_on,
         ..Job::of(drawing, settings)

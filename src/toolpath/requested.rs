@@ -63,6 +63,18 @@ pub(super) fn own<'a>(
     outlines: &[Outline],
     settings: &'a Effective,
 ) -> FxHashMap<usize, &'a ContourSettings> {
+    let said = settings.own.iter();
+    said.filter_map(|(key, said)| Some((key_outline(drawing, outlines, settings, key)?, said)))
+        .collect()
+}
+
+/// The outline that a key names, by a handle or by a point on it.
+pub(super) fn key_outline(
+    drawing: &Drawing,
+    outlines: &[Outline],
+    settings: &Effective,
+    key: &str,
+) -> Option<usize> {
     let near = NEAR / settings.unit_of(drawing).mm;
     let through = |at: Point| {
         let runs_there = |outline: &Outline| {
@@ -74,13 +86,10 @@ pub(super) fn own<'a>(
         };
         outlines.iter().position(runs_there)
     };
-    let of_key = |key: &str| match point_of(key) {
+    match point_of(key) {
         Some(at) => through(at),
         None => outline_of(drawing, outlines, key).ok(),
-    };
-    let said = settings.own.iter();
-    said.filter_map(|(key, said)| Some((of_key(key)?, said)))
-        .collect()
+    }
 }
 
 /// The places in the order that the settings give to single outlines.
@@ -95,7 +104,12 @@ pub(super) fn places(drawing: &Drawing, outlines: &[Outline], settings: &Effecti
 
 /// A mark within the correction of its contour, or on the part's side of it, is the entry: no wire can be threaded
 /// there. Where the side is not known, or the contour is the wire's own path, it is the thread hole.
-fn means_entry(drawing: &Drawing, outline: &Outline, mark: &Mark, settings: &Effective) -> bool {
+pub(super) fn means_entry(
+    drawing: &Drawing,
+    outline: &Outline,
+    mark: &Mark,
+    settings: &Effective,
+) -> bool {
     if settings.compensation == Compensation::None
         || !outline.contour.closed
         || !matches!(outline.role, Role::Opening | Role::Punch)
@@ -151,10 +165,10 @@ fn points(
 }
 
 pub(super) struct Mark {
-    at: Point,
+    pub(super) at: Point,
     /// The outline nearest to it.
-    outline: usize,
-    distance: f64,
+    pub(super) outline: usize,
+    pub(super) distance: f64,
 }
 
 /// Every text "O", with the contour that it marks; `None` where there are more than `most`.

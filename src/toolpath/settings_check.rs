@@ -1,11 +1,13 @@
 //! The settings of tabs, overlaps, thread holes, entries and steps, checked against the contours while they are drawn.
 
 use super::leads::finding;
+use super::milling::swept_length;
 use super::order::name;
 use super::standing::weak_tabs;
 use super::{Refusal, StartHole, WirePath, lengths, plan};
 use crate::drawing::{Drawing, Outline};
 use crate::finding::{Finding, Place, Rule, Severity};
+use crate::geometry::Segment;
 use crate::settings::{Compensation, Effective, Electrode, LengthSetting};
 
 /// In drawings of more segments these are only reported when a path is requested.
@@ -127,17 +129,15 @@ fn worn_layers(
     settings: &Effective,
     paths: &[WirePath],
 ) -> Vec<Finding> {
-    of_layers(
-        drawing,
-        outlines,
-        settings,
-        paths,
-        &|electrode, path, length| {
-            let wear = electrode.wear_of_layer(length, path.counter_clockwise.is_some());
-            let severity = settings.severity_over(Rule::Settings, Severity::Warning)?;
-            (wear > 1.0).then(|| (severity, say!(the_electrode_wears_more_than_a_layer, wear)))
-        },
-    )
+    of_layers(drawing, outlines, settings, paths, &|electrode, path, _| {
+        let pieces: Vec<Segment> = path.segments.iter().map(|it| it.geometry).collect();
+        let is_closed = path.counter_clockwise.is_some();
+        let unit_mm = settings.unit_of(drawing).mm;
+        let swept = swept_length(&pieces, is_closed, electrode.width() / unit_mm) * unit_mm;
+        let wear = electrode.wear_of_layer(swept, is_closed);
+        let severity = settings.severity_over(Rule::Settings, Severity::Warning)?;
+        (wear > 1.0).then(|| (severity, say!(the_electrode_wears_more_than_a_layer, wear)))
+    })
 }
 
 /// The contours with a layer that is shorter than the step of linear compensation.

@@ -288,7 +288,12 @@ impl Job<'_> {
     fn tab(&self, unled: &Unled) -> Result<Option<Entry>, Refusal> {
         let settings = self.settings;
         let outline = &self.outlines[unled.outline];
-        let area = outline.twice_area.abs() / 2.0 * self.unit_mm.powi(2);
+        let cut_out = self
+            .cut_out
+            .get(&unled.outline)
+            .copied()
+            .unwrap_or_default();
+        let area = (outline.twice_area.abs() / 2.0 - cut_out).max(0.0) * self.unit_mm.powi(2);
         let entities = outline.contour.pieces.iter();
         let of = entities.filter_map(|piece| Some(&*self.drawing.get(piece.entity)?.handle));
         let length_mm = settings.tab_of(of);

@@ -2,6 +2,7 @@
 //!
 //! Nothing is guessed: without a key that it needs a value is left out, and the key is named.
 
+use super::containment::Nesting;
 use super::lead_form::largest_lead_angle;
 use super::path::WirePath;
 use crate::drawing::{Drawing, EntityId, Outline, Role};
@@ -90,9 +91,16 @@ pub(crate) fn work(
     let cuts: Vec<WorkCut> = paths.iter().map(cut).collect();
     let minutes: Option<f64> = cuts.iter().map(|cut| cut.minutes).sum();
     let minutes = minutes.filter(|_| !cuts.is_empty());
+    let chosen: Vec<usize> = paths
+        .iter()
+        .filter(|path| path.is_first())
+        .map(|path| path.outline)
+        .collect();
+    let cut_out = Nesting::new(drawing, outlines, &chosen).cut_out(outlines, &chosen);
     let slug = |path: &WirePath| {
         let outline = &outlines[path.outline];
-        let area = outline.twice_area.abs() / 2.0 * unit_mm.powi(2);
+        let cut_out = cut_out.get(&path.outline).copied().unwrap_or_default();
+        let area = (outline.twice_area.abs() / 2.0 - cut_out).max(0.0) * unit_mm.powi(2);
         (settings.has_waste_inside(outline.role) && outline.contour.closed)
             .then(|| settings.mass_of(area))?
             .map(|mass| Slug {

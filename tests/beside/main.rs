@@ -13,6 +13,7 @@ mod said;
 mod shapes;
 mod switched;
 mod unchanged;
+mod uneven;
 mod unknown;
 mod written;
 

@@ -1,5 +1,6 @@
 //! The command line as a user meets it: the real binary, small files, what it prints and how it ends.
 
+mod clearances;
 mod contradictions;
 mod electrode;
 mod ends;
@@ -11,9 +12,11 @@ mod programs;
 mod reports;
 mod search;
 mod settings;
+mod specks;
 mod table;
 mod targets;
 mod told;
+mod twice;
 mod untrusted;
 mod words;
 

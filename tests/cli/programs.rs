@@ -295,7 +295,9 @@ fn a_pair_is_held_in_each_other_and_its_programs_are_written_once() {
     );
     let svg = String::from_utf8(desk.read("fit.svg")).unwrap();
     assert!(
-        svg.contains("-6.6 µm left of 10.0") && svg.ends_with("</svg>\n"),
+        svg.contains("binds by 6.6 µm, 10.0 wanted")
+            && svg.contains("the parts bind by 6.6 µm where it is tightest")
+            && svg.ends_with("</svg>\n"),
         "{svg}"
     );
     let json = desk.run(&format!("fit tight_fillet.dxf {thin} --format json"));

@@ -138,3 +138,26 @@ fn a_correction_on_the_command_line_comes_before_the_passes_of_the_file() {
     let both = format!("{generate} --correction 0.08 --passes 0.08,0.06");
     check(&desk, &both, 2, &["!--correction", "!cannot be used with"]);
 }
+
+#[test]
+fn settings_that_cannot_be_read_are_said_and_nothing_is_made_without_them() {
+    let desk = Desk::new();
+    std::fs::create_dir(desk.path("job")).unwrap();
+    desk.write("job/clean.dxf", desk.read("clean.dxf"));
+    let file = desk.path("job/wedm.toml");
+    let refused = |why: &str| {
+        for command in ["check job/clean.dxf", "generate job/clean.dxf --side punch"] {
+            check(&desk, command, 2, &["!job/wedm.toml", why]);
+        }
+        check(&desk, "init job", 2, &["!wedm.toml"]);
+    };
+    std::fs::create_dir(&file).unwrap();
+    refused("!it is a folder");
+    std::fs::remove_dir(&file).unwrap();
+    check(&desk, "check job/clean.dxf", 0, &[]);
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink("nowhere.toml", &file).unwrap();
+        refused("!a link to a file that is not there");
+    }
+}

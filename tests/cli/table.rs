@@ -251,7 +251,7 @@ fn commands_print_and_end_as_they_say() {
             "contours chain.dxf",
             0,
             &[
-                "contour 0: closed, counter-clockwise, both sides, 6 segments",
+                "contour 1: closed, counter-clockwise, both sides, 6 segments",
                 "1 contour\n",
             ],
         ),

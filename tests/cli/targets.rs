@@ -166,7 +166,7 @@ fn stdin_is_an_input_of_every_command_that_takes_one_text() {
         ("simulate -", "hole.3b", "blocks"),
         ("generate - --side opening", "clean.dxf", "DD"),
         ("inspect -", "clean.dxf", "all of them can be cut"),
-        ("contours -", "clean.dxf", "contour 0"),
+        ("contours -", "clean.dxf", "contour 1"),
         ("draw -", "clean.dxf", "<svg"),
         ("draw -", "hole.3b", "<svg"),
     ] {

@@ -74,6 +74,36 @@ fn each_pass_has_its_own_rate_and_each_opening_its_slug() {
 }
 
 #[test]
+fn a_slug_weighs_what_is_left_when_it_drops() {
+    let text = "[job]\nthickness = 40\n";
+    let within = |role| rectangle("2B", role, [10.0, 5.0], [20.0, 15.0]);
+    // 7.85 g/cm³ × 4 cm × (8 cm² less 1 cm²): what lies within is cut out first, whatever it is.
+    for (role, masses) in [(Role::Opening, &[31.4, 219.8][..]), (Role::Punch, &[219.8])] {
+        let outer = rectangle("2A", Role::Opening, [0.0, 0.0], [40.0, 20.0]);
+        let plate = drawing(vec![outer, within(role)]);
+        let work = generated(&plate, &settings(text), Format::Iso).work;
+        let found: Vec<f64> = work.slugs.iter().map(|slug| slug.mass).collect();
+        let is_near = |(a, b): (&f64, &f64)| (a - b).abs() < 1e-9;
+        assert!(
+            found.len() == masses.len() && found.iter().zip(masses).all(is_near),
+            "{role:?}: {found:?}"
+        );
+    }
+    // One in a part that lies in the slug is gone with that part.
+    let nested = drawing(vec![
+        rectangle("2A", Role::Opening, [0.0, 0.0], [40.0, 20.0]),
+        within(Role::Punch),
+        rectangle("2C", Role::Opening, [12.0, 7.0], [16.0, 11.0]),
+    ]);
+    let work = generated(&nested, &settings(text), Format::Iso).work;
+    let last = work.slugs.last().map(|slug| slug.mass);
+    assert!(
+        last.is_some_and(|mass| (mass - 219.8).abs() < 1e-9),
+        "{last:?}"
+    );
+}
+
+#[test]
 fn the_smallest_radius_names_the_largest_wire() {
     let fillet = (std::f64::consts::PI / 8.0).tan();
     let rounded = |role| {
@@ -215,7 +245,7 @@ fn a_place_narrower_than_the_smallest_radius_names_the_largest_wire() {
     }
     // Walls are as wide apart as a wire that just passes: by the proof of its path.
     let passes = |correction: f64| {
-        let text = format!("correction = {correction}\n[program]\nlead-in = 0.1\n");
+        let text = format!("correction = {correction}\n[program]\nlead-in = {correction}\n");
         let drawing = drawing(vec![polygon("2A", Role::Opening, rooms)]);
         let source = Of::Cad(Arc::new(drawing));
         let document = Document::new(source, Arc::new(settings(&text)));

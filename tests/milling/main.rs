@@ -1,5 +1,6 @@
 //! Milling by an electrode that wears: the program as a control runs it, compared with path, feeds and a simulation of our own.
 
+mod pockets;
 mod programs;
 mod refusals;
 mod slots;

@@ -4,16 +4,16 @@ use super::*;
 
 /// One move: from and to `[x, y, z]` in mm, centre of an arc, whether it is a rapid.
 #[derive(Debug)]
-struct Move {
-    from: [f64; 3],
-    to: [f64; 3],
+pub(super) struct Move {
+    pub(super) from: [f64; 3],
+    pub(super) to: [f64; 3],
     /// The centre of an arc, and 1 where it turns left, −1 where right.
-    center: Option<([f64; 2], f64)>,
+    pub(super) center: Option<([f64; 2], f64)>,
     is_rapid: bool,
 }
 
 impl Move {
-    fn is_level(&self) -> bool {
+    pub(super) fn is_level(&self) -> bool {
         self.from[2] == self.to[2]
     }
 
@@ -34,7 +34,7 @@ impl Move {
     }
 
     /// Length in the plane.
-    fn length(&self) -> f64 {
+    pub(super) fn length(&self) -> f64 {
         let [dx, dy] = [0, 1].map(|axis| self.to[axis] - self.from[axis]);
         let chord = dx.hypot(dy);
         match self.center {
@@ -48,7 +48,7 @@ impl Move {
 }
 
 /// A control of our own, for the words that are written here: arcs of at most a half turn.
-fn run(text: &str, unit: f64) -> Vec<Move> {
+pub(super) fn run(text: &str, unit: f64) -> Vec<Move> {
     let (mut at, mut motion, mut incremental) = ([0.0; 3], 0, false);
     let mut moves = Vec::new();
     for line in text.lines() {

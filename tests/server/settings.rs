@@ -192,6 +192,31 @@ fn the_file_upwards_wins_and_is_read_again_when_it_changes() {
 }
 
 #[test]
+fn a_file_that_cannot_be_read_is_said_at_its_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("wedm.toml");
+    let said = |what: &str| {
+        let mut client = Client::start();
+        open(&mut client, &uri_of(&folder.path().join("x.dxf")));
+        client.wait_for(what, |message| {
+            message["params"]["uri"] == json!(uri_of(&file))
+                && message["params"]["diagnostics"][0]["message"]
+                    .as_str()
+                    .is_some_and(|said| said.contains(what))
+        });
+        client.shut_down();
+    };
+    std::fs::create_dir(&file).unwrap();
+    said("it is a folder");
+    std::fs::remove_dir(&file).unwrap();
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink("nowhere.toml", &file).unwrap();
+        said("a link to a file that is not there");
+    }
+}
+
+#[test]
 fn a_drawing_without_a_file_takes_the_file_of_the_folder() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("wedm.toml"), "correction = 0.2\n").unwrap();

@@ -92,6 +92,8 @@ pub const CONTRADICTIONS: &[Contradiction] = &[
     // Where the wire is threaded and comes to its contour.
     row(ONE, "side = \"opening\"\nprogram.start-hole = 12\n", "start-hole", "has room in contour A0"),
     row(ONE, "side = \"punch\"\nprogram.thread = [10, 5]\n", "lead-in", "the thread hole (10.000, 5.000)"),
+    row(ONE, "side = \"punch\"\ncorrection = 0.2\nprogram.lead-in = 0.1\n", "settings", "within the kerf of its own cut"),
+    row(ONE, "side = \"opening\"\npasses.corrections = [0.2, 0.1]\nprogram.lead-in = 0.15\n", "settings", "below the correction 0.2"),
     row(ONE, "side = \"punch\"\nprogram.entry = [100, 50]\n", "settings", "expected a point on it"),
     row(NESTED, "side = \"auto\"\nprogram.thread = [-5, 5]\n", "settings", "2 contours"),
     row(ONE, "side = \"punch\"\nprogram.thread.ZZ = [-5, 5]\n", "settings", "the handle ZZ"),

@@ -240,3 +240,16 @@ def test_settings_that_do_not_fit_are_refused_and_named(settings: Any, said: str
         pass
     assert said in str(error.value)
     assert ("margin is" in str(error.value)) == ("margin" in settings)
+
+
+def test_warnings_about_settings_are_logged_and_stop_nothing(caplog: pytest.LogCaptureFixture) -> None:
+    # Each pass cuts beyond the contour by less than the wire's radius.
+    settings: Any = {"wire_diameter": 0.25, "gap": 0.01, "passes": {"corrections": [0.13, 0.128]}}
+    with caplog.at_level("WARNING", logger="wedm_client"), Server(settings=settings, timeout=30) as server:
+        assert server.open([]).diagnostics() == []
+    said = [record.message for record in caplog.records if "beyond the contour" in record.message]
+    assert [key for key in ("[0]", "[1]") if any(key in one for one in said)] == ["[0]", "[1]"]
+    # An error beside them is refused, alone.
+    with pytest.raises(WrongSettings) as error, Server(settings={**settings, "correction": -1}, timeout=30):
+        pass
+    assert "correction is -1" in str(error.value) and "beyond the contour" not in str(error.value)

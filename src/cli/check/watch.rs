@@ -36,7 +36,7 @@ fn state(arguments: &Arguments) -> Vec<(PathBuf, Option<SystemTime>, u64)> {
     let of_settings = folders.iter().flat_map(|folder| folder.ancestors());
     let of_settings: std::collections::BTreeSet<PathBuf> = of_settings
         .map(|folder| folder.join(settings::FILE_NAME))
-        .filter(|file| file.is_file())
+        .filter(|file| settings::is_there(file))
         .collect();
     paths.extend(of_settings);
     paths.extend(arguments.common.config.clone());

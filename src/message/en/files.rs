@@ -3,6 +3,7 @@
 declare! {
     it_has_too_many_bytes(bytes, cap) => "it has {bytes} bytes, expected at most {cap}";
     it_holds_too_many_bytes(cap) => "it has more than {cap} bytes, expected at most that many";
+    a_link_to_nothing => "it is a link to a file that is not there";
     a_folder_is_no_file => "it is a folder, expected one file";
     it_is_a_folder => "it is a folder";
     it_is_no_regular_file => "it is not a regular file";

@@ -71,6 +71,7 @@ declare! {
     the_arc_has_the_wire_on_its_other_side(said, meant, drawing) => "{said} where {drawing} needs {meant}: the arc has the wire on its other side, and its radius is wrong by twice the correction";
     the_wire_cuts_into_the_part(drawing, off) => "the wire leaves the contour here and cuts {off} mm into the part of {drawing}";
     the_way_in_ends_beside_its_contour(drawing, off) => "way in ends {off} mm beside the path of its contour in {drawing}, and the contour is cut from there";
+    the_contour_is_cut_at_another_correction(handle, drawing, said, meant) => "contour {handle} of {drawing} is cut at a correction of {said:.3} mm, and the others of this program at {meant:.3} mm";
     it_is_cut_on_the_other_side(drawing) => "the wire runs on the other side of the contour than {drawing} and its settings say";
     the_contour_is_left_before_it_is_cut_all_round(segment, handle, drawing) => "contour is left here although {drawing} goes on with segment {segment} of {handle}";
     no_contour_of_the_drawing_is_like_this(drawing) => "no contour of {drawing} matches this one at any correction of the program";
@@ -233,6 +234,7 @@ declare! {
     the_wire_crosses_its_own_path(line, x, y) => "the wire crosses its own path of line {line} here, at ({x:.3}, {y:.3}) mm from the contour's start: it cuts the part in two";
     thousands_of_entities_lie_on_each_other(count) => "thousands of entities lie on or across each other: {count} stretches of contours from here on were not compared with what is near them";
     the_correction_is_so_large_beside_the_segments(contours) => "the correction is so large compared with the segments that what the offset loses was not looked for; contours left out from here on: {contours}";
+    the_correction_is_too_large_for_a_path(segments, most) => "the correction is so large compared with the {segments} segments of this contour that no path is laid: on average more than {most} of them lie in a square of twice the correction; check the correction and the unit";
     so_much_of_the_way_lies_on_one_place(blocks) => "so much of the way of these {blocks} blocks lies in one place that crossings were not looked for in all of it";
     this_insert_draws_too_much(copies, segments, most) => "this INSERT draws {copies} copies, {segments} segments in all, more than the {most} that the references of a file may come to: nothing is drawn for it";
     this_curve_would_take_too_many_arcs(arcs, most) => "this curve would take {arcs} arcs, more than are left of the {most} that all curves of a drawing may take: it is not drawn";

@@ -131,6 +131,7 @@ declare! {
     the_file_is_binary_not_a_program => "the file is binary, not the text of a program";
     no_block_is_found => "no block is found, expected B X B Y B J G Z";
     the_coordinates_have_decimal_commas => "the coordinates have decimal commas and are not read, expected decimal points";
+    the_start_point_is_beyond_any_machine => "the start point lies beyond any machine and is not read, expected coordinates in mm";
     a_b_of_the_block_is_missing => "a B of the block is missing";
     b_stands_where_n_was_meant(number) => "B{number} is written where N{number} was meant";
     the_letter_o_stands_where_a_zero_was_meant => "the letter O is written where a zero was meant";

@@ -55,8 +55,14 @@ declare! {
     a_stop_that_ends(key, word) => "{key} is {word}, which ends the program: what stands would never be cut off";
     a_stop_that_does_not_stop(key, word, pause) => "{key} is {word}, which stops no machine: expected M00 or M01 in ISO, {pause} in 3B";
     the_control_runs_beside_the_drawn_contour(key, other) => "{key} is constant-stock, but {other} is controller: each pass would run beside the drawn contour, as with sharp; expected path as {other}, or sharp";
+    a_lead_within_the_kerf(key, length, correction) => "{key} is {length}, below the correction {correction}: the wire would be threaded within the kerf of its own cut; expected at least the correction";
     a_mass_needs_a_height(key) => "{key} is the mass of a slug: expected job.thickness as well";
     a_limit_needs_a_tab(key) => "{key} has no effect without program.tab: expected the length, mm, that an opening with a heavier slug leaves standing";
+    a_contour_of_two_roles(name, role, by, other, other_by) => "contour {name} is given two roles: {role} by {by}, which decides, and {other} by {other_by}";
+    its_color => "its colour";
+    the_entity_itself => "the entity itself";
+    a_point_that_is_given_twice(what, name, at, by, other, other_by) => "the {what} of contour {name} is given twice: {at} by {by}, which counts, and {other} by {other_by}";
+    a_mark_o => "a mark O";
     a_punch_within_a_punch(inner, outer, others) => "contour {inner} is a punch within the punch {outer}{others}: the wire would cut into that part; make it an opening, or draw it in a workpiece of its own";
     and_more_punches(more) => ", and so are {more} more";
     an_outline_that_may_be_a_copy(copy, outline, thin) => "outline {copy} runs within {thin:.3} mm of outline {outline} everywhere: as a copy of it, it is to be deleted; as a wall so thin, both are to be given their roles; the sides of all that lies within them depend on it";

@@ -3,6 +3,7 @@
 translate! {
     it_has_too_many_bytes(bytes, cap) => "文件有 {bytes} 字节，最多允许 {cap} 字节";
     it_holds_too_many_bytes(cap) => "内容超过 {cap} 字节，这是上限";
+    a_link_to_nothing => "这是一个链接，所指的文件不存在";
     a_folder_is_no_file => "是文件夹，应为一个文件";
     it_is_a_folder => "是文件夹";
     it_is_no_regular_file => "不是普通文件";

@@ -71,6 +71,7 @@ translate! {
     the_arc_has_the_wire_on_its_other_side(said, meant, drawing) => "写为 {said}，而 {drawing} 需要 {meant}：丝在圆弧的另一侧，半径相差两倍补偿量";
     the_wire_cuts_into_the_part(drawing, off) => "丝在此离开轮廓，切入 {drawing} 的工件 {off} mm";
     the_way_in_ends_beside_its_contour(drawing, off) => "引入线终点偏离 {drawing} 中轮廓的路径 {off} mm，轮廓从那里开始切割";
+    the_contour_is_cut_at_another_correction(handle, drawing, said, meant) => "{drawing} 的轮廓 {handle} 按补偿量 {said:.3} mm 切割，本程序的其他轮廓按 {meant:.3} mm";
     it_is_cut_on_the_other_side(drawing) => "丝走在轮廓的另一侧，与 {drawing} 及其设置不符";
     the_contour_is_left_before_it_is_cut_all_round(segment, handle, drawing) => "在此离开了轮廓，而 {drawing} 接着是 {handle} 的第 {segment} 段";
     no_contour_of_the_drawing_is_like_this(drawing) => "按程序的任何补偿量，{drawing} 中都没有与此相符的轮廓";
@@ -233,6 +234,7 @@ translate! {
     the_wire_crosses_its_own_path(line, x, y) => "电极丝在此与第 {line} 行的路线相交，位于距轮廓起点 ({x:.3}, {y:.3}) mm 处：会把工件切成两块";
     thousands_of_entities_lie_on_each_other(count) => "成千图元相互重叠或相交：从这里起有 {count} 段轮廓没有与邻近部分比较";
     the_correction_is_so_large_beside_the_segments(contours) => "补偿量远大于各段长度：从这里起有 {contours} 个轮廓没有检查偏移后丢失的部分";
+    the_correction_is_too_large_for_a_path(segments, most) => "补偿量远大于此轮廓 {segments} 段的长度，不生成路径：边长为补偿量两倍的方格内平均超过 {most} 段；请检查补偿量和单位";
     so_much_of_the_way_lies_on_one_place(blocks) => "这 {blocks} 个程序段的路线大量重叠在一处，交点没有全部查找";
     this_insert_draws_too_much(copies, segments, most) => "此 INSERT 画出 {copies} 份，共 {segments} 段，超过文件中块参照允许的 {most} 段：不画";
     this_curve_would_take_too_many_arcs(arcs, most) => "此曲线要 {arcs} 段圆弧，图形中全部曲线最多 {most} 段，余量不够：不画";

@@ -131,6 +131,7 @@ translate! {
     the_file_is_binary_not_a_program => "文件是二进制文件，不是程序文本";
     no_block_is_found => "没有找到程序段，应为 B X B Y B J G Z";
     the_coordinates_have_decimal_commas => "坐标用了逗号小数点，读不出，应为小数点";
+    the_start_point_is_beyond_any_machine => "起点超出任何机床的范围，不予读取，应为以 mm 计的坐标";
     a_b_of_the_block_is_missing => "程序段缺一个 B";
     b_stands_where_n_was_meant(number) => "B{number} 本应是 N{number}";
     the_letter_o_stands_where_a_zero_was_meant => "字母 O 本应是零";

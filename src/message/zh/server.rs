@@ -107,11 +107,13 @@ translate! {
     generating_the_programs => "正在生成各零件的程序";
     the_parts_fit => "能够配合";
     the_parts_do_not_fit => "不能配合";
+    facts_of_parts_that_bind(depth, wanted, places) => "最紧处卡住 {depth:.1} µm，应有间隙 {wanted:.1} µm · {places} 处间隙不足";
     facts_of_the_fit(least, wanted, places) => "最紧处 {wanted:.1} µm 间隙剩 {least:.1} µm · {places} 处间隙不足";
     the_plate_as_it_is_left => "切出的凹模";
     the_punch_as_it_is_left => "切出的凸模";
     clearance_is_missing => "间隙不足";
-    um_left_of_um(left, wanted) => "{wanted:.1} µm 剩 {left:+.1}";
+    um_left_of_um(left, wanted) => "{wanted:.1} µm 剩 {left:.1}";
+    binds_by_um_of_um(depth, wanted) => "卡住 {depth:.1} µm，应有间隙 {wanted:.1}";
     the_corner_of_a_part(of, partner) => "{of} 的角，对 {partner}";
     laying_the_wires_path => "正在计算切割路线";
     drawing_the_picture => "正在画图";

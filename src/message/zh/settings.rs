@@ -64,8 +64,14 @@ translate! {
     a_stop_that_ends(key, word) => "{key} 是 {word}，它结束程序：暂留段永远不会切断";
     a_stop_that_does_not_stop(key, word, pause) => "{key} 是 {word}，它不使机床停下：ISO 应为 M00 或 M01，3B 应为 {pause}";
     the_control_runs_beside_the_drawn_contour(key, other) => "{key} 是 constant-stock，而 {other} 是 controller：每次切割都会沿图中轮廓走，与 sharp 一样；{other} 应为 path，或应为 sharp";
+    a_lead_within_the_kerf(key, length, correction) => "{key} 是 {length}，小于补偿量 {correction}：穿丝处会落在自身的切缝内；应至少为补偿量";
     a_mass_needs_a_height(key) => "{key} 是废料的质量：应同时设置 job.thickness";
     a_limit_needs_a_tab(key) => "没有 program.tab，{key} 不起作用：应设废料更重的型孔暂留段的长度，mm";
+    a_contour_of_two_roles(name, role, by, other, other_by) => "轮廓 {name} 有两个角色：{by} 定为 {role}，以它为准；{other_by} 定为 {other}";
+    its_color => "其颜色";
+    the_entity_itself => "图元本身";
+    a_point_that_is_given_twice(what, name, at, by, other, other_by) => "轮廓 {name} 的{what}给了两次：{by} 给 {at}，以它为准；{other_by} 给 {other}";
+    a_mark_o => "标记 O";
     a_punch_within_a_punch(inner, outer, others) => "轮廓 {inner} 是凸模，却在凸模 {outer} 之内{others}：丝会切入那个工件；应作为型孔，或画在另一个工件中";
     and_more_punches(more) => "，这样的还有 {more} 个";
     an_outline_that_may_be_a_copy(copy, outline, thin) => "轮廓 {copy} 处处与轮廓 {outline} 相距不到 {thin:.3} mm：若是重复绘制，应删去；若真是这样薄的壁，应给两者都指定角色；其内所有轮廓的加工侧都取决于此";

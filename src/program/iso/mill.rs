@@ -13,7 +13,7 @@ use crate::program::write::{
     scaled, too_many_blocks,
 };
 use crate::settings::{Coordinates, Effective};
-use crate::toolpath::milling::{Floor, Layers, Step};
+use crate::toolpath::milling::{Floor, Layers, Step, swept_length};
 use crate::toolpath::{Milled, MilledContour, Source, WirePath};
 
 /// The height above the surface of the ways between contours, mm.
@@ -49,6 +49,7 @@ pub(crate) fn write_milled(
         let layers = Layers {
             electrode,
             length: way.length(),
+            swept: Way::swept(path, unit_mm, electrode.width()),
             is_closed: path.counter_clockwise.is_some(),
             fed_before,
         };
@@ -70,7 +71,7 @@ pub(crate) fn write_milled(
             Some(tool) => tool,
         };
         over.goes_over(first, clear, &mut lines)?;
-        let mut floor = Floor::new(&electrode, layers.length, layers.is_closed, worn);
+        let mut floor = Floor::new(&layers, worn);
         let mut last = 0.0;
         fed_before = layers.each(&mut |step| {
             if !go_on(done, paths.len()) {
@@ -93,7 +94,7 @@ pub(crate) fn write_milled(
         tool = Some(over);
         worn = floor.worn;
         let feed_along = match electrode.step > 0.0 {
-            true => electrode.wear_along() * electrode.layer,
+            true => layers.wear_along() * electrode.layer,
             false => 0.0,
         };
         contours.push(MilledContour {
@@ -137,6 +138,13 @@ impl Way {
             ends.push(at);
         }
         Way { pieces, ends }
+    }
+
+    /// The length of a straight way that takes as much of this width, mm.
+    fn swept(path: &WirePath, unit_mm: f64, width: f64) -> f64 {
+        let pieces = path.segments.iter();
+        let pieces: Vec<Segment> = pieces.map(|it| scaled(&it.geometry, unit_mm)).collect();
+        swept_length(&pieces, path.counter_clockwise.is_some(), width)
     }
 
     fn length(&self) -> f64 {

@@ -192,8 +192,17 @@ pub(super) fn looks_like_a_block(text: &[u8]) -> bool {
         && follows(b"LR", |byte| matches!(byte, b'1'..=b'4'))
 }
 
+/// The point of a header.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum StartPoint {
+    At([f64; 2]),
+    /// Two numbers, of which one is no place of a machine.
+    Far,
+    DecimalCommas,
+}
+
 /// The point of `Start Point = x , y`.
-pub(super) fn start_point(text: &[u8]) -> Option<[f64; 2]> {
+pub(super) fn start_point(text: &[u8]) -> Option<StartPoint> {
     const NAME: &[u8] = b"start point";
     let (name, value) = text.trim_ascii_start().split_at_checked(NAME.len())?;
     if !name.eq_ignore_ascii_case(NAME) {
@@ -203,7 +212,15 @@ pub(super) fn start_point(text: &[u8]) -> Option<[f64; 2]> {
     let value = value
         .strip_prefix(b"=")
         .or_else(|| value.strip_prefix(b":"))?;
-    two_numbers(before_comment(value))
+    let value = before_comment(value);
+    if has_decimal_commas(value) {
+        return Some(StartPoint::DecimalCommas);
+    }
+    let [x, y] = numbers_in(value).filter(|_| value.len() < FARTHEST)?.0;
+    Some(match is_reached(x) && is_reached(y) {
+        true => StartPoint::At([x, y]),
+        false => StartPoint::Far,
+    })
 }
 
 /// The most bytes that are searched from one place of a line, names and coordinates among spaces included: a line of a
@@ -234,6 +251,18 @@ pub(super) fn stated_point(text: &[u8]) -> Option<StatedPoint> {
 }
 
 pub(super) fn point_in(text: &[u8]) -> Option<StatedPoint> {
+    let (at, decimals) = numbers_in(text)?;
+    at.into_iter()
+        .all(is_reached)
+        .then_some(StatedPoint { at, decimals })
+}
+
+fn is_reached(coordinate: f64) -> bool {
+    coordinate.abs() <= FARTHEST_COORDINATE
+}
+
+/// The two numbers of a text that holds nothing else, and the fewest decimals of them.
+fn numbers_in(text: &[u8]) -> Option<([f64; 2], u8)> {
     let text = std::str::from_utf8(text).ok()?;
     let is_between = |c: char| {
         matches!(
@@ -246,12 +275,11 @@ pub(super) fn point_in(text: &[u8]) -> Option<StatedPoint> {
     let mut number = || {
         let field = fields.next()?.trim_end_matches("mm");
         decimals = decimals.min(field.split_once('.').map_or(0, |(_, places)| places.len()));
-        let value = field.parse::<f64>().ok()?;
-        (value.abs() <= FARTHEST_COORDINATE).then_some(value)
+        field.parse::<f64>().ok()
     };
     let at = [number()?, number()?];
-    fields.next().is_none().then_some(StatedPoint {
-        at,
-        decimals: decimals.min(9) as u8,
-    })
+    fields
+        .next()
+        .is_none()
+        .then_some((at, decimals.min(9) as u8))
 }

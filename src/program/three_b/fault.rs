@@ -17,6 +17,8 @@ pub(crate) enum Flaw {
     NotPlain(String),
     /// Coordinates with commas for decimal points: they are not read.
     DecimalCommas,
+    /// The header names a start at no place of a machine: it is not read.
+    FarStart,
 }
 
 /// A place that cannot be read as it stands.
@@ -51,6 +53,7 @@ impl SyntaxFault {
         match &self.flaw {
             Flaw::Unreadable(sentence) | Flaw::NotPlain(sentence) => sentence.clone(),
             Flaw::DecimalCommas => say!(the_coordinates_have_decimal_commas).into(),
+            Flaw::FarStart => say!(the_start_point_is_beyond_any_machine).into(),
             Flaw::MissingB { .. } => say!(a_b_of_the_block_is_missing).into(),
             Flaw::BlockNumberAsB { number } => {
                 say!(b_stands_where_n_was_meant, number)

@@ -200,6 +200,7 @@ fn read_plain_line(line: &[u8], offset: usize, words: &Words<'_>, each: &mut dyn
             Token::StartPoint(at) => Item::StartPoint { at, range },
             Token::Text => Item::Text { range, column },
             Token::Comment { .. } => Item::CommentedBlock { range, column },
+            Token::FarStart => Item::Fault(SyntaxFault::new(range, Flaw::FarStart)),
             Token::DecimalCommas => Item::Fault(SyntaxFault::new(range, Flaw::DecimalCommas)),
             Token::Broken(expected) => {
                 tokens.skip_broken_block();

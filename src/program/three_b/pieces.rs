@@ -97,7 +97,7 @@ pub(crate) fn pieces(line: &[u8], words: &Words<'_>) -> Vec<Piece> {
                 },
                 range,
             ),
-            Token::StartPoint(_) => cutter.push(Field::StartPoint, range),
+            Token::StartPoint(_) | Token::FarStart => cutter.push(Field::StartPoint, range),
             Token::Comment { .. } => cutter.push(Field::Comment, range),
             Token::Text | Token::Broken(_) => tokens.at = cutter.push_broken(start),
         }

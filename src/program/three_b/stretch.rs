@@ -425,7 +425,8 @@ impl Stretch {
             Item::Fault(fault) => {
                 let is_unread = matches!(fault.flaw, Flaw::Unreadable(_) | Flaw::NotPlain(_));
                 // Without its coordinates a block leads where it says.
-                open.sum.errors += usize::from(fault.flaw != Flaw::DecimalCommas);
+                open.sum.errors +=
+                    usize::from(!matches!(fault.flaw, Flaw::DecimalCommas | Flaw::FarStart));
                 open.sum.unread += usize::from(is_unread);
                 self.unread += usize::from(is_unread);
                 if is_unread {

@@ -4,8 +4,9 @@
 #![warn(clippy::indexing_slicing)]
 
 use super::around::{
-    StatedPoint, before_comment, has_decimal_commas, is_remark, label, looks_like_a_block, n_word,
-    point_in, row_number, row_of_word, start_point, stated_point, wants_to_be_a_block,
+    StartPoint, StatedPoint, before_comment, has_decimal_commas, is_remark, label,
+    looks_like_a_block, n_word, point_in, row_number, row_of_word, start_point, stated_point,
+    wants_to_be_a_block,
 };
 use super::block::{Block, PartArc};
 use super::fault::SyntaxFault;
@@ -27,6 +28,8 @@ pub(super) enum Token {
     Coordinates(StatedPoint),
     /// Coordinates with commas for points.
     DecimalCommas,
+    /// `Start Point = x , y` at no place of a machine.
+    FarStart,
     /// A block, with any fault with which it is read all the same; its range goes from the first `B` to the quadrant.
     Block {
         block: Block,
@@ -145,8 +148,8 @@ impl<'a> Tokens<'a> {
 
     fn behind_semicolon(&mut self, start: usize) -> (Token, Range<usize>) {
         let comment = self.from(start + 1);
-        if let Some(at) = start_point(comment) {
-            return self.rest_of_line(start, Token::StartPoint(at));
+        if let Some(stated) = start_point(comment) {
+            return self.header(start, stated);
         }
         // The numbers may be as long as they are.
         let end = memchr::memchr(b';', comment).unwrap_or(comment.len());
@@ -161,6 +164,14 @@ impl<'a> Tokens<'a> {
                 self.within(start, code, Token::Coordinates(point))
             }
             None => self.comment(start),
+        }
+    }
+
+    fn header(&mut self, start: usize, stated: StartPoint) -> (Token, Range<usize>) {
+        match stated {
+            StartPoint::At(at) => self.rest_of_line(start, Token::StartPoint(at)),
+            StartPoint::Far => self.rest_of_line(start, Token::FarStart),
+            StartPoint::DecimalCommas => self.rest_of_line(start, Token::DecimalCommas),
         }
     }
 
@@ -218,8 +229,8 @@ impl<'a> Tokens<'a> {
             let is_own = words.is_own(letters);
             return self.taken(letters.len(), Token::Word { word, is_own });
         }
-        if let Some(at) = start_point(rest) {
-            return self.rest_of_line(start, Token::StartPoint(at));
+        if let Some(stated) = start_point(rest) {
+            return self.header(start, stated);
         }
         if matches!(rest.first(), Some(b'N' | b'n'))
             && let Some((number, length)) = n_word(rest)

@@ -4,7 +4,7 @@
 //! Nothing here knows how the feeds were found. The way consists of cells as wide as the erosion. In a cell the
 //! electrode goes down to its tip; it gets shorter by ν times the volume that it erodes, over its cross-section.
 
-use crate::settings::Electrode;
+use super::Layers;
 use std::f64::consts::PI;
 
 /// Cells of a way. There are fewer where the layers would visit more than [`MOST_VISITS`] cells in all.
@@ -31,7 +31,14 @@ pub(crate) struct Floor {
 
 impl Floor {
     /// An untouched surface under an electrode that is `worn`.
-    pub(crate) fn new(electrode: &Electrode, length: f64, is_closed: bool, worn: f64) -> Floor {
+    pub(crate) fn new(layers: &Layers, worn: f64) -> Floor {
+        let Layers {
+            ref electrode,
+            length,
+            swept,
+            is_closed,
+            ..
+        } = *layers;
         let visits = MOST_VISITS / electrode.layers().max(1);
         let count = visits.clamp(FEWEST_CELLS, CELLS);
         let cell_length = length / count as f64;
@@ -40,7 +47,8 @@ impl Floor {
         Floor {
             cells: vec![0.0; count],
             cell_length,
-            of_cell: per_area * width * cell_length,
+            // Where strips overlap, each takes its share of what they take together.
+            of_cell: per_area * width * cell_length * swept / length,
             ends: (electrode.slot_ends && !is_closed).then_some([0.0; 2]),
             of_end: per_area * PI * width.powi(2) / 8.0,
             fed: 0.0,

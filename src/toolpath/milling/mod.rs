@@ -5,10 +5,12 @@
 //! step by step. Lengths are in mm.
 
 mod floor;
+mod swept;
 #[cfg(test)]
 mod tests;
 
 pub(crate) use floor::Floor;
+pub(crate) use swept::swept_length;
 
 use crate::settings::{Electrode, WearCompensation};
 use std::f64::consts::PI;
@@ -72,6 +74,8 @@ pub(crate) struct Layers {
     pub(crate) electrode: Electrode,
     /// Of the way.
     pub(crate) length: f64,
+    /// Of a straight way that takes as much: less where this one comes near itself.
+    pub(crate) swept: f64,
     pub(crate) is_closed: bool,
     /// The feed so far for the wear along other contours.
     pub(crate) fed_before: f64,
@@ -80,7 +84,12 @@ pub(crate) struct Layers {
 impl Layers {
     /// K.
     pub(crate) fn wear(&self) -> f64 {
-        self.electrode.wear_of_layer(self.length, self.is_closed)
+        self.electrode.wear_of_layer(self.swept, self.is_closed)
+    }
+
+    /// The electrode's loss of length on 1 mm of the way in a layer of 1 mm.
+    pub(crate) fn wear_along(&self) -> f64 {
+        self.electrode.wear_along() * self.swept / self.length
     }
 
     /// The feed of a layer of a height at its start.
@@ -130,7 +139,7 @@ impl Layers {
             };
             let mut done = 0.0;
             if compensation == WearCompensation::Linear {
-                let per_mm = self.electrode.wear_along() * height;
+                let per_mm = self.wear_along() * height;
                 // The wear after the last step is fed with the next layer.
                 let steps = (self.length / self.electrode.step - 1e-9).floor() as usize;
                 for at in (1..=steps).map(|number| number as f64 * self.electrode.step) {

@@ -26,6 +26,7 @@ fn layers(
             slot_ends: false,
         },
         length,
+        swept: length,
         is_closed: false,
         fed_before: 0.0,
     }
@@ -43,7 +44,7 @@ fn steps(layers: &Layers) -> Vec<Step> {
 
 /// Mean, highest and deepest place of the floor.
 fn floor(layers: &Layers, steps: &[Step]) -> [f64; 3] {
-    let mut floor = Floor::new(&layers.electrode, layers.length, layers.is_closed, 0.0);
+    let mut floor = Floor::new(layers, 0.0);
     for step in steps {
         match *step {
             Step::Feed(depth) => floor.feed(depth),
@@ -132,7 +133,7 @@ fn a_linear_feed_that_comes_late_leaves_the_floor_too_high() {
     let late = layers.length / 125.0 * 10.0;
     for (fed_each, depth) in [(0.5, 0.1992), (late, 0.1999)] {
         let of_step = electrode.wear_along() * electrode.layer * fed_each;
-        let mut floor = Floor::new(electrode, layers.length, false, 0.0);
+        let mut floor = Floor::new(&layers, 0.0);
         let (mut fed, mut gone) = (0.0, 0.0);
         for layer in 0..electrode.layers() {
             fed += electrode.layer;
@@ -171,7 +172,7 @@ fn what_is_worn_is_the_share_of_what_is_eroded() {
         ] {
             let layers = layers(case, compensation);
             let electrode = &layers.electrode;
-            let mut floor = Floor::new(electrode, layers.length, false, 0.0);
+            let mut floor = Floor::new(&layers, 0.0);
             let mut fed = 0.0;
             for step in steps(&layers) {
                 match step {
@@ -230,4 +231,64 @@ fn linear_feeds_come_to_the_wear_of_the_layers_whatever_the_step() {
         let mean = floor(&layers, &steps(&layers))[0];
         near(mean, 0.2, 1.1e-3 * step.max(0.2), "depth");
     }
+}
+
+/// By hand: what lies within half the width of a way is the union of its strips.
+#[test]
+fn a_way_takes_what_lies_within_half_its_width() {
+    use super::swept_length;
+    use crate::geometry::{Arc, Point, Segment};
+    let way = |corners: &[[f64; 2]], is_closed: bool| -> Vec<Segment> {
+        let ends = corners.iter().copied().map(Point::from);
+        let starts: Vec<Point> = ends.collect();
+        let count = starts.len() - usize::from(!is_closed);
+        (0..count)
+            .map(|at| Segment::line(starts[at], starts[(at + 1) % starts.len()]))
+            .collect()
+    };
+    let width = 1.0;
+    let quarter = std::f64::consts::PI / 16.0;
+    // A rectangle of this size as a way: its legs' strips, the round corners, less what is taken twice.
+    for [long, short] in [[10.0, 4.0], [10.0, 0.5], [10.0, 0.25]] {
+        let pieces = way(
+            &[[0.0, 0.0], [long, 0.0], [long, short], [0.0, short]],
+            true,
+        );
+        let inside = match short > width {
+            true => (long - width) * (short - width),
+            false => 0.0,
+        };
+        let area = (long + width) * (short + width) - (4.0 * 0.25 - 4.0 * quarter) - inside;
+        let expected = area / width;
+        near(
+            swept_length(&pieces, true, width),
+            expected,
+            4e-3 * expected,
+            "rectangle",
+        );
+    }
+    let there_and_back = way(&[[0.0, 0.0], [10.0, 0.0]], true);
+    near(
+        swept_length(&there_and_back, true, width),
+        10.0 + 4.0 * quarter,
+        0.03,
+        "out and back",
+    );
+    // Nothing that keeps off itself is any longer or shorter than it is.
+    let straight = way(&[[0.0, 0.0], [10.0, 0.0]], false);
+    assert_eq!(swept_length(&straight, false, width), 10.0);
+    let round = |radius: f64| {
+        let start = Point::new(radius, 0.0);
+        [Segment::Arc(Arc::about(
+            Point::origin(),
+            start,
+            start,
+            true,
+        ))]
+    };
+    let length = 2.0 * std::f64::consts::PI * 3.0;
+    near(swept_length(&round(3.0), true, width), length, 1e-9, "ring");
+    // A ring that leaves no core is a disc.
+    let disc = std::f64::consts::PI * 0.7 * 0.7;
+    near(swept_length(&round(0.2), true, width), disc, 4e-3, "disc");
 }

@@ -175,7 +175,10 @@ class Connection:
         self._client.feature(types.WINDOW_SHOW_MESSAGE)(lambda params: self._see(params))
 
     def _see(self, params: types.ShowMessageParams) -> None:
-        self._shown.append(params.message)
+        if params.type == types.MessageType.Error:
+            self._shown.append(params.message)
+        elif params.type == types.MessageType.Warning:
+            LOG.warning("%s", params.message)
         self._hear(params)
 
     def _hear(self, params: types.LogMessageParams | types.ShowMessageParams) -> None:

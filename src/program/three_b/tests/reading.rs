@@ -172,3 +172,28 @@ fn coordinates_beyond_any_machine_are_none() {
     assert!(!rules("0 , 1e9").is_empty());
     assert_eq!(rules("0 , 10"), [""; 0]);
 }
+
+#[test]
+fn a_header_at_no_place_of_a_machine_is_said() {
+    for (header, said) in [
+        ("; Start Point = 1e12 , 0", Some("beyond any machine")),
+        ("Start Point = 0 , -2000000000", Some("beyond any machine")),
+        ("; start point: nan , 1", Some("beyond any machine")),
+        ("; Start Point = 1,5 , 2,5", Some("decimal commas")),
+        ("; Start Point = 1 , 2", None),
+        ("; Start point: the upper left corner", None),
+    ] {
+        let text = format!("{header}\nB1000B0B1000GXL1\nB1000B0B1000GXL3\nDD\n");
+        let document = crate::program::three_b::Document::read(text.into_bytes());
+        let findings = document.findings();
+        let sentences: Vec<String> = findings
+            .iter()
+            .filter(|found| found.rule == crate::rule::Rule::Syntax)
+            .map(|found| crate::finding::sentence(found, 1.0))
+            .collect();
+        match said {
+            Some(said) => assert!(sentences[0].contains(said), "{header}: {sentences:?}"),
+            None => assert_eq!(sentences, [""; 0], "{header}"),
+        }
+    }
+}
