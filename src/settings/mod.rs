@@ -124,12 +124,17 @@ impl Settings {
     ) -> Vec<SettingsError> {
         let others = pair::faults(self).into_iter().chain(milling::faults(self));
         let others = others.chain(job::faults(self));
-        let others = others.map(|fault| SettingsError {
+        let error = |fault: PassFault| SettingsError {
             of_levels: true,
             ..SettingsError::new(fault.key, fault.message.clone(), place(&fault))
-        });
+        };
+        let warning = |fault: PassFault| SettingsError {
+            severity: Severity::Warning,
+            ..error(fault)
+        };
         let mut errors = self.pass_errors(place);
-        errors.extend(others);
+        errors.extend(others.map(error));
+        errors.extend(job::idle(self).into_iter().map(warning));
         errors
     }
 
