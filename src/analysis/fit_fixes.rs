@@ -201,7 +201,15 @@ impl Analysis {
             let left = self.left_behind(drawing, corner, &edit)?;
             Some((edit, left))
         });
-        tried.max_by(|a, b| a.1.total_cmp(&b.1))
+        // Of equally good ones the first: the radius of a part that its wire has spoiled changes nothing of the fit.
+        let rounding = self.limits.tolerances.report;
+        tried.reduce(|best, other| {
+            if other.1 > best.1 + rounding {
+                other
+            } else {
+                best
+            }
+        })
     }
 
     /// Edits that may give a part of a pair a radius near one of its segments: in place of the arcs there, or at the corner where the
@@ -256,10 +264,22 @@ impl Analysis {
         });
         match arcs {
             Some(edit) => vec![edit],
-            None => [position - 1, position]
-                .into_iter()
-                .filter_map(|before| small_radius::fillet(&travel, before, &limits))
-                .collect(),
+            None => {
+                let joint = |before: isize| {
+                    let segment = travel.segment(before + 1)?;
+                    let away = (segment.geometry.start() - corner.spot.at).norm();
+                    Some((away, before)).filter(|(away, _)| *away <= wide)
+                };
+                let mut joints: Vec<(f64, isize)> = [position - 1, position]
+                    .into_iter()
+                    .filter_map(joint)
+                    .collect();
+                joints.sort_by(|one, other| one.0.total_cmp(&other.0));
+                let nearest_first = joints.into_iter().map(|(_, before)| before);
+                nearest_first
+                    .filter_map(|before| small_radius::fillet(&travel, before, &limits))
+                    .collect()
+            }
         }
     }
 

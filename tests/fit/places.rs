@@ -194,6 +194,42 @@ fn each_finding_of_a_corner_has_the_fix_and_fix_all_makes_it() {
     }
 }
 
+/// The end of the wall at which it does not bind meets an arc, but for a rounding: the fix is of the other end.
+#[test]
+fn a_fix_rounds_the_corner_that_binds_and_no_other() {
+    let own = drawn(0.11, 0.03, "");
+    let quarter = 0.414213562373095;
+    let sharp = |low: [f64; 2], high: [f64; 2], first: f64, arc: f64| {
+        let ([x, y], [right, top]) = (low, high);
+        let vertex = |x: f64, y: f64, bulge: f64| Vertex::new(x, y, bulge);
+        vec![
+            vertex(x, y + first, quarter),
+            vertex(x + first, y, 0.0),
+            vertex(right - arc, y, quarter),
+            vertex(right, y + arc, 0.0),
+            vertex(right, top - arc, quarter),
+            vertex(right - arc, top, 0.0),
+            vertex(x, top, 0.0),
+        ]
+    };
+    // Written to three digits, as a drawing holds them.
+    let drawing = drawing(vec![
+        polyline("PU", "2A", sharp([0.0, 0.0], [20.0, 10.0], 0.111, 0.111)),
+        polyline(
+            "PL",
+            "2B",
+            sharp([-0.027, -0.027], [20.027, 10.027], 0.127, 0.111),
+        ),
+    ]);
+    let analysis = Analysis::new(&drawing, Arc::new(own.clone()));
+    let fix = analysis.fix_all(&drawing).expect("a fix of the corner");
+    let mut after = drawing.clone();
+    after.apply(&fix).expect("an edit that can be made");
+    assert!(fit_of(&after, &own).fits());
+    assert_eq!(findings(&after, &own, Rule::ShortSegment), []);
+    assert_eq!(findings(&after, &own, Rule::SharpCorner), []);
+}
+
 /// A drawn pair that fits has no finding, counted or listed.
 #[test]
 fn what_is_counted_is_listed() {
