@@ -21,7 +21,7 @@ use crate::fit::{self, Fit};
 use crate::picture::{self, View};
 use crate::program::{self, Format, ProofError, ProvedProgram};
 use crate::rule::Rule;
-use crate::settings::Effective;
+use crate::settings::{Effective, Order};
 use crate::text::{Patch, TextEdit, edited};
 use crate::toolpath::{self, Finished, Planned, StartHole, Work, entities_of, plan_while};
 use std::collections::BTreeSet;
@@ -441,6 +441,7 @@ fn written(
         &paths,
         &holes,
     ));
+    warnings.extend(picked_without_picks(settings, chosen.as_deref()));
     warnings.extend(tabs::none_kept(snapshot, &paths));
     warnings.extend(tabs::missed(snapshot, &paths));
     warnings.extend(toolpath::weak_tabs(
@@ -471,6 +472,18 @@ fn written(
         }),
         warnings,
         left_out,
+    })
+}
+
+/// A warning where contours are to be cut in the order in which they are picked, and none is.
+fn picked_without_picks(settings: &Effective, picked: Option<&[String]>) -> Option<Finding> {
+    let is_idle = settings.order == Order::AsPicked && picked.is_none();
+    is_idle.then(|| Finding {
+        rule: Rule::Settings,
+        severity: Severity::Warning,
+        place: Place::Document,
+        detail: Detail::Said(say!(nothing_is_picked, "program.order", "as-drawn")),
+        related: Vec::new(),
     })
 }
 

@@ -1,9 +1,9 @@
 //! Repairs of corners in which a punch and its plate bind.
 
 use super::Analysis;
-use crate::drawing::{Drawing, DrawingEdit};
+use crate::drawing::{ContourSegment, Drawing, DrawingEdit};
 use crate::finding::{Detail, Finding, Fix, FixKind, Place, Side};
-use crate::fit::{Fitted, SegmentOf, Spot};
+use crate::fit::{Fitted, SegmentOf, Sharper, Spot};
 use crate::geometry::Point;
 use crate::rules::small_radius::{self, Travel};
 use crate::settings::Partners;
@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 impl Analysis {
     /// The repair of a corner in which two parts bind: the least radius with which they no longer
-    /// do, enlarged by the clearance where the other part is drawn, too.
+    /// do, enlarged by the clearance where the other part is drawn, too, and is not that round already.
     pub(super) fn fit_fix(&self, drawing: &Drawing, finding: &Finding) -> Option<Fix> {
         let Place::Segment { entity, segment } = finding.place else {
             return None;
@@ -22,7 +22,11 @@ impl Analysis {
             _ => None,
         });
         let before = self.pair_at(drawing, (entity, segment), partner)?;
-        let spot = spot_of(&before, finding, (entity, segment)).filter(|spot| spot.turn > 0.0)?;
+        let spot = spot_of(&before, finding, (entity, segment))?;
+        let turn = spot.sharper.map_or(spot.turn, |sharper| sharper.turn);
+        if turn <= 0.0 {
+            return None;
+        }
         let corner = Corner {
             binding: self.binding_about(drawing, &spot),
             spot: &spot,
@@ -30,16 +34,22 @@ impl Analysis {
             is_drawn: self.chains.contour_of(spot.segment.0)
                 != self.chains.contour_of(spot.other.0),
         };
+        let [sharper, rounder] = corner.sides();
+        let drawn = |at: SegmentOf| radius_drawn(drawing, at).unwrap_or(0.0);
         let enough = self
             .settings
             .correction
             .max(self.settings.half_kerf(0).unwrap_or(0.0));
         let margin = self.settings.margin / self.limits.unit_mm;
         let most = enough / self.limits.unit_mm + corner.clearance + margin;
+        let most = match spot.sharper {
+            Some(_) => most.max(drawn(rounder)),
+            None => most,
+        };
         let left = |radius: f64| Some(self.with_corner(drawing, &corner, radius)?.1);
         let rounding = self.limits.tolerances.report;
         let mut radius = most;
-        let steep = 1.0 / (spot.turn / 2.0).cos() - 1.0;
+        let steep = 1.0 / (turn / 2.0).cos() - 1.0;
         // Between straight walls the remaining clearance grows linearly with the radius.
         let mut found = None;
         for _ in 0..6 {
@@ -70,14 +80,26 @@ impl Analysis {
         })?;
         let radius = found + margin;
         let (edit, left) = self.with_corner(drawing, &corner, radius)?;
-        let kind = FixKind::FitCorner {
-            radius,
-            other: corner.is_drawn.then_some(radius + corner.clearance),
+        let kind = match corner.is_drawn && !corner.is_round(drawing, radius) {
+            false if corner.is_drawn => FixKind::FitCornerOf {
+                of: corner.name_of_sharper(),
+                radius,
+            },
+            is_of_both => FixKind::FitCorner {
+                radius,
+                other: is_of_both.then_some(radius + corner.clearance),
+            },
         };
-        // How far the fix moves a corner between straight walls, and another one that makes a tight arc larger after it.
-        let (moves, next) = (steep * radius, steep * (self.limits.fix_radius - radius));
+        // How far the fix moves a corner between straight walls, or the arc in it, and another one that makes a tight arc larger after it.
+        let of_corner = match corner.is_drawn {
+            true => [sharper; 2],
+            false => [sharper, rounder],
+        };
+        let was = of_corner.map(drawn).into_iter().filter(|was| *was < radius);
+        let was = was.fold(0.0, f64::max);
+        let next = steep * (self.limits.fix_radius - radius);
         let is_tight = radius < self.limits.correction && next <= self.limits.correction;
-        let moves = if is_tight { moves + next } else { moves };
+        let moves = steep * (radius - was) + if is_tight { next } else { 0.0 };
         (left >= -rounding).then_some(Fix {
             kind,
             preferred: true,
@@ -157,12 +179,13 @@ impl Analysis {
         radius: f64,
     ) -> Option<(DrawingEdit, f64)> {
         let of = |at: SegmentOf, radius: f64| self.corner_edits(drawing, corner, at, radius);
-        let spot = corner.spot;
+        let [sharper, rounder] = corner.sides();
         let edits = match corner.is_drawn {
-            false => of(spot.segment, radius),
+            false => of(corner.spot.segment, radius),
+            true if corner.is_round(drawing, radius) => of(sharper, radius),
             true => {
-                let partner = of(spot.other, radius);
-                let own = of(spot.segment, radius + corner.clearance);
+                let partner = of(sharper, radius);
+                let own = of(rounder, radius + corner.clearance);
                 let both = own.into_iter().flat_map(|own| {
                     partner.clone().into_iter().map(move |partner| {
                         let changes = own.changes.iter().cloned().chain(partner.changes);
@@ -178,7 +201,15 @@ impl Analysis {
             let left = self.left_behind(drawing, corner, &edit)?;
             Some((edit, left))
         });
-        tried.max_by(|a, b| a.1.total_cmp(&b.1))
+        // Of equally good ones the first: the radius of a part that its wire has spoiled changes nothing of the fit.
+        let rounding = self.limits.tolerances.report;
+        tried.reduce(|best, other| {
+            if other.1 > best.1 + rounding {
+                other
+            } else {
+                best
+            }
+        })
     }
 
     /// Edits that may give a part of a pair a radius near one of its segments: in place of the arcs there, or at the corner where the
@@ -202,7 +233,7 @@ impl Analysis {
             true => Side::Left,
             false => Side::Right,
         };
-        let side = match corner.is_of_plate() {
+        let side = match corner.sharper_is_punch() {
             true => inside,
             false => inside.reversed(),
         };
@@ -215,7 +246,17 @@ impl Analysis {
         let mut limits = self.limits;
         limits.fix_radius = radius;
         let position = travel.position_of(index);
-        let arcs = small_radius::run_of(&travel, position, &limits).and_then(|run| {
+        let wide = self.wide(corner.clearance, corner.spot.clearance);
+        // The finding may stand at a wall beside the arc.
+        let mut near = [position, position - 1, position + 1]
+            .into_iter()
+            .filter(|at| {
+                let segment = travel.segment(*at);
+                let is_near = |it: &ContourSegment| it.geometry.distance_to(corner.spot.at) <= wide;
+                *at == position || segment.as_ref().is_some_and(is_near)
+            });
+        let run = near.find_map(|at| small_radius::run_of(&travel, at, &limits));
+        let arcs = run.and_then(|run| {
             let replacement = small_radius::refillet(&travel, &run, &limits)
                 .outcome
                 .ok()?;
@@ -223,10 +264,22 @@ impl Analysis {
         });
         match arcs {
             Some(edit) => vec![edit],
-            None => [position - 1, position]
-                .into_iter()
-                .filter_map(|before| small_radius::fillet(&travel, before, &limits))
-                .collect(),
+            None => {
+                let joint = |before: isize| {
+                    let segment = travel.segment(before + 1)?;
+                    let away = (segment.geometry.start() - corner.spot.at).norm();
+                    Some((away, before)).filter(|(away, _)| *away <= wide)
+                };
+                let mut joints: Vec<(f64, isize)> = [position - 1, position]
+                    .into_iter()
+                    .filter_map(joint)
+                    .collect();
+                joints.sort_by(|one, other| one.0.total_cmp(&other.0));
+                let nearest_first = joints.into_iter().map(|(_, before)| before);
+                nearest_first
+                    .filter_map(|before| small_radius::fillet(&travel, before, &limits))
+                    .collect()
+            }
         }
     }
 
@@ -259,10 +312,47 @@ struct Corner<'a> {
 }
 
 impl Corner<'_> {
-    /// The plate protrudes, not the punch.
-    fn is_of_plate(&self) -> bool {
-        self.spot.is_of_plate
+    /// The corner of the punch is too sharp, not that of the plate: where a wire has turned, that of the part that it has not spoiled.
+    fn sharper_is_punch(&self) -> bool {
+        let spot = self.spot;
+        spot.sharper
+            .map_or(spot.is_of_plate, |sharper| !sharper.is_of_plate)
     }
+
+    /// The part that is too sharp stands at the segment of the spot, and not at the other.
+    fn is_at_own(&self) -> bool {
+        let is_own = |sharper: Sharper| !sharper.is_of_plate;
+        self.spot.sharper.is_some_and(is_own)
+    }
+
+    /// The segment of the part that is too sharp, and that of its partner.
+    fn sides(&self) -> [SegmentOf; 2] {
+        let Spot { segment, other, .. } = *self.spot;
+        match self.is_at_own() {
+            true => [segment, other],
+            false => [other, segment],
+        }
+    }
+
+    fn name_of_sharper(&self) -> Arc<str> {
+        match self.is_at_own() {
+            true => self.spot.of.clone(),
+            false => self.spot.partner.clone(),
+        }
+    }
+
+    /// The partner is drawn round enough for this radius.
+    fn is_round(&self, drawing: &Drawing, radius: f64) -> bool {
+        let [_, rounder] = self.sides();
+        let drawn = radius_drawn(drawing, rounder);
+        drawn.is_some_and(|drawn| drawn >= radius + self.clearance)
+    }
+}
+
+/// The radius of an arc.
+fn radius_drawn(drawing: &Drawing, (entity, segment): SegmentOf) -> Option<f64> {
+    let geometry = drawing.segment(entity, segment)?;
+    Some(geometry.as_arc()?.radius)
 }
 
 /// The spot that a finding tells of: both corners of a segment may bind.

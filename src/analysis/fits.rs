@@ -5,8 +5,8 @@ use super::edited::Edited;
 use super::own_walls::Own;
 use super::report::Report;
 use crate::drawing::{ContourKey, Drawing, Outline, Role};
-use crate::finding::{Cause, Detail, Misfit, Place, Rule, Severity, Side};
-use crate::fit::{self, Fitted, Laid, SegmentOf, Spot};
+use crate::finding::{Detail, Place, Rule, Severity, Side};
+use crate::fit::{self, Fitted, Laid};
 use crate::settings::{Compensation, Partners};
 use crate::toolpath::Part;
 use std::ops::Range;
@@ -96,6 +96,9 @@ impl Analysis {
     /// How partners are determined; `None` where fits are not to be checked.
     pub(super) fn asked_partners(&self) -> Option<Partners> {
         self.settings.severity(Rule::DoesNotFit)?;
+        if self.settings.pair_error().is_some() {
+            return None;
+        }
         let (partners, _) = self.settings.fit().ok()?;
         Some(partners)
     }
@@ -151,13 +154,16 @@ impl Analysis {
         report: &mut Report,
     ) {
         let mildest = Some(Severity::Warning);
-        if both[0].0 == both[1].0 || !report.counts(Rule::DoesNotFit, mildest) {
+        if both[0].0 == both[1].0 {
             return;
         }
         for ((key, outline), role) in both.into_iter().zip(ROLES) {
             let stated = self.known.get(&key).and_then(|known| known.stated);
             let is_other = stated.is_some_and(|stated| ROLES.contains(&stated) && stated != role);
-            if is_other && let Some(first) = outline.contour.segment(drawing, 0) {
+            if is_other
+                && let Some(first) = outline.contour.segment(drawing, 0)
+                && report.counts(Rule::DoesNotFit, mildest)
+            {
                 let handle = outline.name(drawing);
                 let detail = Detail::Said(match role {
                     Role::Punch => say!(lies_within_its_partner_and_is_no_opening, handle),
@@ -182,8 +188,8 @@ impl Analysis {
         report: &mut Report,
     ) {
         let mildest = Some(Severity::Warning);
-        if report.counts(Rule::DoesNotFit, mildest)
-            && let Some(first) = outline.contour.segment(drawing, 0)
+        if let Some(first) = outline.contour.segment(drawing, 0)
+            && report.counts(Rule::DoesNotFit, mildest)
         {
             let of = fit::name_of(drawing, &outline.contour, &self.settings);
             let (place, detail) = (
@@ -393,80 +399,6 @@ impl Analysis {
         }
     }
 
-    fn report_pair(
-        &mut self,
-        drawing: &Drawing,
-        both: [(ContourKey, &Outline); 2],
-        report: &mut Report,
-    ) {
-        let is_cut_twice = both[0].0 == both[1].0;
-        let Some(fitted) = self.fit_of(drawing, both) else {
-            return;
-        };
-        let held = &fitted.held;
-        let (rounding, wanted) = (
-            self.limits.tolerances.report,
-            self.settings.pair.clearance.unwrap_or(0.0) / self.limits.unit_mm,
-        );
-        // Walls are deepest where they end, in a corner.
-        let corner_of = |spot: &Spot| {
-            if spot.turn > 0.0 {
-                return Some(spot.of.clone());
-            }
-            let wide = self.wide(wanted, spot.clearance);
-            let corner = held.corner_near(fitted.both(), spot.at, wide);
-            corner.cloned()
-        };
-        let arc_radius = |(entity, segment): SegmentOf| {
-            let geometry = drawing.segment(entity, segment)?;
-            Some(geometry.as_arc()?.radius)
-        };
-        let cause = |spot: &Spot, at: SegmentOf, other: SegmentOf| {
-            let radii = arc_radius(at).zip(arc_radius(other));
-            let radii = radii.filter(|(own, other)| {
-                !is_cut_twice && ((own - other).abs() - wanted).abs() > rounding
-            });
-            match (corner_of(spot), radii) {
-                (Some(of), _) => Cause::Corner(of),
-                (None, Some((own, other))) => Cause::Radii([own, other]),
-                (None, None) => Cause::Wall,
-            }
-        };
-        let is_binding = |clearance: f64| clearance < -rounding;
-        let count = held.clearances().filter(|it| is_binding(it.1)).count();
-        let of_each = if is_cut_twice { 1 } else { 2 };
-        report.count(Rule::DoesNotFit, None, of_each * count);
-        for spot in fitted.spots().filter(|spot| is_binding(spot.clearance)) {
-            if report.is_full(Rule::DoesNotFit, None) {
-                break;
-            }
-            let mut add = |at: SegmentOf, other: SegmentOf, of: &Arc<str>, partner: &Arc<str>| {
-                if !report.is_full(Rule::DoesNotFit, None) {
-                    let misfit = Misfit {
-                        at: spot.at,
-                        clearance: spot.clearance,
-                        wanted,
-                        of: of.clone(),
-                        partner: partner.clone(),
-                        cause: cause(&spot, at, other),
-                    };
-                    let detail = Detail::DoesNotFit(Box::new(misfit));
-                    report.add(
-                        Rule::DoesNotFit,
-                        None,
-                        place(at),
-                        detail,
-                        vec![place(other)],
-                    );
-                }
-            };
-            add(spot.segment, spot.other, &spot.of, &spot.partner);
-            if !is_cut_twice {
-                add(spot.other, spot.segment, &spot.partner, &spot.of);
-            }
-        }
-    }
-
     /// True where the fit decides whether the wire leaves too much in the arcs of a contour.
     pub(super) fn says_the_fit(
         &self,
@@ -488,13 +420,4 @@ impl Analysis {
             Err(_) => false,
         }
     }
-
-    /// The largest distance of what belongs to a corner from its spot, where this much clearance is `missing`.
-    pub(super) fn wide(&self, clearance: f64, missing: f64) -> f64 {
-        2.0 * self.limits.correction.max(clearance) + missing.abs()
-    }
-}
-
-fn place((entity, segment): SegmentOf) -> Place {
-    Place::Segment { entity, segment }
 }

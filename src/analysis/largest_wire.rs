@@ -53,9 +53,11 @@ pub fn largest_wire(
             (rule == Rule::NarrowSlot).then(|| rule.default_severity()),
         );
     }
+    // Of the thickest wire with its gap.
+    let half = of_arcs.diameter / 2.0 + toolpath::last_gap(settings).unwrap_or(0.0);
     let mut correction = settings.correction;
     loop {
-        correction = (GROWTH * correction).min(of_arcs.radius);
+        correction = (GROWTH * correction).min(half);
         let settings = Effective {
             correction,
             severities: severities.clone(),
@@ -63,11 +65,11 @@ pub fn largest_wire(
         };
         let found = narrowest(drawing, outlines, settings, is_cut).ok()?;
         if let Some(narrowest) = found {
-            let smaller = narrowest.radius < of_arcs.radius;
+            let smaller = narrowest.diameter < of_arcs.diameter;
             let largest = if smaller { narrowest } else { of_arcs };
             return Some(largest).filter(|largest| largest.diameter > 0.0);
         }
-        if correction >= of_arcs.radius {
+        if correction >= half {
             return Some(of_arcs);
         }
     }

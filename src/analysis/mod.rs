@@ -17,6 +17,7 @@ mod judge;
 mod known;
 mod largest_wire;
 mod learn;
+mod misfits;
 mod nearby;
 mod notable;
 mod observations;

@@ -106,7 +106,15 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         true => format!("#:schema ./{SCHEMA_NAME}\n"),
         false => String::new(),
     };
-    output::write(Some(&path), (head + &file(&set)).as_bytes())?;
+    let text = head + &file(&set);
+    let (_, errors) = settings::from_toml(&text);
+    if let Some(error) = errors.first() {
+        return Err(Failure(say!(
+            not_written_as_it_would_be_refused,
+            error.message
+        )));
+    }
+    output::write(Some(&path), text.as_bytes())?;
     output::say(&say!(written_file, output::name(&path)));
     Ok(Verdict::Clean)
 }

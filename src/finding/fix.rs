@@ -173,6 +173,9 @@ told! {
         (radius, None) => say!(give_the_corner_the_least_radius_that_fits, radius),
         (radius, Some(other)) => say!(give_both_corners_radii_that_fit, radius, mm(other * unit_mm)),
     };
+    /// The corner of one part `of` two that are drawn gets the least `radius` that fits.
+    FitCornerOf { of: Arc<str>, radius: f64 }
+        => say!(give_the_corner_of_a_part_the_least_radius, of, mm(radius * unit_mm));
     /// A line of `length` joins the ends of an open contour; with length 0 they become one point.
     Close { length: f64 } => match *length == 0.0 {
         true => say!(close_the_contour).to_owned(),

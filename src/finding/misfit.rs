@@ -27,6 +27,9 @@ pub(crate) enum Cause {
     /// Both are drawn as arcs there, whose radii do not differ by the clearance. First the radius
     /// of the part at whose segment the finding stands. Drawing units.
     Radii([f64; 2]),
+    /// The corner of this part is drawn sharper than that of its partner there: the radii of both, 0 where it is sharp.
+    /// Drawing units.
+    Sharper(Arc<str>, [f64; 2]),
     /// They are drawn too near each other, which no corner radius mends.
     Wall,
 }
@@ -49,6 +52,24 @@ impl Misfit {
                     depth,
                     own,
                     other,
+                    wanted
+                )
+            }
+            Cause::Sharper(sharper, radii) => {
+                let rounder = if sharper == of { partner } else { of };
+                let [own, other] = radii.map(|radius| telling.mm(radius));
+                let corner = match radii[0] == 0.0 {
+                    true => say!(its_corner_is_sharp, sharper),
+                    false => say!(its_corner_has_a_radius, sharper, own),
+                };
+                say!(
+                    a_corner_is_sharper_than_its_partner,
+                    of,
+                    partner,
+                    depth,
+                    corner,
+                    other,
+                    rounder,
                     wanted
                 )
             }

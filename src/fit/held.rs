@@ -6,9 +6,10 @@
 
 use super::Spot;
 use super::about::{About, Limits};
-use super::observations::{Observations, Verdict};
+use super::observations::{Lies, Observations, Verdict};
+use super::places::own_places;
 use super::reuse::Reuse;
-use super::walls::wall;
+use super::walls::{sharper, wall};
 use crate::geometry::{
     Bounds, Few, Point, Segment, Vector, cross, line_circle, line_line, reached,
 };
@@ -29,6 +30,8 @@ pub(crate) struct Held {
     pub(super) apart: Option<Spot>,
     /// What the two are called.
     pub(super) names: [Arc<str>; 2],
+    /// Clearances that differ by less are equal.
+    pub(super) rounding: f64,
 }
 
 /// A corner is examined up to this many half kerfs from where the wire turned.
@@ -60,6 +63,7 @@ pub(super) fn held(
         observations,
         apart,
         names: names.clone(),
+        rounding: limits.rounding,
     }
 }
 
@@ -85,6 +89,7 @@ pub(super) fn all_apart(
             of: of_punch.clone(),
             other: plate.segment_at(near, at)?,
             partner: of_plate.clone(),
+            sharper: None,
         })
     };
     (apart, spot())
@@ -107,12 +112,19 @@ impl Held {
 
     /// Where less is left than there should be, and what, in the order of the outline of the punch, then of that of the plate.
     pub(crate) fn clearances(&self) -> impl Iterator<Item = (Point, f64)> {
-        let verdicts = self
-            .observations
-            .iter()
-            .flat_map(|observations| &observations.verdicts);
         let apart = self.apart.iter().map(|spot| (spot.at, spot.clearance));
+        let verdicts = self.verdicts().into_iter().flatten();
         apart.chain(verdicts.map(|verdict| (verdict.at, verdict.clearance)))
+    }
+
+    /// What was seen of the corners of the punch, of those of the plate, and of walls: each place once.
+    fn verdicts(&self) -> [Vec<&Verdict>; 3] {
+        let [of_punch, of_plate, _] = &self.observations;
+        [
+            of_punch.verdicts.iter().collect(),
+            of_plate.verdicts.iter().collect(),
+            own_places(&self.observations, self.rounding),
+        ]
     }
 
     /// What the part is called whose wire turned in a corner, of these the first one so far about a place.
@@ -132,9 +144,9 @@ impl Held {
 
     /// All of these, of the parts that were compared.
     pub(crate) fn spots<'a>(&'a self, parts: [&'a Part; 2]) -> impl Iterator<Item = Spot> + 'a {
-        let of_observations = self.observations.iter().enumerate();
-        let of_observations = of_observations.flat_map(move |(which, observations)| {
-            let verdicts = observations.verdicts.iter();
+        let of_observations = self.verdicts().into_iter().enumerate();
+        let of_observations = of_observations.flat_map(move |(which, verdicts)| {
+            let verdicts = verdicts.into_iter();
             verdicts.filter_map(move |verdict| spot(which, verdict, parts, &self.names))
         });
         self.apart.iter().cloned().chain(of_observations)
@@ -142,14 +154,11 @@ impl Held {
 
     /// The same by all cores.
     pub(super) fn all_spots(&self, parts: [&Part; 2]) -> Vec<Spot> {
-        let count = self
-            .observations
-            .iter()
-            .map(|observations| observations.verdicts.len());
-        let mut all = Vec::with_capacity(1 + count.sum::<usize>());
+        let verdicts = self.verdicts();
+        let mut all = Vec::with_capacity(1 + verdicts.iter().map(Vec::len).sum::<usize>());
         all.extend(self.apart.clone());
-        for (which, observations) in self.observations.iter().enumerate() {
-            let some = observations.verdicts.par_chunks(AT_A_TIME);
+        for (which, verdicts) in verdicts.iter().enumerate() {
+            let some = verdicts.par_chunks(AT_A_TIME);
             all.par_extend(some.flat_map_iter(|verdicts| {
                 // Cores that count the uses of one name wait for each other.
                 let names = self.names.each_ref().map(|name| Arc::from(&**name));
@@ -192,6 +201,10 @@ fn spot(
         of: of.clone(),
         other: partner_segment,
         partner: partner.clone(),
+        sharper: match which {
+            2 => sharper(verdict, [punch, plate]),
+            _ => None,
+        },
     })
 }
 
@@ -291,6 +304,7 @@ fn corner(
         clearance: one.radius_of(edge) - far,
         other: on as u32,
         at_other,
+        lies: Lies::InCorner { away: far },
     })
 }
 

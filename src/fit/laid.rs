@@ -144,6 +144,9 @@ impl Laid {
 
 /// How partners are told, and the clearance that there should be, mm.
 fn asked_of(settings: &Effective) -> Result<(Partners, f64), Refusal> {
+    if let Some(sentence) = settings.pair_error() {
+        return Err(Refusal::Sentence(sentence));
+    }
     let asked = settings.fit();
     asked.map_err(|missing| Refusal::Sentence(say!(whether_it_fits_needs, missing.listed())))
 }

@@ -12,6 +12,7 @@ mod laid;
 mod observations;
 mod partners;
 mod penetration;
+mod places;
 mod reuse;
 mod walls;
 
@@ -51,6 +52,16 @@ pub struct Spot {
     pub other: SegmentOf,
     /// The partner.
     pub partner: Arc<str>,
+    /// In a corner that a wire has not spoiled: that which is drawn too sharp.
+    pub(crate) sharper: Option<Sharper>,
+}
+
+/// The corner of a part that stands in the partner, which is drawn rounder there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Sharper {
+    pub is_of_plate: bool,
+    /// By how much the outline turns there, radians.
+    pub turn: f64,
 }
 
 /// One part laid in the other.

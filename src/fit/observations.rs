@@ -30,4 +30,20 @@ pub(super) struct Verdict {
     /// The edge of the other part there, and the place that is told of it.
     pub other: u32,
     pub(crate) at_other: Point,
+    pub lies: Lies,
+}
+
+/// Where on its edge a place lies that stands too far out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Lies {
+    /// In a corner, so far from where the wire turned.
+    InCorner { away: f64 },
+    /// At the first or the last end of a wall, which is less deep elsewhere.
+    AtEnd { is_last: bool },
+    /// Elsewhere on a wall.
+    OnWall,
+    /// All along a long wall.
+    AllAlong,
+    /// On the other part: it is a tip of that.
+    OnTip,
 }

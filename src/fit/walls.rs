@@ -1,13 +1,24 @@
 //! Walls of a drawn punch and its drawn plate that lie too near to each other, or run into each other.
 
+use super::Sharper;
 use super::about::{About, Limits, TIE};
-use super::observations::Verdict;
+use super::observations::{Lies, Verdict};
 use super::penetration::deepest;
-use crate::geometry::{Bounds, Point, Segment};
+use crate::geometry::{Bounds, Point, Segment, facing, turn};
 use crate::toolpath::{Nearby, Part};
+use std::f64::consts::PI;
 
 /// A tip is looked for within half a kerf and this many clearances about a wall: partners lie within five of each other.
 const AROUND: f64 = 16.0;
+
+/// An outline that turns by less has no corner there, radians.
+const LEAST_TURN: f64 = 0.01;
+
+/// A wall is long that is longer than this many half kerfs: it is no part of a corner.
+const LONG: f64 = 4.0;
+
+/// A place so near to the end of a line lies in its corner, drawing units.
+const IN_CORNER: f64 = 1e-4;
 
 /// A wall of a drawn punch that lies too near to one of the plate, or runs into it.
 pub(super) fn wall(
@@ -58,16 +69,18 @@ pub(super) fn wall(
             clearance: -depth,
             other: other as u32,
             at_other: at,
+            lies: Lies::OnTip,
         });
     }
     let (clearance, at, other) = match (stands_out, nearest) {
-        (Some((depth, at)), (_, other)) => (-depth, at, other),
+        (Some((depth, at)), _) => (-depth, at, None),
         (None, (apart, Some(other))) => {
             let at = nearest_place(geometry, &plate.edges[other].geometry);
             (apart, at, Some(other))
         }
         (None, (_, None)) => return None,
     };
+    let lies = lies(geometry, (clearance, at), plate, about, limits);
     let nearest_edge = || {
         let (away, edge) = about.edges.nearest_to(at, plate.half)?;
         about.asked.merge(&Bounds::of_disc(at, away));
@@ -79,7 +92,78 @@ pub(super) fn wall(
         clearance,
         other: other.or_else(nearest_edge)? as u32,
         at_other: at,
+        lies,
     })
+}
+
+/// The corner that stands beyond an arc of the other part, if a place on a wall is one.
+pub(super) fn sharper(verdict: &Verdict, [punch, plate]: [&Part; 2]) -> Option<Sharper> {
+    let (edge, other) = (verdict.edge as usize, verdict.other as usize);
+    let is_of_plate = verdict.lies == Lies::OnTip;
+    let [(sharp, at_sharp), (round, at_round)] = match is_of_plate {
+        true => [(plate, other), (punch, edge)],
+        false => [(punch, edge), (plate, other)],
+    };
+    let round = &round.edges[at_round];
+    let arc = round
+        .geometry
+        .as_arc()
+        .filter(|_| round.turned_about.is_none())?;
+    let is_beyond = (verdict.at - arc.center).norm() > arc.radius;
+    let turn = turn_at(sharp, at_sharp, verdict.at)?;
+    is_beyond.then_some(Sharper { is_of_plate, turn })
+}
+
+/// By how much an outline turns along an arc, or at the end of a line that lies at a place.
+fn turn_at(part: &Part, index: usize, at: Point) -> Option<f64> {
+    let geometry = &part.edges[index].geometry;
+    if let Some(arc) = geometry.as_arc() {
+        return Some(arc.sweep.abs()).filter(|turn| *turn < PI);
+    }
+    let count = part.edges.len();
+    let [from_start, from_end] = [geometry.start(), geometry.end()].map(|end| (end - at).norm());
+    let is_last = from_end < from_start;
+    if from_end.min(from_start) > IN_CORNER {
+        return None;
+    }
+    let [before, behind] = match is_last {
+        true => [index, (index + 1) % count],
+        false => [(index + count - 1) % count, index],
+    };
+    let [before, behind] = [before, behind].map(|edge| &part.edges[edge].geometry);
+    let angle = turn(before.tangent_at(1.0), behind.tangent_at(0.0)).abs();
+    (angle > LEAST_TURN).then_some(angle)
+}
+
+/// Whether a wall is deepest at one of its ends, or all along.
+fn lies(
+    wall: &Segment,
+    (clearance, at): (f64, Point),
+    plate: &Part,
+    about: &mut About,
+    limits: &Limits,
+) -> Lies {
+    let reach = plate.half + limits.clearance;
+    let mut is_as_deep = |share: f64| {
+        let place = wall.point_at(share);
+        let away = about.way.nearest_to(place, reach).map(|(away, _)| away);
+        about
+            .asked
+            .merge(&Bounds::of_disc(place, away.unwrap_or(reach)));
+        away.is_some_and(|away| plate.half - away <= clearance + limits.rounding)
+    };
+    let is_even = is_as_deep(0.5) && is_as_deep(0.0) && is_as_deep(1.0);
+    let ends = [wall.start(), wall.end()];
+    match ends
+        .iter()
+        .position(|end| (end - at).norm() <= limits.rounding)
+    {
+        _ if is_even && wall.length() > LONG * plate.half => Lies::AllAlong,
+        Some(is_last) if !is_even => Lies::AtEnd {
+            is_last: is_last == 1,
+        },
+        _ => Lies::OnWall,
+    }
 }
 
 /// A tip of the plate that stands deeper in the punch, beyond one of its walls, than that wall stands in the plate: how deep, where, and its
@@ -114,12 +198,14 @@ fn tip(
     found
 }
 
-/// The point of a segment that is nearest to another one, of the ends of both.
+/// The point of a segment that is nearest to another one.
 fn nearest_place(segment: &Segment, other: &Segment) -> Point {
     let feet = [other.start(), other.end()]
         .map(|end| segment.point_at(segment.share_of(end).clamp(0.0, 1.0)));
     let ends = [segment.start(), segment.end()];
+    let facing = facing(segment, other);
     let places = ends.into_iter().chain(feet);
+    let places = places.chain(facing.into_iter().map(|(own, _)| own));
     places
         .min_by(|a, b| other.distance_to(*a).total_cmp(&other.distance_to(*b)))
         .unwrap_or_else(|| segment.start())

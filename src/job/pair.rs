@@ -45,7 +45,7 @@ pub fn pair(
     let (partners, _) = settings
         .fit()
         .map_err(|missing| Refusal::Sentence(say!(a_pair_needs, missing.listed())))?;
-    if let Some(sentence) = settings.pass_error() {
+    if let Some(sentence) = settings.pair_error().or_else(|| settings.pass_error()) {
         return Err(Refusal::Sentence(sentence));
     }
     // Each part is checked under its own settings.

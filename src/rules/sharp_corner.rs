@@ -134,8 +134,11 @@ fn corner_depth(outlook: &Outlook, index: usize, radius: f64) -> Option<f64> {
             outlook.limits.tolerances.zero_length,
         )
     };
-    let centers = along(&before)?.meet(&along(&behind)?).into_iter();
-    if let Some(depth) = centers
+    // Inside of a tight arc the disc runs nowhere.
+    let both = along(&before).zip(along(&behind));
+    if let Some(depth) = both
+        .into_iter()
+        .flat_map(|(one, other)| one.meet(&other))
         .filter_map(|center| depth_of(&before, &behind, center))
         .min_by(f64::total_cmp)
     {

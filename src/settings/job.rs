@@ -1,6 +1,8 @@
 //! Contradictory or ineffective settings of a program and its workpiece.
 
-use super::{Compensation, Effective, LengthSetting, PassFault, Settings, SkimCorner};
+use super::{
+    Compensation, Effective, LengthSetting, PassFault, Settings, SkimCorner, WearCompensation,
+};
 
 /// Two lengths in mm that differ by less are equal.
 const ROUNDING: f64 = 1e-9;
@@ -29,6 +31,15 @@ pub(super) fn faults(settings: &Settings) -> Vec<PassFault> {
             Does::End => complain(key, say!(a_stop_that_ends, key, stop)),
             Does::Nothing => complain(key, say!(a_stop_that_does_not_stop, key, stop, pause)),
         }
+    }
+    if let Some((hole, wire)) = program.start_hole.zip(settings.wire_diameter)
+        && hole <= wire
+    {
+        let (key, other) = ("program.start-hole", "wire-diameter");
+        complain(
+            key,
+            say!(a_hole_narrower_than_the_wire, key, hole, other, wire),
+        );
     }
     let passes = settings.passes.clone().unwrap_or_default();
     let count = passes.corrections.as_ref().map_or(1, Vec::len);
@@ -68,6 +79,53 @@ pub(super) fn doubts(settings: &Settings) -> Vec<PassFault> {
     let short = short.filter(|_| runs_beside);
     let said = |length| PassFault::of(key, say!(a_lead_within_the_kerf, key, length, correction));
     short.map(said).into_iter().collect()
+}
+
+/// Settings without effect beside the others.
+pub(super) fn idle(settings: &Settings) -> Vec<PassFault> {
+    let (program, passes) = (
+        settings.program(),
+        settings.passes.clone().unwrap_or_default(),
+    );
+    let milling = settings.milling.clone().unwrap_or_default();
+    let mut faults = Vec::new();
+    let mut complain = |key, message| faults.push(PassFault::of(key, message));
+    let compensation = program.compensation();
+    let count = passes.corrections.as_ref().map_or(1, Vec::len);
+    if count > 1 && compensation == Compensation::None {
+        let key = "passes.corrections";
+        complain(
+            key,
+            say!(passes_on_the_drawn_line, key, "program.compensation", count),
+        );
+    }
+    if passes.registers.is_some() && compensation == Compensation::Path {
+        let (key, other) = ("passes.registers", "program.compensation");
+        complain(key, say!(registers_need_the_control, key, other));
+    }
+    if passes.skim_corner() == SkimCorner::ConstantStock && count == 1 {
+        let key = "passes.skim-corner";
+        complain(key, say!(a_stock_needs_skims, key, "passes.corrections"));
+    }
+    if program.tab_stop.is_some() && !keeps_a_tab(settings) {
+        let key = "program.tab-stop";
+        complain(key, say!(a_stop_needs_a_tab, key, "program.tab"));
+    }
+    if milling.step.is_some() && milling.wear_compensation() != WearCompensation::Linear {
+        let (key, other) = ("milling.step", "milling.wear-compensation");
+        complain(key, say!(a_step_needs_linear_feed, key, other));
+    }
+    faults
+}
+
+/// True where some contour is to leave a tab.
+fn keeps_a_tab(settings: &Settings) -> bool {
+    let keeps = |tab: &Option<LengthSetting>| match tab {
+        None => false,
+        Some(LengthSetting::One(length)) => *length > 0.0,
+        Some(LengthSetting::ByHandle(lengths)) => lengths.values().any(|length| *length > 0.0),
+    };
+    keeps(&settings.program().tab)
 }
 
 enum Does {

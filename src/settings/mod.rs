@@ -124,18 +124,18 @@ impl Settings {
     ) -> Vec<SettingsError> {
         let others = pair::faults(self).into_iter().chain(milling::faults(self));
         let others = others.chain(job::faults(self));
-        let others = others.map(|fault| SettingsError {
+        let error = |fault: PassFault| SettingsError {
             of_levels: true,
             ..SettingsError::new(fault.key, fault.message.clone(), place(&fault))
-        });
-        let doubts = job::doubts(self).into_iter().map(|fault| SettingsError {
-            of_levels: true,
+        };
+        let warning = |fault: PassFault| SettingsError {
             severity: Severity::Warning,
-            ..SettingsError::new(fault.key, fault.message.clone(), place(&fault))
-        });
+            ..error(fault)
+        };
         let mut errors = self.pass_errors(place);
-        errors.extend(others);
-        errors.extend(doubts);
+        errors.extend(others.map(error));
+        let doubts = job::idle(self).into_iter().chain(job::doubts(self));
+        errors.extend(doubts.map(warning));
         errors
     }
 

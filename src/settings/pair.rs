@@ -1,7 +1,7 @@
 //! The settings of a pair of parts: the correction of each, their partners, and contradictions.
 
 use super::effective::Effective;
-use super::{DrawnAs, PassFault, Settings, SideSetting};
+use super::{Compensation, DrawnAs, PassFault, Settings, SideSetting};
 use crate::drawing::Role;
 use std::collections::BTreeMap;
 
@@ -116,6 +116,11 @@ impl Effective {
         }
     }
 
+    /// Why parts of a pair cannot be cut under these settings, or be held against each other, if they cannot.
+    pub(crate) fn pair_error(&self) -> Option<String> {
+        (self.compensation == Compensation::None).then(on_the_drawn_line)
+    }
+
     /// The parts that are cut along each drawn contour.
     pub(crate) fn uses(&self) -> Vec<Use> {
         let is_cut = |of: &Use| match of {
@@ -127,7 +132,7 @@ impl Effective {
     }
 
     /// The correction of a part minus that of the drawn one, mm; `None` where the pair does not say.
-    fn shift_of(&self, of: Use) -> Option<f64> {
+    pub(crate) fn shift_of(&self, of: Use) -> Option<f64> {
         let clearance = self.pair.clearance?;
         let drawn_as = self.pair.drawn_as?;
         // The outline of the punch lies this far within the drawn one.
@@ -227,6 +232,15 @@ fn rounded(mm: f64) -> f64 {
     (mm * 1e6).round() / 1e6
 }
 
+/// What is said where no wire of a pair keeps beside its contour.
+fn on_the_drawn_line() -> String {
+    say!(
+        a_pair_on_the_drawn_line,
+        "pair.clearance",
+        "program.compensation"
+    )
+}
+
 /// Contradictory or ineffective settings of a pair.
 pub(super) fn faults(settings: &Settings) -> Vec<PassFault> {
     let pair = settings.pair.clone().unwrap_or_default();
@@ -265,6 +279,9 @@ pub(super) fn faults(settings: &Settings) -> Vec<PassFault> {
                 complain(key, say!(an_extra_needs_a_drawn_part, key));
             }
         }
+    }
+    if pair.clearance.is_some() && settings.program().compensation() == Compensation::None {
+        complain("pair.clearance", on_the_drawn_line());
     }
     if pair.clearance.is_some() {
         let key = "pair.clearance";

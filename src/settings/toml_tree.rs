@@ -1,6 +1,7 @@
 //! A tree of values out of the text of a TOML file.
 
 use super::value::{Entry, Node, Value};
+use std::num::IntErrorKind;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Error};
 
@@ -33,11 +34,18 @@ fn node(value: &Spanned<DeValue<'_>>) -> Node {
             Value::Null
         }
         DeValue::Boolean(truth) => Value::Truth(*truth),
-        DeValue::Integer(integer) => {
-            let number = i64::from_str_radix(integer.as_str(), integer.radix());
-            Value::Number(number.map_or(f64::NAN, |number| number as f64))
+        // What is no number has been reported as such.
+        DeValue::Integer(integer) => match i64::from_str_radix(integer.as_str(), integer.radix()) {
+            Ok(number) => Value::Number(number as f64),
+            Err(error) => match error.kind() {
+                IntErrorKind::PosOverflow | IntErrorKind::NegOverflow => Value::Number(f64::NAN),
+                _ => Value::Null,
+            },
+        },
+        DeValue::Float(float) => {
+            let number = float.as_str().parse();
+            number.map_or(Value::Null, Value::Number)
         }
-        DeValue::Float(float) => Value::Number(float.as_str().parse().unwrap_or(f64::NAN)),
         DeValue::String(text) => Value::Text(text.to_string()),
         DeValue::Datetime(date) => Value::Text(date.to_string()),
         DeValue::Array(items) => Value::List(items.iter().map(node).collect()),

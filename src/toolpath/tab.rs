@@ -75,6 +75,7 @@ impl Job<'_> {
                 back,
                 thread: is_led.then_some(thread),
                 count,
+                is_last: number + 1 == count,
             };
             self.round(&unled, wanted, pass, tab.as_ref(), form)
         });
@@ -217,6 +218,7 @@ impl Job<'_> {
             back,
             thread,
             count,
+            is_last,
         } = form;
         let main = |way: Rotated| {
             let led = thread.zip(way.begin_of(back));
@@ -239,9 +241,15 @@ impl Job<'_> {
                 (ring, at.map(|(_, at)| at), wire, None)
             };
         let returns = self.returns(count);
+        // The control brings the wire to the correction of the next cut on the way back, and after the last pass the tab is cut with the first
+        // one.
+        let reach = match is_last {
+            true => wire.max(self.units(self.settings.correction)),
+            false => wire,
+        };
         let aside = |at: &Entry| {
             let away = normal(&unled.walls[at.wall].geometry, at.share, unled.side);
-            let aside = at.point + away * (wire + self.units(CLEAR));
+            let aside = at.point + away * (reach + self.units(CLEAR));
             (side.is_some() && count > 1 && !returns).then_some(aside)
         };
         let (Some(at), Some(tab)) = (tab_at, tab) else {
@@ -374,6 +382,7 @@ struct Form {
     thread: Option<Point>,
     /// How many passes there are.
     count: usize,
+    is_last: bool,
 }
 
 fn reversed(piece: &PathSegment) -> PathSegment {

@@ -5,9 +5,9 @@
 use super::containment::Nesting;
 use super::lead_form::largest_lead_angle;
 use super::path::WirePath;
-use crate::drawing::{Drawing, EntityId, Outline, Role};
-use crate::geometry::Segment;
-use crate::settings::Effective;
+use crate::drawing::{Drawing, EntityId, Outline, Role, wire_side};
+use crate::geometry::{Segment, Side};
+use crate::settings::{Effective, Use};
 
 /// The totals of some paths.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -148,7 +148,7 @@ pub(crate) fn last_gap(settings: &Effective) -> Option<f64> {
 }
 
 /// The thickest wire that cuts every arc of the contours that are `cut`: for an arc with the wire on its inside it is Ø
-/// = 2 (r − δ). Where the side is not known each arc counts. `None` where there is no such arc, or the gap is not set.
+/// = 2 (r − δ), of the outline of the part of a pair that is cut there. Where the side is not known each arc counts. `None` where there is no such arc, or the gap is not set.
 pub(crate) fn largest_of_arcs(
     drawing: &Drawing,
     outlines: &[Outline],
@@ -162,16 +162,22 @@ pub(crate) fn largest_of_arcs(
         if outline.contour.double_of.is_some() || outline.role == Role::Ignore || !is_cut(index) {
             continue;
         }
-        let side = outline.wire_side().map(|side| side.sign());
+        let uses = uses_of(outline, settings);
         for segment in outline.contour.segments(drawing) {
             let Segment::Arc(arc) = segment.geometry else {
                 continue;
             };
             let radius = arc.radius * unit_mm;
-            let is_inside = side.is_none_or(|side| side * arc.sweep > 0.0);
-            if is_inside && smallest.is_none_or(|smallest| radius < smallest.radius) {
+            let inside = uses
+                .iter()
+                .filter(|(side, _)| side.is_none_or(|side| side.sign() * arc.sweep > 0.0));
+            let Some(farther) = inside.map(|(_, farther)| *farther).reduce(f64::max) else {
+                continue;
+            };
+            let diameter = 2.0 * (radius - farther - gap);
+            if smallest.is_none_or(|smallest| diameter < smallest.diameter) {
                 smallest = Some(LargestWire {
-                    diameter: 2.0 * (radius - gap),
+                    diameter,
                     radius,
                     facing: None,
                     entity: segment.entity,
@@ -181,4 +187,20 @@ pub(crate) fn largest_of_arcs(
         }
     }
     smallest
+}
+
+/// The sides on which a wire runs along a contour, and how much farther from it than half its kerf, mm: one, or one for each part of a pair
+/// that is cut along it.
+fn uses_of(outline: &Outline, settings: &Effective) -> Vec<(Option<Side>, f64)> {
+    let of_pair = |of: Use| {
+        let farther = settings.shift_of(of)?;
+        let side = wire_side(of.role(), outline.contour.closed, outline.twice_area);
+        Some((side, farther))
+    };
+    let is_cut_twice = outline.role == Role::Both && outline.contour.closed;
+    let all: Vec<_> = settings.uses().into_iter().filter_map(of_pair).collect();
+    match is_cut_twice && !all.is_empty() {
+        true => all,
+        false => vec![(outline.wire_side(), 0.0)],
+    }
 }

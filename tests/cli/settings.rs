@@ -161,3 +161,19 @@ fn settings_that_cannot_be_read_are_said_and_nothing_is_made_without_them() {
         refused("!a link to a file that is not there");
     }
 }
+
+/// A table of passes that would be refused is not written, and a number without a digit before its point is said once.
+#[test]
+fn what_would_be_refused_is_not_written() {
+    let desk = Desk::new();
+    let made = desk.run(
+        "init . --wire 0.1 --gap 0.01 --fine-gap 0.02 --stock 0.005 --passes 3 --machine generic",
+    );
+    assert_eq!(made.code, Some(2), "{made:?}");
+    assert!(made.stderr.contains("corrections decrease"), "{made:?}");
+    assert!(!desk.path("wedm.toml").exists());
+    for value in [".2", "2.", "+.2", "0.2.1", "02"] {
+        let (_, errors) = wedm::settings::from_toml(&format!("wire-diameter = {value}\n"));
+        assert_eq!(errors.len(), 1, "{value}: {errors:?}");
+    }
+}

@@ -1,13 +1,11 @@
 //! Punch and plate that are both drawn, compared with each other.
 
-use super::{circle, drawing, findings, fit_of, polyline, rounded, settings, snapshot};
+use super::{DRAWN, circle, drawing, findings, fit_of, polyline, rounded, settings, snapshot};
 use std::sync::Arc;
 use wedm::analysis::Analysis;
 use wedm::drawing::{Entity, Geometry, Kind, Vertex};
 use wedm::finding::{Rule, Severity, sentence};
 use wedm::geometry::Point;
-
-const DRAWN: &str = "wire-diameter = 0.18\ngap = 0.01\n[layers]\nPU = \"punch\"\nPL = \"opening\"\n[pair]\nclearance = 0.01\n[workpieces]\nPUNCH = [\"PU\"]\nPLATE = [\"PL\"]\n";
 
 fn grown(x: f64, y: f64, by: f64, radius: f64) -> Vec<Vertex> {
     rounded(&[

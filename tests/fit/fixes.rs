@@ -1,6 +1,6 @@
 //! The fix of a contour that does not fit.
 
-use super::{Vertex, corner, drawing, findings, fit_of, notch, pair, polyline};
+use super::{Vertex, corner, drawing, findings, fit_of, notch, pair, polyline, settings};
 use std::sync::Arc;
 use wedm::analysis::Analysis;
 use wedm::finding::{Detail, Finding, Rule, Severity};
@@ -108,6 +108,51 @@ fn each_corner_of_several_has_the_fix_of_its_own() {
                 let stays = |other: &&Finding| (place(other) - place(finding)).norm() < 0.1;
                 assert_eq!(left.iter().find(stays), None, "{drawn_as}: {finding:?}");
             }
+        }
+    }
+}
+
+/// Fix all moves a corner by no more than the correction, from the arc that is drawn there.
+#[test]
+fn the_move_of_a_corner_is_measured_from_its_arc() {
+    for (radius, is_made) in [(0.02, true), (0.0, false)] {
+        let own = pair("punch", 0.145, 0.01);
+        let drawing = drawing(vec![polyline("0", "2A", corner(120.0, radius))]);
+        let found = findings(&drawing, &own, Rule::DoesNotFit);
+        let analysis = Analysis::new(&drawing, Arc::new(own));
+        let fixes = analysis.fixes(&drawing, &found[0]);
+        assert_eq!(
+            (fixes.len(), fixes[0].in_fix_all),
+            (1, is_made),
+            "R {radius}"
+        );
+    }
+}
+
+/// Passes of a constant stock leave R = c1 in a corner: the least radius there is c1 - z - z/k, whether it is sharp or an arc.
+#[test]
+fn a_corner_of_constant_stock_has_its_fix() {
+    for (passes, wire) in [
+        ("[0.205, 0.165, 0.145]", 0.25),
+        ("[0.17, 0.13, 0.11]", 0.18),
+    ] {
+        for radius in [0.0, 0.05, 0.12] {
+            let own = settings(&format!(
+                "wire-diameter = {wire:?}\ngap = 0.02\n[passes]\ncorrections = {passes}\nskim-corner = \"constant-stock\"\n\
+                 [pair]\ndrawn-as = \"punch\"\nclearance = 0.01\n"
+            ));
+            let mut drawing = drawing(vec![polyline("0", "2A", corner(90.0, radius))]);
+            let found = findings(&drawing, &own, Rule::DoesNotFit);
+            let analysis = Analysis::new(&drawing, Arc::new(own.clone()));
+            let fixes = analysis.fixes(&drawing, &found[0]);
+            let label = format!("{passes} R {radius}: {fixes:?}");
+            assert_eq!(fixes.len(), 1, "{label}");
+            drawing
+                .apply(&fixes[0].edit)
+                .expect("an edit that can be made");
+            let left = fit_of(&drawing, &own).least();
+            let k = f64::sqrt(2.0) - 1.0;
+            assert!((left - k * own.margin).abs() < 2e-6, "{label}: {left}");
         }
     }
 }

@@ -4,6 +4,7 @@ mod across;
 mod corners;
 mod drawn;
 mod fixes;
+mod places;
 mod refusals;
 mod sampled;
 mod sizes;
@@ -16,6 +17,8 @@ use wedm::finding::{Finding, Rule};
 use wedm::fit::{Fit, fit};
 use wedm::geometry::Point;
 use wedm::settings::{Effective, from_toml};
+
+const DRAWN: &str = "wire-diameter = 0.18\ngap = 0.01\n[layers]\nPU = \"punch\"\nPL = \"opening\"\n[pair]\nclearance = 0.01\n[workpieces]\nPUNCH = [\"PU\"]\nPLATE = [\"PL\"]\n";
 
 fn settings(text: &str) -> Effective {
     let (settings, mut errors) = from_toml(text);

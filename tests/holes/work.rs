@@ -135,6 +135,24 @@ fn the_smallest_radius_names_the_largest_wire() {
         "[passes]\ncorrections = [0.2, 0.14]\ngaps = [0.03, 0.01]\n",
         Some(0.38),
     );
+    // Of a pair the wire of the plate runs inside of it, whose arc is larger by the clearance where the punch is drawn.
+    let pair = "wire-diameter = 0.2\ngap = 0.02\n[pair]\nclearance = 0.05\n";
+    check(
+        Role::Both,
+        &format!("{pair}drawn-as = \"punch\"\n"),
+        Some(0.46),
+    );
+    check(
+        Role::Both,
+        &format!("{pair}drawn-as = \"plate\"\n"),
+        Some(0.36),
+    );
+    // The holder is as much narrower.
+    check(
+        Role::Both,
+        &format!("{pair}drawn-as = \"punch\"\nholder = 0.01\n"),
+        Some(0.34),
+    );
     // The wire runs outside of it.
     check(Role::Punch, "gap = 0.02\n", None);
     check(Role::Opening, "", None);

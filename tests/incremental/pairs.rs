@@ -83,6 +83,7 @@ proptest! {
                 now.0.iter().filter(|finding| finding.rule == Rule::DoesNotFit).count(),
                 fresh.0.iter().filter(|finding| finding.rule == Rule::DoesNotFit).count()
             );
+            prop_assert_eq!(now.1, now.0.len(), "counted and not listed: {:?}", now.0);
             prop_assert_eq!(now, fresh);
         }
     }

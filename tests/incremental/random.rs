@@ -33,7 +33,9 @@ proptest! {
                 prop_assert_eq!(a.role, b.role);
                 prop_assert!((a.twice_area - b.twice_area).abs() < 1e-9, "{} {}", a.twice_area, b.twice_area);
             }
-            prop_assert_eq!(analysis.findings(&drawing, usize::MAX), fresh.findings(&drawing, usize::MAX));
+            let (now, then) = (analysis.findings(&drawing, usize::MAX), fresh.findings(&drawing, usize::MAX));
+            prop_assert_eq!(now.1, now.0.len(), "counted and not listed: {:?}", now.0);
+            prop_assert_eq!(now, then);
         }
     }
 }
@@ -98,7 +100,9 @@ proptest! {
             for (a, b) in now.iter().zip(then.iter()) {
                 prop_assert_eq!(&a.contour, &b.contour);
             }
-            prop_assert_eq!(analysis.findings(&drawing, usize::MAX), fresh.findings(&drawing, usize::MAX));
+            let (now, then) = (analysis.findings(&drawing, usize::MAX), fresh.findings(&drawing, usize::MAX));
+            prop_assert_eq!(now.1, now.0.len(), "counted and not listed: {:?}", now.0);
+            prop_assert_eq!(now, then);
         }
     }
 }

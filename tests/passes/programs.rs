@@ -109,3 +109,39 @@ fn four_b_holds_the_parts_contour_once_for_each_pass() {
         "{text}"
     );
 }
+
+/// The control brings the wire to its correction along the move after the register: no such move is shorter than that.
+#[test]
+fn each_move_that_starts_a_correction_is_at_least_as_long() {
+    let corrections = [0.215, 0.17, 0.14, 0.13];
+    for count in 1..=corrections.len() {
+        for role in [Role::Punch, Role::Opening] {
+            for tab in [0.0, 1.0] {
+                let own = settings(&format!(
+                    "passes.corrections = {:?}\n[program]\ncompensation = \"controller\"\ntab = {tab:?}\n",
+                    &corrections[..count]
+                ));
+                let made = generated(&drawing(role, &SQUARE), &own, Format::Iso);
+                let text = made.program.text;
+                let (mut at, mut starts) = ([0.0, 0.0], None);
+                for line in text.lines() {
+                    let words = || line.split_whitespace();
+                    let number = |letter: char| {
+                        words().find_map(|word| word.strip_prefix(letter)?.parse().ok())
+                    };
+                    if line.starts_with("G41") || line.starts_with("G42") {
+                        starts =
+                            number('D').map(|register: f64| corrections[register as usize - 1]);
+                    }
+                    if let (Some(x), Some(y)) = (number('X'), number('Y')) {
+                        let length = f64::hypot(x - at[0], y - at[1]);
+                        if let Some(correction) = starts.take_if(|_| line.contains("G01")) {
+                            assert!(length >= correction, "{line} in {text}");
+                        }
+                        at = [x, y];
+                    }
+                }
+            }
+        }
+    }
+}

@@ -142,6 +142,9 @@ fn the_page_of_settings_shows_every_key_with_its_default() {
         &text,
     );
     let (settings, errors) = wedm::settings::from_toml(&text.replace("\n# ", "\n"));
+    // Some keys have an effect only beside another value than the default of a second one.
+    let mut errors = errors;
+    errors.retain(|error| !error.message.contains("has no effect"));
     assert_eq!(errors, []);
     let program = settings.program.unwrap();
     assert!(settings.layers.is_some() && program.thread.is_some() && program.units.is_some());

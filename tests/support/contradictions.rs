@@ -58,8 +58,8 @@ pub const CONTRADICTIONS: &[Contradiction] = &[
     row(ONE, "side = \"punch\"\ncorrection = 0.05\nwire-diameter = 0.18\n", "pass-order", "the wire's radius 0.09"),
     row(ONE, "side = \"punch\"\npasses.corrections = [0.2, 0.1]\npasses.registers = [\"D1\"]\n", "pass-order", "one for each of the 2 passes"),
     row(ONE, "side = \"punch\"\npasses.corrections = [0.2, 0.1]\npasses.gaps = [0.01]\n", "pass-order", "one for each of the 2 passes"),
-    row(ONE, "side = \"punch\"\npasses.rates = [1, 2]\n", "pass-order", "one for each of the 1 passes"),
-    row(ONE, "side = \"punch\"\nwire-diameter = 0.18\npasses.registers = [\"D1\", \"D2\"]\n", "pass-order", "one for each of the 1 passes"),
+    row(ONE, "side = \"punch\"\npasses.rates = [1, 2]\n", "pass-order", "one for the one pass"),
+    row(ONE, "side = \"punch\"\nwire-diameter = 0.18\npasses.registers = [\"D1\", \"D2\"]\n", "pass-order", "one for the one pass"),
     row(ONE, "side = \"punch\"\npasses.corrections = [0.2, 0.1]\npasses.registers = [\"D1\", \"D1\"]\n", "pass-order", "a register of its own"),
     row(ONE, "side = \"punch\"\npasses.corrections = [0.2, 0.1]\npasses.registers = [\"D1\", \"d01\"]\n", "pass-order", "a register of its own"),
     row(ONE, "side = \"punch\"\npasses.corrections = [0.2, 0.1]\npasses.registers = [\"D1\", \"M30\"]\n", "pass-order", "no place of a correction"),
@@ -89,8 +89,15 @@ pub const CONTRADICTIONS: &[Contradiction] = &[
     row(ONE, "side = \"punch\"\nprogram.tab-stop = \"T1\"\nprogram.tab = 3\n", "settings", "which stops no machine"),
     row(ONE, "side = \"punch\"\nprogram.tab-stop = \"G00\"\n", "settings", "which is no part of a block"),
     row(ONE, "side = \"punch\"\nprogram.tab-stop = \"M08\"\n", "settings", "which stops no machine"),
+    row(ONE, "side = \"punch\"\nprogram.tab-stop = \"M00\"\n", "settings", "no effect without program.tab"),
+    row(ONE, "side = \"punch\"\nprogram.tab-stop = \"M00\"\nprogram.tab = 0\n", "settings", "no effect without program.tab"),
+    // Without effect.
+    row(ONE, "side = \"punch\"\nprogram.compensation = \"none\"\npasses.corrections = [0.2, 0.17]\n", "settings", "along the drawn line itself"),
+    row(ONE, "side = \"punch\"\n[passes]\ncorrections = [0.2, 0.17]\nregisters = [\"D1\", \"D2\"]\n", "settings", "no effect while program.compensation is path"),
+    row(ONE, "side = \"punch\"\npasses.skim-corner = \"constant-stock\"\n", "settings", "no effect on one pass"),
     // Where the wire is threaded and comes to its contour.
     row(ONE, "side = \"opening\"\nprogram.start-hole = 12\n", "start-hole", "has room in contour A0"),
+    row(ONE, "side = \"opening\"\nprogram.start-hole = 0.18\nwire-diameter = 0.18\ngap = 0.01\n", "settings", "the wire does not go through the hole"),
     row(ONE, "side = \"punch\"\nprogram.thread = [10, 5]\n", "lead-in", "the thread hole (10.000, 5.000)"),
     row(ONE, "side = \"punch\"\ncorrection = 0.2\nprogram.lead-in = 0.1\n", "settings", "within the kerf of its own cut"),
     row(ONE, "side = \"opening\"\npasses.corrections = [0.2, 0.1]\nprogram.lead-in = 0.15\n", "settings", "below the correction 0.2"),
@@ -113,11 +120,14 @@ pub const CONTRADICTIONS: &[Contradiction] = &[
     row(CROSSED, wire!("pair.clearance = 0.01\n[workpieces]\none = [\"A\"]\ntwo = [\"A\"]\n"), "settings", "the layer A"),
     row(CROSSED, wire!("side = \"auto\"\npair.clearance = 0.01\n[workpieces]\none = [\"A\"]\ntwo = [\"B\"]\n"), "does-not-fit", "it has no partner"),
     row(CROSSED, wire!("side = \"auto\"\npair.clearance = 0.01\n[workpieces]\none = [\"A\"]\ntwo = [\"C\"]\n"), "does-not-fit", "nothing is drawn on the layers of two"),
+    row(ONE, wire!("pair.drawn-as = \"punch\"\npair.clearance = 0.02\nprogram.compensation = \"none\"\n"), "settings", "along the drawn lines themselves"),
+    row(CROSSED, wire!("pair.clearance = 0.01\nprogram.compensation = \"none\"\n[workpieces]\none = [\"A\"]\ntwo = [\"B\"]\n"), "settings", "along the drawn lines themselves"),
     // Milling.
     row(NARROW, "side = \"opening\"\n[milling]\ntool-diameter = 1\ngap = 0.05\nlayer = 0.01\ndepth = 0.2\nwear = 0.02\n", "narrow-slot", "the electrode needs 1.100 mm"),
     row(NARROW, "side = \"opening\"\nmilling.tool-diameter = 1\n", "settings", "expected milling.gap"),
     row(NARROW, electrode!("layer = 0.3\n"), "settings", "at most milling.depth"),
     row(NARROW, electrode!("layer = 0.01\nwear-compensation = \"linear\"\n"), "settings", "expected milling.step"),
+    row(NARROW, electrode!("layer = 0.01\nstep = 1\n"), "settings", "unless milling.wear-compensation is linear"),
     row(NARROW, electrode!("layer = 0.01\nstep = 100\nwear-compensation = \"linear\"\n"), "settings", "longer than a layer of this contour"),
 ];
 

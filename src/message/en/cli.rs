@@ -53,6 +53,7 @@ declare! {
     it_is_there_already => "it already exists, expected a folder without one, or --force";
     it_is_of_somebody_else => "it already exists and is not from an earlier run, expected another folder, or --force";
     expected(what) => "expected {what}";
+    not_written_as_it_would_be_refused(reason) => "no settings come of these numbers: {reason}";
     wire_diameter_mm => "diameter of the wire, mm";
     spark_gap_mm => "spark gap, mm";
     passes_along_each_contour => "passes along each contour";

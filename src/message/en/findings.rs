@@ -116,7 +116,12 @@ declare! {
     more_than_any_machine_travels => "more than any machine travels";
     less_than_a_wire_is_thick => "less than a wire is thick";
     the_size_of_the_part_is_absurd(size, what) => "the largest contour is {size} mm long or wide, {what}: the unit is another one, or this is not a drawing of a part";
-    more_findings_are_not_shown(count) => "{count} more findings are not shown";
+    more_findings_are_not_shown(count: usize) => {
+        match count {
+            1 => "1 more finding is not shown".into(),
+            count => format!("{count} more findings are not shown"),
+        }
+    };
     is => "is";
     are => "are";
     entities_of_a_layer_are_not_cut(layer, what, entities, are) => "layer {layer} is {what}: {entities} on it {are} not cut, unless the layer has a role ([layers])";
@@ -129,7 +134,7 @@ declare! {
     on_a_layer(count, name) => "{count} on layer {name}";
     n1_lone_line => "1 lone line within closed contours";
     lone_lines(count) => "{count} lone lines within closed contours";
-    others_of_them(count) => "{count} others";
+    others_of_them(count: usize) => { if *count == 1 { "1 other".into() } else { format!("{count} others") } };
     cut_what_is_drawn_in_a_linetype(name) => "Cut what is drawn in {name} all the same (wedm.toml)";
     cut_what_lies_on_a_layer(name) => "Cut layer {name} all the same (wedm.toml)";
     cut_the_lone_lines => "Cut the lone lines all the same (wedm.toml)";
@@ -150,6 +155,7 @@ declare! {
     replace_arcs_by_one_of_r(what, radius, moved) => "Replace the {what} by one of R {radius} mm (moves the contour by {moved} mm)";
     change_only_the_bulge(radius, kink) => "Keep the end points, change only the bulge to R {radius} mm (kinks the contour by {kink:.1}° at each end, does not reduce the overcut)";
     give_the_corner_the_least_radius_that_fits(radius) => "Give the corner R {radius} mm, the least that fits";
+    give_the_corner_of_a_part_the_least_radius(of, radius) => "Give the corner of the {of} R {radius} mm, the least that fits";
     give_both_corners_radii_that_fit(radius, other) => "Give the corners R {radius} mm and R {other} mm, the least that fit";
     round_the_corner_with_r_mm(radius) => "Round the corner with R {radius} mm";
     close_the_contour => "Close the contour";
@@ -232,7 +238,7 @@ declare! {
     the_block_has_no_number_expected_n(expected) => "the block has no number, expected N{expected}";
     the_coordinates_are_not_where_the_block_ends(distance, x, y) => "the coordinates after the block are {distance} mm from where it ends (X {x:+.3}, Y {y:+.3})";
     the_wire_crosses_its_own_path(line, x, y) => "the wire crosses its own path of line {line} here, at ({x:.3}, {y:.3}) mm from the contour's start: it cuts the part in two";
-    thousands_of_entities_lie_on_each_other(count) => "thousands of entities lie on or across each other: {count} stretches of contours from here on were not compared with what is near them";
+    thousands_of_entities_lie_on_each_other(count) => "thousands of entities lie on or across each other: stretches of contours from here on that were not compared with what is near them: {count}";
     the_correction_is_so_large_beside_the_segments(contours) => "the correction is so large compared with the segments that what the offset loses was not looked for; contours left out from here on: {contours}";
     the_correction_is_too_large_for_a_path(segments, most) => "the correction is so large compared with the {segments} segments of this contour that no path is laid: on average more than {most} of them lie in a square of twice the correction; check the correction and the unit";
     so_much_of_the_way_lies_on_one_place(blocks) => "so much of the way of these {blocks} blocks lies in one place that crossings were not looked for in all of it";
@@ -299,6 +305,9 @@ declare! {
     it_is_part_of_an_entity_that_cannot_be_edited_here => "; it is part of an entity that cannot be edited here";
     the_parts_bind_here(of, partner, depth, corner_of, wanted) => "{of} and {partner} bind here by {depth:.1} µm: the wire leaves too much in this corner of the {corner_of} for a clearance of {wanted:.1} µm";
     the_parts_bind_along_a_wall(of, partner, depth, wanted) => "{of} and {partner} bind here by {depth:.1} µm along a wall, where there should be a clearance of {wanted:.1} µm: no radius of a corner mends that; the wall is drawn, or its wire led, too near to its partner";
+    its_corner_is_sharp(of) => "the corner of the {of} is sharp";
+    its_corner_has_a_radius(of, radius) => "the corner of the {of} has R {radius} mm";
+    a_corner_is_sharper_than_its_partner(of, partner, depth, corner, other, rounder, wanted) => "{of} and {partner} bind here by {depth:.1} µm: {corner} beside R {other} mm of the {rounder}, too sharp for a clearance of {wanted:.1} µm";
     the_parts_bind_along_an_arc(of, partner, depth, own, other, wanted) => "{of} and {partner} bind here by {depth:.1} µm along an arc: R {own} mm of the {of} is beside R {other} mm of the {partner}, which should differ by the clearance of {wanted:.1} µm";
     lies_within_its_partner_and_is_no_opening(handle) => "contour {handle} lies within its partner: it is the punch of the two, and has been given the role of an opening";
     lies_about_its_partner_and_is_no_punch(handle) => "contour {handle} lies about its partner: it is the opening of the two, and has been given the role of a punch";

@@ -21,4 +21,5 @@ declare! {
     the_step_is_longer(step, length) => "milling.step is {step} mm, longer than a layer of this contour, {length:.3} mm: expected a shorter step";
     the_floor_is_uneven(wear, least, most) => "the electrode gets {wear:.2} layers shorter in each layer along this contour: the floor is uneven within one layer, in the end {least:.4} to {most:.4} mm deep; a larger electrode or a shorter contour wears less";
     it_is_milled => "an electrode mills it layer by layer: its heights belong to its moves, and it is not the path of a wire";
+    nothing_is_picked(key, other) => "{key} is as-picked, but no contour is picked: they are cut in the order of {other}";
 }

@@ -36,7 +36,12 @@ declare! {
     holds_an_unknown_name(key, name) => "{key} holds {name}, expected {{x}}, {{y}}, {{side}} or {{register}}";
     there_is_no_profile(name, names) => "there is no profile {name:?}, expected {names}";
     is_more_than_the_pass_before(pass, correction, before) => "{pass} is {correction}, expected at most {before}, that of the pass before: corrections decrease";
-    is_of_passes_expected_one_for_each(key, count, passes) => "{key} is a list of {count}, expected one for each of the {passes} passes";
+    is_of_passes_expected_one_for_each(key: dyn crate::message::Shown, count: usize, passes: usize) => {
+        match passes {
+            1 => format!("{key} is a list of {count}, expected one for the one pass"),
+            passes => format!("{key} is a list of {count}, expected one for each of the {passes} passes"),
+        }
+    };
     is_less_than_the_wire_radius(pass, correction, radius) => "{pass} is {correction}, expected at least the wire's radius {radius}: the wire would cut into the part";
     a_list_of_layers => "a list of names of layers such as [\"PUNCH\"]";
     the_name_of_a_layer => "the name of a layer";
@@ -45,6 +50,7 @@ declare! {
     a_pair_without_clearance(key) => "{key} has no effect without pair.clearance: expected the clearance, mm a side";
     a_pair_drawn_and_cut_twice(key) => "{key} says that each contour is cut twice, workpieces that both parts are drawn: expected one of the two";
     a_pair_on_one_side(key, side) => "{key} says that each contour is cut from both sides, but side is {side}: expected both";
+    a_pair_on_the_drawn_line(key, other) => "{key} is the clearance of two parts, but {other} is none: both would be cut along the drawn lines themselves; expected path or controller as {other}";
     an_extra_needs_a_drawn_part(key) => "{key} needs a contour that is cut for several parts: expected pair.drawn-as as well";
     a_layer_in_two_workpieces(layer, one, other) => "the layer {layer} belongs to the workpieces {one} and {other}: expected one of them";
     milling_needs(missing) => "milling needs an electrode and its layers: expected {missing} to be set";
@@ -56,6 +62,12 @@ declare! {
     a_stop_that_does_not_stop(key, word, pause) => "{key} is {word}, which stops no machine: expected M00 or M01 in ISO, {pause} in 3B";
     the_control_runs_beside_the_drawn_contour(key, other) => "{key} is constant-stock, but {other} is controller: each pass would run beside the drawn contour, as with sharp; expected path as {other}, or sharp";
     a_lead_within_the_kerf(key, length, correction) => "{key} is {length}, below the correction {correction}: the wire would be threaded within the kerf of its own cut; expected at least the correction";
+    passes_on_the_drawn_line(key, other, count) => "{key} lists {count} passes, but {other} is none: the wire runs once along the drawn line itself, and the others have no effect";
+    registers_need_the_control(key, other) => "{key} has no effect while {other} is path: the program holds the path of the wire itself, and names no place of a correction";
+    a_stock_needs_skims(key, other) => "{key} is constant-stock, which has no effect on one pass: expected {other} of several";
+    a_stop_needs_a_tab(key, other) => "{key} has no effect without {other}: nothing is left standing";
+    a_step_needs_linear_feed(key, other) => "{key} has no effect unless {other} is linear";
+    a_hole_narrower_than_the_wire(key, hole, other, wire) => "{key} is {hole}, expected more than {other}, {wire}: the wire does not go through the hole";
     a_mass_needs_a_height(key) => "{key} is the mass of a slug: expected job.thickness as well";
     a_limit_needs_a_tab(key) => "{key} has no effect without program.tab: expected the length, mm, that an opening with a heavier slug leaves standing";
     a_contour_of_two_roles(name, role, by, other, other_by) => "contour {name} is given two roles: {role} by {by}, which decides, and {other} by {other_by}";

@@ -53,6 +53,7 @@ translate! {
     it_is_there_already => "文件已存在；请换一个没有它的文件夹，或加 --force";
     it_is_of_somebody_else => "文件已存在，且不是以前生成的，请换一个文件夹，或加 --force";
     expected(what) => "应为{what}";
+    not_written_as_it_would_be_refused(reason) => "这些数值得不出可用的设置：{reason}";
     wire_diameter_mm => "电极丝直径，mm";
     spark_gap_mm => "放电间隙，mm";
     passes_along_each_contour => "每个轮廓的切割次数";

@@ -116,7 +116,7 @@ translate! {
     more_than_any_machine_travels => "超过任何机床的行程";
     less_than_a_wire_is_thick => "比电极丝还小";
     the_size_of_the_part_is_absurd(size, what) => "最大的轮廓长或宽 {size} mm，{what}：单位不对，或图形不是工件";
-    more_findings_are_not_shown(count) => "另有 {count} 个问题未列出";
+    more_findings_are_not_shown(count: usize) => { format!("另有 {count} 个问题未列出") };
     is => "";
     are => "都";
     entities_of_a_layer_are_not_cut(layer, what, entities, are) => "图层 {layer} {what}：其上 {entities}{are}不切割，除非给图层指定用途（[layers]）";
@@ -129,7 +129,7 @@ translate! {
     on_a_layer(count, name) => "图层 {name} 上 {count} 个";
     n1_lone_line => "封闭轮廓内的单独直线 1 条";
     lone_lines(count) => "封闭轮廓内的单独直线 {count} 条";
-    others_of_them(count) => "其他 {count} 个";
+    others_of_them(count: usize) => { format!("其他 {count} 个") };
     cut_what_is_drawn_in_a_linetype(name) => "照样切割线型 {name}（wedm.toml）";
     cut_what_lies_on_a_layer(name) => "照样切割图层 {name}（wedm.toml）";
     cut_the_lone_lines => "照样切割这些单独直线（wedm.toml）";
@@ -150,6 +150,7 @@ translate! {
     replace_arcs_by_one_of_r(what, radius, moved) => "{what}换成一段 R {radius} mm 的圆弧（轮廓移动 {moved} mm）";
     change_only_the_bulge(radius, kink) => "端点不动，只把凸度改为 R {radius} mm（两端各折 {kink:.1}°，过切不减）";
     give_the_corner_the_least_radius_that_fits(radius) => "把角改为 R {radius} mm，即能配合的最小圆角";
+    give_the_corner_of_a_part_the_least_radius(of, radius) => "把 {of} 的角改为 R {radius} mm，即能配合的最小圆角";
     give_both_corners_radii_that_fit(radius, other) => "把两个角改为 R {radius} mm 和 R {other} mm，即能配合的最小圆角";
     round_the_corner_with_r_mm(radius) => "拐角倒圆 R {radius} mm";
     close_the_contour => "封闭轮廓";
@@ -299,6 +300,9 @@ translate! {
     it_is_part_of_an_entity_that_cannot_be_edited_here => "；它属于此处不能修改的图元";
     the_parts_bind_here(of, partner, depth, corner_of, wanted) => "{of} 与 {partner} 在此卡住 {depth:.1} µm：{corner_of} 的这个角残留过多，留不出 {wanted:.1} µm 的间隙";
     the_parts_bind_along_a_wall(of, partner, depth, wanted) => "{of} 与 {partner} 在此沿壁卡住 {depth:.1} µm，这里应有 {wanted:.1} µm 的间隙：改角的半径无济于事；是这段壁画得、或其丝走得离配对件太近";
+    its_corner_is_sharp(of) => "{of} 的角是尖的";
+    its_corner_has_a_radius(of, radius) => "{of} 的角是 R {radius} mm";
+    a_corner_is_sharper_than_its_partner(of, partner, depth, corner, other, rounder, wanted) => "{of} 与 {partner} 在此卡住 {depth:.1} µm：{corner}，旁边是 {rounder} 的 R {other} mm，太尖而留不出 {wanted:.1} µm 的间隙";
     the_parts_bind_along_an_arc(of, partner, depth, own, other, wanted) => "{of} 与 {partner} 在此沿圆弧卡住 {depth:.1} µm：{of} 的 R {own} mm 旁边是 {partner} 的 R {other} mm，两者应相差 {wanted:.1} µm 的间隙";
     lies_within_its_partner_and_is_no_opening(handle) => "轮廓 {handle} 位于配对轮廓之内，应是凸模，却设成了型孔";
     lies_about_its_partner_and_is_no_punch(handle) => "轮廓 {handle} 包围配对轮廓，应是型孔，却设成了凸模";

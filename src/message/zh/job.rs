@@ -21,4 +21,5 @@ translate! {
     the_step_is_longer(step, length) => "milling.step 是 {step} mm，比此轮廓一层的长度 {length:.3} mm 还长：步长应更短";
     the_floor_is_uneven(wear, least, most) => "沿此轮廓每铣一层，电极缩短 {wear:.2} 层：一层之内底面不平，最后深 {least:.4} 到 {most:.4} mm；电极粗一些或轮廓短一些，损耗就小";
     it_is_milled => "它由电极分层铣削：高度与各段运动相关，不是电极丝的路径";
+    nothing_is_picked(key, other) => "{key} 是 as-picked，但没有选取轮廓：按 {other} 的顺序切割";
 }

@@ -45,7 +45,7 @@ translate! {
     holds_an_unknown_name(key, name) => "{key} 含有 {name}，应为 {{x}}、{{y}}、{{side}} 或 {{register}}";
     there_is_no_profile(name, names) => "没有名为 {name:?} 的 profile，应为 {names}";
     is_more_than_the_pass_before(pass, correction, before) => "{pass} 是 {correction}，最多应为上一次切割的 {before}：补偿量须逐次减小";
-    is_of_passes_expected_one_for_each(key, count, passes) => "{key} 列出 {count} 个，应与切割次数一致，共 {passes} 个";
+    is_of_passes_expected_one_for_each(key: dyn crate::message::Shown, count: usize, passes: usize) => { format!("{key} 列出 {count} 个，应与切割次数一致，共 {passes} 个") };
     is_less_than_the_wire_radius(pass, correction, radius) => "{pass} 是 {correction}，不得小于电极丝半径 {radius}：否则丝会切入工件";
     a_list_of_layers => "图层名的列表，如 [\"PUNCH\"]";
     the_name_of_a_layer => "图层名";
@@ -54,6 +54,7 @@ translate! {
     a_pair_without_clearance(key) => "没有 pair.clearance，{key} 不起作用：应设单边间隙，mm";
     a_pair_drawn_and_cut_twice(key) => "{key} 表示每个轮廓切两次，workpieces 表示两个零件都已画出：只能取其一";
     a_pair_on_one_side(key, side) => "{key} 表示每个轮廓两侧都切，而 side 是 {side}：应为 both";
+    a_pair_on_the_drawn_line(key, other) => "{key} 是两个零件之间的间隙，而 {other} 是 none：两者都会沿图中的线本身切割；{other} 应为 path 或 controller";
     an_extra_needs_a_drawn_part(key) => "{key} 需要为多个零件切割的轮廓：同时应设 pair.drawn-as";
     a_layer_in_two_workpieces(layer, one, other) => "图层 {layer} 同时属于工件 {one} 和 {other}：只能属于一个";
     milling_needs(missing) => "铣削需要电极和分层的数据：应设置 {missing}";
@@ -65,6 +66,12 @@ translate! {
     a_stop_that_does_not_stop(key, word, pause) => "{key} 是 {word}，它不使机床停下：ISO 应为 M00 或 M01，3B 应为 {pause}";
     the_control_runs_beside_the_drawn_contour(key, other) => "{key} 是 constant-stock，而 {other} 是 controller：每次切割都会沿图中轮廓走，与 sharp 一样；{other} 应为 path，或应为 sharp";
     a_lead_within_the_kerf(key, length, correction) => "{key} 是 {length}，小于补偿量 {correction}：穿丝处会落在自身的切缝内；应至少为补偿量";
+    passes_on_the_drawn_line(key, other, count) => "{key} 列出 {count} 次切割，而 {other} 是 none：丝只沿图中的线本身走一次，其余各次不起作用";
+    registers_need_the_control(key, other) => "{other} 是 path 时 {key} 不起作用：程序写的就是丝的轨迹，不引用补偿寄存器";
+    a_stock_needs_skims(key, other) => "{key} 是 constant-stock，只切一次时不起作用：{other} 应列出多次切割";
+    a_stop_needs_a_tab(key, other) => "没有 {other}，{key} 不起作用：没有暂留段";
+    a_step_needs_linear_feed(key, other) => "{other} 不是 linear 时，{key} 不起作用";
+    a_hole_narrower_than_the_wire(key, hole, other, wire) => "{key} 是 {hole}，应大于 {other} {wire}：丝穿不过这个孔";
     a_mass_needs_a_height(key) => "{key} 是废料的质量：应同时设置 job.thickness";
     a_limit_needs_a_tab(key) => "没有 program.tab，{key} 不起作用：应设废料更重的型孔暂留段的长度，mm";
     a_contour_of_two_roles(name, role, by, other, other_by) => "轮廓 {name} 有两个角色：{by} 定为 {role}，以它为准；{other_by} 定为 {other}";
