@@ -27,6 +27,7 @@ mod pockets;
 mod quick_reject;
 mod repair;
 mod report;
+mod runs;
 mod search;
 mod suppressed;
 mod told;

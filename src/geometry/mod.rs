@@ -7,6 +7,7 @@ mod approach;
 mod arc;
 mod biarc;
 mod bounds;
+mod boxes;
 mod ellipse;
 mod few;
 mod grid;
@@ -25,6 +26,7 @@ pub(crate) use approach::{curvature, facing, foot_inside, meetings, reached, sha
 pub use arc::Arc;
 pub(crate) use biarc::{Chain, Curve, Unfit, fit};
 pub(crate) use bounds::Bounds;
+pub(crate) use boxes::Boxes;
 pub(crate) use ellipse::EllipticArc;
 pub(crate) use few::Few;
 pub(crate) use grid::Grid;
