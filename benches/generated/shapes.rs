@@ -10,7 +10,7 @@ pub struct Shape {
 }
 
 /// All of them, with names that can be names of files.
-pub const ALL: [Shape; 24] = [
+pub const ALL: [Shape; 28] = [
     Shape {
         name: "comb",
         text: |count| polyline(&comb(count), true),
@@ -107,6 +107,22 @@ pub const ALL: [Shape; 24] = [
     Shape {
         name: "gaps-in-one-chain",
         text: |count| lines(gaps_in_one_chain(count)),
+    },
+    Shape {
+        name: "ladder",
+        text: |count| lines(ladder(count)),
+    },
+    Shape {
+        name: "collinear",
+        text: |count| lines((0..count).map(collinear)),
+    },
+    Shape {
+        name: "near-doubles-in-one-place",
+        text: |count| lines((0..count).map(near_double)),
+    },
+    Shape {
+        name: "asterisks",
+        text: |count| lines((0..count).map(spoke)),
     },
     Shape {
         name: "one-handle",
@@ -386,6 +402,38 @@ fn gaps_in_one_chain(count: usize) -> Vec<[Point; 2]> {
         [[ax + (bx - ax) * 0.002, ay + (by - ay) * 0.002], [bx, by]]
     };
     chain(&comb(count), true).into_iter().map(apart).collect()
+}
+
+/// Two rails and the rungs between them.
+fn ladder(count: usize) -> Vec<[Point; 2]> {
+    let cell = |number: usize| {
+        let (x, next) = (number as f64, number as f64 + 1.0);
+        [
+            [[x, 0.0], [next, 0.0]],
+            [[x, 5.0], [next, 5.0]],
+            [[x, 0.0], [x, 5.0]],
+        ]
+    };
+    (0..count / 3).flat_map(cell).collect()
+}
+
+/// One of many lines on one another, each a little longer than the last.
+fn collinear(number: usize) -> [Point; 2] {
+    let half = 1.0 + number as f64 * 0.01;
+    [[-half, 0.0], [half, 0.0]]
+}
+
+/// One of many lines between two places, each nearly where the others are.
+fn near_double(number: usize) -> [Point; 2] {
+    let off = |by: usize| (number * by % 41) as f64 * 1e-4 - 0.002;
+    [[off(7), off(11)], [10.0 + off(17), 5.0 + off(23)]]
+}
+
+/// One of a hundred lines that meet in each of many points.
+fn spoke(number: usize) -> [Point; 2] {
+    let (x, y) = place(number / 100, 50.0);
+    let angle = (number % 100) as f64 / 100.0 * TAU;
+    [[x, y], [x + 20.0 * angle.cos(), y + 20.0 * angle.sin()]]
 }
 
 /// A wheel of blunt teeth of which every second segment is shorter than 0.005.

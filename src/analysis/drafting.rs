@@ -11,20 +11,19 @@ use super::Analysis;
 use super::contours::{role_of, role_of_linetype, set_aside};
 use super::end_index::{EndIndex, SHARE};
 use super::report::Report;
+use super::runs::{MANY_RUNS, Runs, boxes_of, is_flat};
 use super::suppressed::own_role;
 use crate::drawing::{
-    Contour, ContourIndex, ContourKey, Drawing, EntityId, Role, is_drafting_layer,
-    is_drafting_linetype, turns_about,
+    ContourIndex, ContourKey, Drawing, EntityId, Role, is_drafting_layer, is_drafting_linetype,
 };
 use crate::finding::{Aside, Detail, MOST_HANDLES, Place, Rule, SetAside};
 use crate::geometry::{
-    Bounds, Grid, Line, Point, Segment, Vector, cross, line_line, meetings, turn,
+    Bounds, Boxes, Grid, Line, Point, Segment, Vector, cross, line_line, meetings,
 };
 use crate::settings::Compensation;
 use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::{BTreeMap, BTreeSet};
-use std::f64::consts::TAU;
 use std::sync::{Arc, OnceLock};
 
 /// Two ends always belong together within this many join tolerances (1 mm), unless the other one is a lone line.
@@ -176,14 +175,19 @@ impl Analysis {
         }
         self.know_vicinity();
         let is_closed = |key: &ContourKey| self.chains.get(*key).is_some_and(|it| it.closed);
+        let sorted = self.sorted_runs(keys.len());
         let holds = |lone: &Lone, other: ContourKey| {
-            is_closed(&other) && self.holds_some_of(drawing, &lone.line, other)
+            is_closed(&other) && self.holds_some_of(drawing, &lone.line, other, sorted.get(&other))
         };
         // Thousands of lines may be near each other: those in no closed contour are not examined.
         let closed = (keys.len() > MANY).then(|| {
             let mut closed = Grid::default();
-            for (&key, known) in self.known.iter().filter(|(key, _)| is_closed(key)) {
-                closed.insert(key, known.index.bounds());
+            let join = self.limits.tolerances.join;
+            for (&key, known) in &self.known {
+                let contour = self.chains.get(key).filter(|contour| contour.closed);
+                if contour.is_some_and(|it| !is_flat(drawing, it, &known.index, join)) {
+                    closed.insert(key, known.index.bounds());
+                }
             }
             closed
         });
@@ -229,6 +233,14 @@ impl Analysis {
             (std::mem::replace(&mut lone.is_aside, is_aside) != is_aside).then_some(key)
         };
         judged.into_iter().filter_map(is_new).collect()
+    }
+
+    /// The runs of long closed contours by place, where that many lines are asked about.
+    fn sorted_runs(&self, lines: usize) -> FxHashMap<ContourKey, Boxes> {
+        let is_closed = |key: &ContourKey| self.chains.get(*key).is_some_and(|it| it.closed);
+        let all = self.known.iter().filter(|_| lines > MANY);
+        let long = all.filter(|(key, of)| of.index.run_count() >= MANY_RUNS && is_closed(key));
+        long.map(|(&key, of)| (key, boxes_of(&of.index))).collect()
     }
 
     /// The contours of a drawing whose boxes, or reaches of lone lines, touch an area.
@@ -331,7 +343,13 @@ impl Analysis {
     }
 
     /// True where a stretch of the line lies within a closed contour, and not on it.
-    fn holds_some_of(&self, drawing: &Drawing, line: &Line, other: ContourKey) -> bool {
+    fn holds_some_of(
+        &self,
+        drawing: &Drawing,
+        line: &Line,
+        other: ContourKey,
+        sorted: Option<&Boxes>,
+    ) -> bool {
         let join = self.limits.tolerances.join;
         let (Some(contour), Some(known)) = (self.chains.get(other), self.known.get(&other)) else {
             return false;
@@ -339,10 +357,16 @@ impl Analysis {
         if !contour.closed {
             return false;
         }
+        let runs = Runs {
+            drawing,
+            contour,
+            index: &known.index,
+            sorted,
+        };
         let own = Segment::Line(*line);
         let area = Bounds::of_points(&[line.start, line.end]).grown(join);
         let mut cuts = vec![0.0, 1.0];
-        for range in known.index.near(&area) {
+        for range in runs.near(&area) {
             for segment in contour.segments_in(drawing, range) {
                 let met = meetings(&own, &segment.geometry);
                 cuts.extend(met.into_iter().map(|point| line.share_of(point)));
@@ -363,7 +387,7 @@ impl Analysis {
             .map(|cut| own.point_at(cut[0].midpoint(cut[1])));
         let lies_on = |point: Point| {
             let about = Bounds::of_disc(point, join);
-            known.index.near(&about).any(|range| {
+            runs.near(&about).into_iter().any(|range| {
                 contour
                     .segments_in(drawing, range)
                     .any(|segment| segment.geometry.distance_to(point) <= join)
@@ -371,7 +395,7 @@ impl Analysis {
         };
         middles
             .into_iter()
-            .any(|middle| is_inside(drawing, contour, &known.index, middle) && !lies_on(middle))
+            .any(|middle| runs.enclose(middle) && !lies_on(middle))
     }
 
     /// The lines whose answer may depend on something within these boxes.
@@ -454,30 +478,6 @@ fn are_a_corner(one: &Line, other: &Line, least: f64) -> bool {
         (0.0..=SHARE).contains(&missing)
     };
     beyond(one, u, lengths[0]) && beyond(other, v, lengths[1])
-}
-
-/// Whether a closed contour encloses a point. A run whose box does not hold the point is replaced by its chord.
-fn is_inside(drawing: &Drawing, contour: &Contour, index: &ContourIndex, point: Point) -> bool {
-    let here = Bounds::of_points(&[point]);
-    if !index.bounds().touches(&here) {
-        return false;
-    }
-    let (mut angle, mut caps) = (0.0, 0);
-    for run in 0..index.run_count() {
-        let range = index.range_of(run);
-        if index.bounds_of_run(run).touches(&here) {
-            let segments = contour.segments_in(drawing, range);
-            let (turned, arcs) = turns_about(segments.map(|segment| segment.geometry), point);
-            angle += turned;
-            caps += arcs;
-        } else if let Some((first, last)) = contour
-            .segment(drawing, range.start)
-            .zip(contour.segment(drawing, range.end.saturating_sub(1)))
-        {
-            angle += turn(first.geometry.start() - point, last.geometry.end() - point);
-        }
-    }
-    (angle / TAU).round() as i64 + caps != 0
 }
 
 pub(super) type LoneLines = FxHashMap<ContourKey, Lone>;

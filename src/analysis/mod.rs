@@ -28,6 +28,7 @@ mod pockets;
 mod quick_reject;
 mod repair;
 mod report;
+mod runs;
 mod said_twice;
 mod search;
 mod suppressed;

@@ -416,17 +416,12 @@ impl<'a> Joints<'a> {
             partners.entry(one).or_default().push(other);
             partners.entry(other).or_default().push(one);
         }
-        let meets = |entity: u32| {
-            self.count_met(entity, |other| {
-                partners
-                    .get(&entity)
-                    .is_some_and(|doubles| doubles.contains(&other))
-            })
+        partners.values_mut().for_each(|of| of.sort_unstable());
+        let rank = |(&entity, own): (&u32, &Vec<u32>)| {
+            let met = self.count_met(entity, |other| own.binary_search(&other).is_ok());
+            (Reverse(met), entity)
         };
-        let mut ranked: Vec<(Reverse<usize>, u32)> = partners
-            .keys()
-            .map(|&entity| (Reverse(meets(entity)), entity))
-            .collect();
+        let mut ranked: Vec<(Reverse<usize>, u32)> = partners.iter().map(rank).collect();
         ranked.sort_unstable_by(|(a, one), (b, other)| {
             a.cmp(b).then_with(|| self.by_place(*one, *other))
         });

@@ -212,18 +212,29 @@ impl Document {
     }
 
     /// Whether [`Document::fix_all`] would change anything, by the first finding of all `found` for which it would. Where none of very many
-    /// can be repaired the others are not looked at.
+    /// can be repaired the others are not looked at, and each try reads the program again: only a few are made alone.
     pub(crate) fn can_be_fixed(&self, found: &[Finding]) -> bool {
         const MOST_LOOKED_AT: usize = 1_000;
+        const TRIED_ALONE: usize = 4;
+        let mut fixes = Vec::new();
         let some = found.iter().take(MOST_LOOKED_AT);
-        let mut fixes = some.filter_map(|finding| self.safe_fix(finding));
-        fixes.any(|fix| self.together(vec![fix]).is_some())
+        for fix in some.filter_map(|finding| self.safe_fix(finding)) {
+            if fixes.len() < TRIED_ALONE && self.together(vec![fix.clone()]).is_some() {
+                return true;
+            }
+            fixes.push(fix);
+        }
+        fixes.len() > 1 && self.together(fixes).is_some()
     }
 
     /// The fix of a finding that is safe to make with others.
     fn safe_fix(&self, finding: &Finding) -> Option<(Rule, TextFix)> {
+        let offered = || match self {
+            Document::ThreeB(document) => document.local_fixes(finding),
+            Document::Iso(document) => document.local_fixes(finding),
+        };
         let mut fixes = (finding.severity <= Severity::Information)
-            .then(|| self.offered(finding))?
+            .then(offered)?
             .into_iter();
         let fix = fixes.find(|fix| fix.preferred && fix.in_fix_all)?;
         Some((finding.rule, fix))

@@ -103,6 +103,13 @@ pub(super) fn renamed(
     Ok(edits)
 }
 
+/// Whether the numbering of all blocks is among the fixes of a number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Renumbering {
+    Offered,
+    LeftOut,
+}
+
 /// The fixes of a number: the one of the block's turn, where that is known, and all blocks renumbered, from the
 /// `first` number on by a step.
 pub(super) fn fixes(

@@ -19,6 +19,13 @@ pub(crate) struct Whereabouts<'a> {
     lost: Option<usize>,
     chunk: Option<usize>,
     steps: Vec<Step>,
+    /// Chunks without steps, all those behind one with steps, or from the first on.
+    empty: Range<usize>,
+    /// Where the machine stands before all steps, once that was needed; `None` where there are none.
+    begin: Option<Option<Point>>,
+    /// How many chunks were passed.
+    #[cfg(test)]
+    passed: usize,
 }
 
 impl<'a> Whereabouts<'a> {
@@ -28,6 +35,10 @@ impl<'a> Whereabouts<'a> {
             lost: None,
             chunk: None,
             steps: Vec::new(),
+            empty: 0..0,
+            begin: None,
+            #[cfg(test)]
+            passed: 0,
         }
     }
 
@@ -56,19 +67,37 @@ impl<'a> Whereabouts<'a> {
             .last()
             .map(|step| step.end);
         if before.is_none() {
-            let has_steps = |chunk: &usize| !program.sum_of(*chunk).is_empty();
-            let earlier = (0..chunk).rev().find(has_steps);
-            before = match earlier {
+            before = match self.with_steps_before(chunk) {
                 Some(earlier) => self.steps_of(earlier).last().map(|step| step.end),
-                None => (0..program.chunk_count())
-                    .any(|chunk| has_steps(&chunk))
-                    .then(|| program.begin().0),
+                None => *self.begin.get_or_insert_with(|| {
+                    let mut chunks = 0..program.chunk_count();
+                    let has_steps = |chunk| !program.sum_of(chunk).is_empty();
+                    chunks.any(has_steps).then(|| program.begin().0)
+                }),
             };
         }
         Some(Stand {
             start: in_mm(before?),
             end: None,
         })
+    }
+
+    /// The last chunk before one that has steps. Those that are passed on the way are not looked at again for the next place.
+    fn with_steps_before(&mut self, chunk: usize) -> Option<usize> {
+        let mut first = chunk;
+        while let Some(before) = first.checked_sub(1) {
+            #[cfg(test)]
+            (self.passed += 1);
+            if self.empty.contains(&before) {
+                first = self.empty.start;
+            } else if self.program.sum_of(before).is_empty() {
+                first = before;
+            } else {
+                break;
+            }
+        }
+        self.empty = first..chunk;
+        first.checked_sub(1)
     }
 
     fn steps_of(&mut self, chunk: usize) -> &[Step] {
@@ -101,4 +130,41 @@ impl<'a> Whereabouts<'a> {
 
 fn in_mm(point: Point) -> Point {
     Point::origin() + Vector::new(point.x, point.y) / 1e3
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::program::iso::Document;
+
+    #[test]
+    fn chunks_without_steps_are_passed_once() {
+        for head in ["", "G00 X1. Y2.\n"] {
+            let calls: String = (2..2_002)
+                .map(|number| format!("M98 P{number}\n"))
+                .collect();
+            let text = format!("G90\nG92 X0. Y0.\n{head}{calls}M30\n");
+            let document = Document::read(text.into_bytes());
+            let mut whereabouts = Whereabouts::within(&document);
+            let findings = document.findings();
+            assert!(findings.len() >= 2_000, "{}", findings.len());
+            let mut places: Vec<Range<usize>> = Vec::new();
+            for finding in findings {
+                let crate::finding::Place::Text { range } = finding.place else {
+                    continue;
+                };
+                places.push(range);
+            }
+            for range in &places {
+                let alone = Whereabouts::within(&document).of(range);
+                assert_eq!(whereabouts.of(range), alone);
+            }
+            let chunks = document.chunk_count();
+            assert!(
+                whereabouts.passed <= 3 * chunks,
+                "{} {chunks}",
+                whereabouts.passed
+            );
+        }
+    }
 }

@@ -8,7 +8,7 @@ use super::order::{self, name};
 use super::requested::{Requested, wanted};
 use crate::drawing::{Drawing, Outline, are_twins, winding};
 use crate::finding::{Finding, Place, Rule, Severity};
-use crate::geometry::{Bounds, Point, Vector};
+use crate::geometry::{Bounds, Grid, Point, Vector};
 use crate::settings::{Compensation, Effective, Order};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -31,6 +31,30 @@ pub struct StartHole {
     pub is_given: bool,
     /// It was found, and cuts into a contour: there is no place for one of the set diameter.
     pub cuts: bool,
+}
+
+/// Holes by place.
+#[derive(Default)]
+pub(super) struct Holes {
+    places: Vec<Point>,
+    grid: Grid<usize>,
+}
+
+impl Holes {
+    pub(super) fn push(&mut self, at: Point) {
+        self.grid
+            .insert(self.places.len(), Bounds::of_points(&[at]));
+        self.places.push(at);
+    }
+
+    /// Those within a distance of a point, and perhaps others, in no order.
+    fn within(&self, at: Point, distance: f64) -> Vec<Point> {
+        let mut near = Vec::new();
+        self.grid.near(&Bounds::of_disc(at, distance), |hole, _| {
+            near.extend(self.places.get(hole));
+        });
+        near
+    }
 }
 
 /// The faults of the start holes of the set diameter: of given ones, and of openings without room for one.
@@ -215,7 +239,7 @@ impl Job<'_> {
 
     /// True where a start hole keeps its distance from every contour, and from the others; always where
     /// none is drilled.
-    pub(super) fn has_room(&self, at: Point, contours: &Contours, others: &[Point]) -> bool {
+    pub(super) fn has_room(&self, at: Point, contours: &Contours, others: &Holes) -> bool {
         let Some(reach) = self.hole_reach() else {
             return true;
         };
@@ -224,13 +248,14 @@ impl Job<'_> {
     }
 
     /// True where a start hole leaves a web beside each of the others, or is the same hole; always where none is drilled.
-    pub(super) fn is_apart(&self, at: Point, others: &[Point]) -> bool {
+    pub(super) fn is_apart(&self, at: Point, others: &Holes) -> bool {
         if self.hole_reach().is_none() {
             return true;
         }
         let diameter = self.settings.start_hole.unwrap_or_default();
         let (rounding, least) = (self.units(1e-6), self.units(diameter + HOLE_CLEAR));
-        others.iter().all(|other| {
+        let mut near = others.within(at, least).into_iter();
+        near.all(|other| {
             let apart = (other - at).norm();
             apart <= rounding || apart >= least - rounding
         })
@@ -244,7 +269,7 @@ impl Job<'_> {
         contours: &Contours,
         enough: f64,
     ) -> Option<(Point, f64)> {
-        self.deepest_beside(index, contours, enough, &[])
+        self.deepest_beside(index, contours, enough, &Holes::default())
     }
 
     /// The same for a start hole that is to keep apart from others: where one has no room beside these, the distance is below what a
@@ -254,7 +279,7 @@ impl Job<'_> {
         index: usize,
         contours: &Contours,
         enough: f64,
-        others: &[Point],
+        others: &Holes,
     ) -> Option<(Point, f64)> {
         let own = &self.outlines[index];
         let bounds = own.contour.bounds(self.drawing);
@@ -264,34 +289,35 @@ impl Job<'_> {
             let (own, other) = ((&own.contour, &bounds), (&other.contour, about));
             are_twins(self.drawing, own, other, tolerance)
         };
-        let lies_within = |other: &&Outline| {
-            let about = other.contour.bounds(self.drawing);
-            about != bounds
-                && bounds.min.x <= about.min.x
-                && bounds.min.y <= about.min.y
-                && about.max.x <= bounds.max.x
-                && about.max.y <= bounds.max.y
-                && other.contour.closed
-                && other.contour.double_of.is_none()
-                && other.contour.segment(self.drawing, 0).is_some_and(|first| {
-                    winding(self.drawing, &own.contour, first.geometry.point_at(0.5)) != 0
-                })
-                && !is_twin(other, &about)
-        };
-        let region = Region {
-            drawing: self.drawing,
-            own,
-            islands: self.outlines.iter().filter(lies_within).collect(),
-            walls: contours.walls(),
-            others,
-            nearer: self.units(self.settings.start_hole.unwrap_or_default() + HOLE_CLEAR)
-                - self.hole_reach().unwrap_or_default(),
+        let lies_within = |(other, about): (usize, Bounds)| {
+            let other = &self.outlines[other];
+            let first = other.contour.segment(self.drawing, 0)?;
+            let is_island = about != bounds
+                && winding(self.drawing, &own.contour, first.geometry.point_at(0.5)) != 0
+                && !is_twin(other, &about);
+            is_island.then_some(other)
         };
         let half = bounds.width().max(bounds.height()) / 2.0;
         if !half.is_finite() || half <= 0.0 {
             return None;
         }
         let middle = nalgebra::center(&bounds.min, &bounds.max);
+        let nearer = self.units(self.settings.start_hole.unwrap_or_default() + HOLE_CLEAR)
+            - self.hole_reach().unwrap_or_default();
+        // From everywhere in the square about it, the contour itself is nearer than any other hole.
+        let farthest = 3.0 * SQRT_2 * half + nearer.max(0.0);
+        let region = Region {
+            drawing: self.drawing,
+            own,
+            islands: contours
+                .within(&bounds)
+                .into_iter()
+                .filter_map(lies_within)
+                .collect(),
+            walls: contours.walls(),
+            others: &others.within(middle, farthest),
+            nearer,
+        };
         let within = half * DEPTH;
         let coarse = region.deepest(middle, half, enough, within)?;
         let fine = region.deepest(coarse.0, 2.0 * within, enough, within / 100.0)?;

@@ -13,7 +13,7 @@ use super::path::Source;
 use super::requested::Requested;
 use crate::drawing::{Drawing, EntityId, Outline};
 use crate::finding::{Detail, Finding, Place, Rule, Severity};
-use crate::geometry::{Point, Segment};
+use crate::geometry::{Bounds, Grid, Point, Segment};
 use crate::settings::{Effective, Lead};
 use std::sync::OnceLock;
 
@@ -32,6 +32,8 @@ pub(super) struct Contours<'a> {
     outlines: &'a [Outline],
     /// Once somebody has asked what is near.
     known: OnceLock<WallsOf>,
+    /// The closed ones that are cut, once somebody has asked what lies in an area.
+    closed: OnceLock<Grid<usize>>,
 }
 
 struct WallsOf {
@@ -46,7 +48,27 @@ impl Contours<'_> {
             drawing,
             outlines,
             known: OnceLock::new(),
+            closed: OnceLock::new(),
         }
+    }
+
+    /// The closed outlines that are cut whose boxes lie within an area, with their boxes, in their order.
+    pub(crate) fn within(&self, area: &Bounds) -> Vec<(usize, Bounds)> {
+        let closed = self.closed.get_or_init(|| {
+            let mut closed = Grid::default();
+            for (index, Outline { contour, .. }) in self.outlines.iter().enumerate() {
+                if contour.closed && contour.double_of.is_none() {
+                    closed.insert(index, contour.bounds(self.drawing));
+                }
+            }
+            closed
+        });
+        let mut within = Vec::new();
+        closed.near(area, |index, about| {
+            within.extend((about.merged(area) == *area).then_some((index, *about)));
+        });
+        within.sort_unstable_by_key(|(index, _)| *index);
+        within
     }
 
     fn known(&self) -> &WallsOf {

@@ -7,6 +7,7 @@ use super::cores::each;
 use super::corners::{Element, elements};
 use super::entry::{Entry, default_entry, path_point};
 use super::finished::{Finished, Kerf, finished};
+use super::hole::Holes;
 use super::job::{Job, ROUNDING};
 use super::lead_form::Landing;
 use super::leads::{Contours, Kerfs, fault};
@@ -141,7 +142,9 @@ impl Job<'_> {
             let rough = unled.passes.first()?;
             Some((unled.outline, &rough.path[..]))
         }));
-        let mut holes: Vec<Point> = wanted.iter().filter_map(|wanted| wanted.thread).collect();
+        let mut holes = Holes::default();
+        let given = wanted.iter().filter_map(|wanted| wanted.thread);
+        given.for_each(|thread| holes.push(thread));
         for (wanted, unled) in offsets {
             self.go_on()?;
             let thread = match self.thread_hole(&unled, &wanted, contours, &kerfs, &holes) {

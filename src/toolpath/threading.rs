@@ -3,6 +3,7 @@
 use super::contour_path::goes_out_and_back;
 use super::corners::Element;
 use super::entry::{circle_center, nearest};
+use super::hole::Holes;
 use super::job::{Job, ROUNDING};
 use super::leads::{Contours, Kerfs, Surroundings, Threading, fault, thread_hole};
 use super::offset::Wall;
@@ -76,7 +77,7 @@ impl Job<'_> {
         wanted: &Requested,
         contours: &Contours,
         kerfs: &Kerfs,
-        holes: &[Point],
+        holes: &Holes,
     ) -> Result<Point, Finding> {
         let stand = unled.passes.iter().find(|pass| pass.path.is_empty());
         let (Some(rough), Some(entry)) = (unled.passes.first(), &unled.entry) else {

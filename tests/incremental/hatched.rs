@@ -12,10 +12,11 @@ fn turned(x: f64, y: f64, angle: f64) -> Point {
 proptest! {
     #![proptest_config(ProptestConfig { cases: cases(60), failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// Lines of a hatch within a plate, some of which end beside another line or an open outline.
+    /// Lines of a hatch within a plate, whose edges may be long ones of many teeth, some of which end beside another line or an open outline.
     #[test]
     fn lines_of_a_hatch_are_set_aside_as_if_afresh(
         angle in prop::sample::select(vec![0.0, 0.6, 2.0]),
+        teeth in prop::sample::select(vec![1_usize, 1, 200]),
         apart in prop::sample::select(vec![0.3, 1.0, 2.5]),
         ends in proptest::collection::vec((0.0..3.0f64, 17.0..23.0f64, -0.5..0.5f64), 20..60),
         across in proptest::collection::vec((0.0..20.0f64, 0.0..20.0f64, 1.0..9.0f64), 0..4),
@@ -31,7 +32,15 @@ proptest! {
         };
         let wide = ends.len() as f64 * apart;
         let mut drawing = Drawing::new(None);
-        drawing.push(entity(polyline(true, &[(-3.0, -3.0), (wide, -3.0), (wide, 25.0), (-3.0, 25.0)]), None));
+        let corners = [(-3.0, -3.0), (wide, -3.0), (wide, 25.0), (-3.0, 25.0)];
+        let edge = |side: usize| {
+            let ((x, y), (u, v)) = (corners[side], corners[(side + 1) % 4]);
+            (0..teeth).map(move |tooth| {
+                let (share, deep) = (tooth as f64 / teeth as f64, 0.1 * (tooth % 2) as f64);
+                (x + (u - x) * share + deep, y + (v - y) * share + deep)
+            })
+        };
+        drawing.push(entity(polyline(true, &(0..4).flat_map(edge).collect::<Vec<_>>()), None));
         for (at, (low, high, slant)) in ends.iter().enumerate() {
             let x = at as f64 * apart;
             drawing.push(entity(line((x, *low), (x + slant, *high)), None));

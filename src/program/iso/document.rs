@@ -9,7 +9,7 @@ use super::leader::leader;
 use super::limits::Limits;
 use super::machine::Machine;
 use super::moves::Reading;
-use super::order::{Order, order};
+use super::order::{Order, labels, order};
 use super::part::Hears;
 use super::read::words_of;
 use super::repair::found::Repairs;
@@ -62,6 +62,8 @@ pub struct Document {
     pub(super) repairs_before: Option<Arc<Repairs>>,
     /// Whether its words stand apart, once somebody has asked.
     is_parted: OnceLock<bool>,
+    /// The line of each N and O number, once somebody has asked.
+    labels: OnceLock<Arc<FxHashMap<u32, usize>>>,
 }
 
 /// The last value of each place of the control's table, nm.
@@ -93,6 +95,7 @@ impl Document {
             repairs: OnceLock::new(),
             repairs_before: None,
             is_parted: OnceLock::new(),
+            labels: OnceLock::new(),
         };
         document.read_all();
         document
@@ -152,6 +155,11 @@ impl Document {
     /// Whether its words stand apart.
     pub(super) fn is_parted(&self) -> bool {
         *self.is_parted.get_or_init(|| is_parted(&self.text))
+    }
+
+    /// The line of each N and O number.
+    pub(super) fn labels(&self) -> &FxHashMap<u32, usize> {
+        self.labels.get_or_init(|| Arc::new(labels(&self.text)))
     }
 
     /// A line's bytes, without its end; none of a line before the first `%`.
@@ -259,6 +267,7 @@ impl Document {
     /// Replaces a range of bytes and runs again what it touched.
     pub fn edit(&mut self, range: Range<usize>, replacement: &str) {
         self.repairs_before = self.repairs.take().or(self.repairs_before.take());
+        self.labels = OnceLock::new();
         // The byte before belongs to the edit: a CR there may become one line end with an inserted LF.
         let first = range.start.min(self.text.len()).saturating_sub(1);
         if self.text.line_of(first) < LOOKED_AT {

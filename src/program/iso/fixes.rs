@@ -6,12 +6,11 @@ use super::block::{Block, Compensation, Motion, Stop};
 use super::document::Document;
 use super::machine::Machine;
 use super::moves::{Place, apart, distance, meet};
-use super::order::labels;
 use super::plain::{plain, word_at};
 use super::repair::{is_trouble, line_of};
 use super::style::Style;
 use crate::finding::{Detail, Fault, Finding, FixKind, Place as Where, Rule, TextFix};
-use crate::program::numbering::{self, Numbers};
+use crate::program::numbering::{self, Numbers, Renumbering};
 use crate::program::path::tolerance;
 use crate::program::repair::{merged, offered, without_spur};
 use crate::text::TextEdit;
@@ -21,7 +20,17 @@ use std::ops::Range;
 impl Document {
     /// The fixes of one finding, the preferred one first: those of its own place, and the slip that may explain it.
     pub fn fixes(&self, finding: &Finding) -> Vec<TextFix> {
-        let (own, searched) = (of_place(self, finding), searched(self, finding));
+        self.fixes_and(finding, Renumbering::Offered)
+    }
+
+    /// Those that are about the finding alone: all but the numbering of all blocks, which is never made with others.
+    pub(crate) fn local_fixes(&self, finding: &Finding) -> Vec<TextFix> {
+        self.fixes_and(finding, Renumbering::LeftOut)
+    }
+
+    fn fixes_and(&self, finding: &Finding, renumbering: Renumbering) -> Vec<TextFix> {
+        let own = of_place(self, finding, renumbering);
+        let searched = searched(self, finding);
         let speaks_for_itself = matches!(finding.rule, Rule::Syntax | Rule::DoubledBlock);
         match speaks_for_itself && !own.is_empty() {
             true => merged(own, searched, false),
@@ -54,7 +63,7 @@ fn searched(document: &Document, finding: &Finding) -> Vec<TextFix> {
 }
 
 /// The fixes of the finding's own place.
-fn of_place(document: &Document, finding: &Finding) -> Vec<TextFix> {
+fn of_place(document: &Document, finding: &Finding, renumbering: Renumbering) -> Vec<TextFix> {
     let Where::Text { range } = &finding.place else {
         return Vec::new();
     };
@@ -67,7 +76,7 @@ fn of_place(document: &Document, finding: &Finding) -> Vec<TextFix> {
         Fault::Bare { .. } => bare_fixes(document, range),
         Fault::OffRadius { .. } => center_fixes(document, range),
         Fault::DoubledNumber { .. } | Fault::Unnumbered { .. } => {
-            number_fixes(document, fault, range)
+            number_fixes(document, fault, range, renumbering)
         }
         fault => plain_fix(document, fault, range).into_iter().collect(),
     }
@@ -334,10 +343,14 @@ fn goes_on_by_itself(document: &Document, line: usize, motion: Motion) -> bool {
 }
 
 /// The number of the block's turn where there is room for it; all blocks renumbered.
-fn number_fixes(document: &Document, fault: &Fault, range: &Range<usize>) -> Vec<TextFix> {
-    let text = document.text();
-    let line = text.line_of(range.start);
-    let free = |number: u32| !labels(text).contains_key(&number);
+fn number_fixes(
+    document: &Document,
+    fault: &Fault,
+    range: &Range<usize>,
+    renumbering: Renumbering,
+) -> Vec<TextFix> {
+    let line = document.text().line_of(range.start);
+    let free = |number: u32| !document.labels().contains_key(&number);
     let own = match *fault {
         Fault::Unnumbered { expected } if free(expected) => {
             let edit = document.with_word(line, &format!("N{expected}"));
@@ -354,7 +367,9 @@ fn number_fixes(document: &Document, fault: &Fault, range: &Range<usize>) -> Vec
         }
         _ => None,
     };
-    let all = numbering::numbered(document).ok();
+    let all = (renumbering == Renumbering::Offered)
+        .then(|| numbering::numbered(document).ok())
+        .flatten();
     numbering::fixes(own, all.map(|edits| ([Document::STEP; 2], edits)))
 }
 

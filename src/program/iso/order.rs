@@ -49,6 +49,7 @@ pub(crate) fn order(text: &SourceText) -> Order {
     let mut walk = Walk {
         text,
         order,
+        told: FxHashSet::default(),
         left: most_lines,
         calls: MOST_CALLS,
     };
@@ -77,6 +78,8 @@ pub(super) fn called(text: &SourceText) -> FxHashSet<u32> {
 struct Walk<'a> {
     text: &'a SourceText,
     order: Order,
+    /// The calls that lead nowhere and the subprograms that run on: a line may run many times.
+    told: FxHashSet<(usize, u32)>,
     /// How many lines may still run.
     left: usize,
     /// How many calls may still be followed.
@@ -146,7 +149,7 @@ impl Walk<'_> {
     }
 
     fn unreturned(&mut self, line: usize, number: u32) {
-        if !self.order.unreturned.contains(&(line, number)) {
+        if self.told.insert((line, number)) {
             self.order.unreturned.push((line, number));
         }
     }
@@ -175,7 +178,7 @@ impl Walk<'_> {
                 false
             }
             None => {
-                if !self.order.missing.contains(&(from, number)) {
+                if self.told.insert((from, number)) {
                     self.order.missing.push((from, number));
                 }
                 true

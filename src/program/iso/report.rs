@@ -13,7 +13,7 @@ use super::moves::{Place as Spot, Reading, apart, meet, micrometres};
 use super::part::{Part, WireSide};
 use super::plain::word_at;
 use super::repair::found::Repair;
-use super::repair::{Troubles, cut_around, line_of};
+use super::repair::{Troubles, cut_within, line_of};
 use super::stretch::Stretch;
 use crate::finding::{Detail, Fault, Finding, Place, Rule, Severity, Side};
 use crate::geometry::cross;
@@ -186,7 +186,7 @@ impl Tried for Document {
     }
 
     fn cut_lines(&self, line: usize) -> Range<usize> {
-        cut_around(self, line)
+        cut_within(self, line, usize::MAX)
     }
 }
 

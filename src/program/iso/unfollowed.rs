@@ -8,7 +8,7 @@ use super::document::Document;
 use super::names::{Unfollowed, meaning};
 use super::plain::{text_of, words_in};
 use super::word::{Number, Token};
-use std::collections::BTreeSet;
+use rustc_hash::FxHashSet;
 
 /// One of them in its line, from 0.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -20,9 +20,13 @@ pub(crate) struct UnfollowedWord {
 
 /// Such words of the lines that run, in their order, each once.
 pub(super) fn unfollowed(document: &Document) -> Vec<UnfollowedWord> {
-    let missing = document.order().map_or(&[][..], |order| &order.missing);
+    let missing = document
+        .order()
+        .into_iter()
+        .flat_map(|order| &order.missing);
+    let missing: FxHashSet<usize> = missing.map(|(line, _)| *line).collect();
     let mut found = Vec::new();
-    let mut seen = BTreeSet::new();
+    let (mut seen, mut zeros_seen) = (FxHashSet::default(), FxHashSet::default());
     let mut zeros = Zeros::default();
     for stretch in 0..document.stretches().len() {
         document.run_lines(stretch, &mut |ran| {
@@ -32,17 +36,15 @@ pub(super) fn unfollowed(document: &Document) -> Vec<UnfollowedWord> {
             let own = Line::of(document.line_bytes(line), ran.block);
             let zero = zeros.take(&own, moves);
             let others = own.words.iter().filter(|_| is_new);
-            let is_missing = missing.iter().any(|(at, _)| *at == line);
+            let is_missing = missing.contains(&line);
+            let zero = zero.filter(|word| zeros_seen.insert((line, word.clone())));
             let others = others.filter_map(|(token, text)| own.judge(token, text, is_missing));
             for (word, what) in zero
                 .map(|word| (word, Unfollowed::Zero))
                 .into_iter()
                 .chain(others)
             {
-                let own = UnfollowedWord { line, word, what };
-                if is_new || !found.contains(&own) {
-                    found.push(own);
-                }
+                found.push(UnfollowedWord { line, word, what });
             }
         });
     }

@@ -5,9 +5,8 @@
 //! four ends are apart; it crosses if they alternate round the place. The drift of a counting machine makes no
 //! crossing: anything within [`margin`] is only a touch.
 
-use super::boxes::Boxes;
 use super::way::tolerance;
-use crate::geometry::{Bounds, Point, Segment, Vector, meetings, positive_angle};
+use crate::geometry::{Bounds, Boxes, Point, Segment, Vector, meetings, positive_angle};
 use std::cell::Cell;
 
 mod leads;

@@ -6,7 +6,6 @@
 //! then decides which pieces cross, so that the division into parts does not matter.
 
 use super::behind_stops::KnownTabs;
-use super::boxes::Boxes;
 use super::crossing::{
     BESIDE, Crossing, MOST_PAIRS, Tangle, come_near, margin, most_looks, near_each_other,
 };
@@ -14,7 +13,7 @@ use super::parted::{Blocks, Part, PartedWay, SLACK, micrometres};
 use super::passes::{Before, MOST_PASSES, passes};
 use super::way::Way;
 use crate::finding::{Detail, Fault, Finding, NotJudged, Place, Rule, Severity};
-use crate::geometry::{Bounds, Segment, Vector};
+use crate::geometry::{Bounds, Boxes, Segment, Vector};
 use crate::text::SourceText;
 use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};

@@ -4,7 +4,6 @@
 //! Lengths are µm. Nothing here knows how a language is written.
 
 mod behind_stops;
-mod boxes;
 mod contour;
 mod crossing;
 mod crossings;

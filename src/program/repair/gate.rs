@@ -22,6 +22,11 @@ const TRIED: usize = 64 << 10;
 const ONE_BY_ONE: usize = 32;
 const ONE_BY_ONE_OF_LONG: usize = 4;
 
+/// The guesses about cuts of which it is tried whether each leaves its cut a fault: of one cut, and in all. The others wait
+/// until these are made.
+const TRIED_OF_CUT: usize = 8;
+const TRIED_GUESSES: usize = 64;
+
 /// A program on which repairs can be tried.
 pub(in crate::program) trait Tried: Report + Program + Clone {
     /// Replaces a range of bytes and rereads what it touched.
@@ -327,14 +332,30 @@ fn one_of_each_cut(program: &impl Tried, fixes: Vec<(Rule, TextFix)>) -> Vec<(Ru
         lines.extend(line(fix).map(|line| (line, fix.edit.clone())));
     }
     let is_short = text.len() <= TRIED;
+    // Findings of one cut come one after another.
+    let (mut cut, mut asked) = (0..0, None);
+    let (mut of_cut, mut in_all) = (0, 0);
     guesses.retain(|(_, fix)| {
         let Some(own) = line(fix) else {
             return false;
         };
-        let mut in_cut = lines.range(program.cut_lines(own));
+        // Its first and its last line may be those of others, too.
+        let is_within = cut.start < own && own + 1 < cut.end;
+        if asked.replace(own) != Some(own) && !is_within {
+            let its = program.cut_lines(own);
+            of_cut = if its == cut { of_cut } else { 0 };
+            cut = its;
+        }
+        let mut in_cut = lines.range(cut.clone());
         let is_alone = in_cut.all(|(_, edit)| *edit == fix.edit);
-        let keeps =
-            is_alone && !(is_short && leaves_faults(&edited(program, &fix.edit), &fix.edit));
+        let is_sound = || {
+            if of_cut == TRIED_OF_CUT || in_all == TRIED_GUESSES {
+                return false;
+            }
+            (of_cut, in_all) = (of_cut + 1, in_all + 1);
+            !leaves_faults(&edited(program, &fix.edit), &fix.edit)
+        };
+        let keeps = is_alone && (!is_short || { is_sound }());
         if keeps {
             lines.insert(own, fix.edit.clone());
         }

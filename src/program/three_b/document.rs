@@ -3,6 +3,7 @@
 //! The text is cut into stretches of lines. Lines are independent, so an edit rereads the stretches that it touched;
 //! everything about the whole program (contours, numbers, the end) comes from a few sums of each stretch.
 
+mod asked;
 mod contours;
 mod cuts;
 mod fixes;
@@ -27,6 +28,7 @@ use crate::program::contours::{Contours, PartAt, Touched};
 use crate::program::path::Known;
 use crate::settings::Effective;
 use crate::text::SourceText;
+use asked::Asked;
 use sequence::Numbers;
 use std::ops::Range;
 use told::Told;
@@ -104,6 +106,7 @@ struct View {
     /// The findings about single contours, and all others; the latter in no order, at bytes of the text.
     told: Told,
     findings: Vec<Finding>,
+    asked: Asked,
 }
 
 impl Document {
@@ -201,11 +204,7 @@ impl Document {
             before.end.map(moved) == self.view.end.map(Some)
         };
         let reread = reread.filter(same_end);
-        let mut before = if reread.is_some() {
-            before
-        } else {
-            View::default()
-        };
+        let mut before = reread.as_ref().map_or_else(View::default, |_| before);
         let reread = reread.unwrap_or_else(|| Reread::all(&self.stretches));
         let mut outer = std::mem::take(&mut before.outer);
         let mut contours = std::mem::take(&mut before.contours);

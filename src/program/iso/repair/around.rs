@@ -17,7 +17,16 @@ const ASTRAY: f64 = 20_000.0;
 
 /// The lines between the stops around a line, or between the places where subprograms begin, end and are called; more
 /// than [`LONGEST`] where there are too many.
-pub(in crate::program::iso) fn cut_around(document: &Document, line: usize) -> Range<usize> {
+pub(super) fn cut_around(document: &Document, line: usize) -> Range<usize> {
+    cut_within(document, line, LONGEST)
+}
+
+/// The same, up to this many lines before and behind.
+pub(in crate::program::iso) fn cut_within(
+    document: &Document,
+    line: usize,
+    most: usize,
+) -> Range<usize> {
     let is_order_kept = document.order().is_none();
     let ends_with = |line: usize| {
         let block = document.block(line);
@@ -30,11 +39,11 @@ pub(in crate::program::iso) fn cut_around(document: &Document, line: usize) -> R
     };
     let count = document.text().line_count();
     let mut first = line;
-    while first > 0 && line - first <= LONGEST && !begins_with(first) && !ends_with(first - 1) {
+    while first > 0 && line - first <= most && !begins_with(first) && !ends_with(first - 1) {
         first -= 1;
     }
     let mut end = line + 1;
-    while end < count && end - line <= LONGEST && !ends_with(end - 1) && !begins_with(end) {
+    while end < count && end - line <= most && !ends_with(end - 1) && !begins_with(end) {
         end += 1;
     }
     first..end

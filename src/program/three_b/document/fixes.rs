@@ -14,7 +14,7 @@ use super::sequence::place_before;
 use super::{At, Document};
 use crate::finding::{Detail, Fault, Finding, FixKind, Place};
 use crate::program::lookalikes::{Alike, alike};
-use crate::program::numbering;
+use crate::program::numbering::{self, Renumbering};
 use crate::program::path::{HasCuts, not_closed};
 use crate::program::repair::merged;
 use crate::text::TextEdit;
@@ -24,10 +24,17 @@ impl Document {
     /// The fixes of one finding, the preferred one first: explanations of the whole contour before those of the finding
     /// alone.
     pub fn fixes(&self, finding: &Finding) -> Vec<TextFix> {
-        merged(self.contour_fixes(finding), self.fixes_of(finding), false)
+        let own = self.fixes_of(finding, Renumbering::Offered);
+        merged(self.contour_fixes(finding), own, false)
     }
 
-    fn fixes_of(&self, finding: &Finding) -> Vec<TextFix> {
+    /// Those that are about the finding alone: all but the numbering of all blocks, which is never made with others.
+    pub(crate) fn local_fixes(&self, finding: &Finding) -> Vec<TextFix> {
+        let own = self.fixes_of(finding, Renumbering::LeftOut);
+        merged(self.contour_fixes(finding), own, false)
+    }
+
+    fn fixes_of(&self, finding: &Finding, renumbering: Renumbering) -> Vec<TextFix> {
         let Place::Text { range } = &finding.place else {
             return Vec::new();
         };
@@ -45,7 +52,7 @@ impl Document {
             Fault::NotClosed { .. } => self.closing_fixes(range),
             Fault::DoubledNumber { .. }
             | Fault::NumberOutOfOrder { .. }
-            | Fault::Unnumbered { .. } => self.number_fixes(range),
+            | Fault::Unnumbered { .. } => self.number_fixes(range, renumbering),
             Fault::PositionMismatch { .. } => self.position_fixes(range).unwrap_or_default(),
             Fault::Spur { .. } => self.spur_fixes(range).unwrap_or_default(),
             fault => self.block_fixes(range, fault),
@@ -209,21 +216,27 @@ impl Document {
         own.checked_add(numbering::step(before?.number()?, own)?)
     }
 
-    fn number_fixes(&self, range: &Range<usize>) -> Vec<TextFix> {
-        let (places, blocks) = self.numbered(self.view.end);
-        let found = numbering::check(&blocks);
-        let Some((index, _, meant)) = found.into_iter().find(|(index, ..)| {
-            places
-                .get(*index)
-                .is_some_and(|at| self.range_of(*at) == *range)
-        }) else {
+    fn number_fixes(&self, range: &Range<usize>, renumbering: Renumbering) -> Vec<TextFix> {
+        let faulty = self.view.asked.faulty_numbers(|| {
+            let (places, blocks) = self.numbered(self.view.end);
+            let found = numbering::check(&blocks).into_iter();
+            let of_place = found.filter_map(|(index, _, meant)| Some((*places.get(index)?, meant)));
+            // Of several findings of one block the first.
+            of_place.rev().collect()
+        });
+        let own = self.entry_at(range);
+        let own = own.filter(|at| self.range_of(*at) == *range);
+        let Some((at, meant)) = own.and_then(|at| Some((at, *faulty.get(&at)?))) else {
             return Vec::new();
         };
         let edit = |at: At, number: u32| {
             self.with_number(self.digits_before(at), self.range_of(at).start, number)
         };
-        let own = meant.zip(places.get(index));
-        let own = own.map(|(meant, at)| (meant, edit(*at, meant)));
+        let own = meant.map(|meant| (meant, edit(at, meant)));
+        if renumbering == Renumbering::LeftOut {
+            return numbering::fixes(own, None);
+        }
+        let (places, blocks) = self.numbered(self.view.end);
         let mut numbers = blocks.iter().filter_map(|block| block.number);
         let all = numbers.next().zip(numbers.next()).map(|(first, second)| {
             let step = second.saturating_sub(first).max(1);

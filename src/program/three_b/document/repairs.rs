@@ -54,13 +54,19 @@ impl Document {
         let Some(cut) = self.cut_of(at) else {
             return Vec::new();
         };
-        let Some(whole) = self.with_open_beside(&cut) else {
-            return self.searched(&cut, scope, |_| true);
+        // Every finding of a cut asks for the same.
+        let found = || self.fixes_of_cut(&cut, scope);
+        self.view.asked.fixes_of(&cut, scope, found)
+    }
+
+    fn fixes_of_cut(&self, cut: &JoinedCut, scope: Scope) -> Vec<TextFix> {
+        let Some(whole) = self.with_open_beside(cut) else {
+            return self.searched(cut, scope, |_| true);
         };
         // A single slip may leave both open; of two slips nothing says in which of the two each is.
         let fixes = self.searched(&whole, scope, |repair| repair.is_whole);
         match scope {
-            Scope::All if fixes.is_empty() => self.searched(&cut, scope, |repair| {
+            Scope::All if fixes.is_empty() => self.searched(cut, scope, |repair| {
                 repair.is_sure = false;
                 true
             }),

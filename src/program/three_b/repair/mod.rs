@@ -106,7 +106,7 @@ pub(super) struct Path<'a> {
 }
 
 /// Which repairs are handed out.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Scope {
     /// Those of wrong blocks, and of doubled ones.
     Blocks,

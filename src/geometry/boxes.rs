@@ -4,10 +4,11 @@
 //! Neighbours along a way are neighbours in the plane, so nothing is sorted, and a way is taken only as far as it is
 //! needed.
 
-use crate::geometry::Bounds;
+use super::Bounds;
+use std::ops::Range;
 
 #[derive(Debug, Default)]
-pub(super) struct Boxes {
+pub(crate) struct Boxes {
     levels: Vec<Vec<Bounds>>,
 }
 
@@ -74,6 +75,38 @@ impl Boxes {
             }
         }
     }
+
+    /// Hands out all pieces in order: those whose boxes touch a box each by itself, and between them ranges of which a box
+    /// about all does not touch it. Returns the number of boxes that it was compared with.
+    pub(crate) fn parted(&self, own: &Bounds, each: &mut impl FnMut(Range<usize>, bool)) -> usize {
+        match self.levels.is_empty() {
+            true => 0,
+            false => self.part((self.top(), 0), own, each),
+        }
+    }
+
+    fn part(
+        &self,
+        (level, index): (usize, usize),
+        own: &Bounds,
+        each: &mut impl FnMut(Range<usize>, bool),
+    ) -> usize {
+        let Some(bounds) = self.get(level, index) else {
+            return 0;
+        };
+        let count = self.levels[0].len();
+        let touches = bounds.touches(own);
+        match level.checked_sub(1).filter(|_| touches) {
+            None => {
+                each(index << level..((index + 1) << level).min(count), touches);
+                1
+            }
+            Some(below) => {
+                let mut half = |index| self.part((below, index), own, each);
+                1 + half(2 * index) + half(2 * index + 1)
+            }
+        }
+    }
 }
 
 #[cfg(test)]
@@ -98,7 +131,35 @@ mod tests {
             Boxes::of(all.iter().copied()).touching(&own, end, &mut |index| found.push(index));
             let each = all.iter().enumerate().take(end);
             let expected: Vec<usize> = each.filter(|(_, one)| one.touches(&own)).map(|(index, _)| index).collect();
-            prop_assert_eq!(found, expected);
+            prop_assert_eq!(&found, &expected);
+            let (mut alone, mut all_of) = (Vec::new(), Vec::new());
+            Boxes::of(all.iter().copied()).parted(&own, &mut |range, touches| {
+                alone.extend(range.clone().filter(|_| touches));
+                let about = range.clone().fold(Bounds::EMPTY, |about, index| about.merged(&all[index]));
+                assert_eq!(about.touches(&own), touches);
+                all_of.extend(range);
+            });
+            prop_assert_eq!(all_of, (0..all.len()).collect::<Vec<_>>());
+            prop_assert!(found.iter().all(|index| alone.contains(index)));
+        }
+    }
+
+    /// About a place between two long rows nearly all boxes are passed over, in few pieces.
+    #[test]
+    fn few_boxes_are_asked_about_a_place_between_two_rows() {
+        let row = |y: f64, from: f64, by: f64| {
+            let own = move |at: i32| from + by * f64::from(at);
+            (0..1000).map(move |at| {
+                let ends = [own(at), own(at + 1)].map(|x| Point::new(x, y));
+                Bounds::of_points(&ends)
+            })
+        };
+        let boxes = Boxes::of(row(0.0, 0.0, 1.0).chain(row(5.0, 1000.0, -1.0)));
+        for x in [0.5, 123.4, 500.0, 999.5] {
+            let here = Bounds::of_points(&[Point::new(x, 2.5)]);
+            let mut pieces = 0;
+            let asked = boxes.parted(&here, &mut |_, _| pieces += 1);
+            assert!(asked < 50 && pieces < 25, "{asked} {pieces}");
         }
     }
 }

@@ -1,0 +1,96 @@
+//! What is asked about a program again and again, with each of its findings: worked out once for each version of it.
+
+use super::super::repair::Scope;
+use super::super::rules::TextFix;
+use super::{At, JoinedCut};
+use crate::program::contours::PartAt;
+use std::collections::BTreeMap;
+use std::sync::{Mutex, OnceLock, PoisonError};
+
+/// The repairs of cuts, by their first and last part, whether each leads to another contour, and its stop.
+type OfCuts = BTreeMap<([PartAt; 2], bool, Option<usize>, Scope), Vec<TextFix>>;
+
+/// Answers that depend on the program alone.
+#[derive(Debug, Default)]
+pub(super) struct Asked {
+    fixes: Mutex<OfCuts>,
+    faulty_numbers: OnceLock<BTreeMap<At, Option<u32>>>,
+    /// How often repairs were worked out.
+    #[cfg(test)]
+    searches: std::sync::atomic::AtomicUsize,
+}
+
+impl Asked {
+    /// The repairs of a cut. While they are `found`, others may ask.
+    pub(super) fn fixes_of(
+        &self,
+        cut: &JoinedCut,
+        scope: Scope,
+        found: impl FnOnce() -> Vec<TextFix>,
+    ) -> Vec<TextFix> {
+        let key = (cut.parts, cut.is_jump, cut.stop, scope);
+        let held = || self.fixes.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(known) = held().get(&key) {
+            return known.clone();
+        }
+        #[cfg(test)]
+        (self.searches).fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+        let found = found();
+        held().insert(key, found.clone());
+        found
+    }
+
+    /// The blocks with a finding about their numbers, and the number of each one's turn, where that is known.
+    pub(super) fn faulty_numbers(
+        &self,
+        found: impl FnOnce() -> BTreeMap<At, Option<u32>>,
+    ) -> &BTreeMap<At, Option<u32>> {
+        self.faulty_numbers.get_or_init(found)
+    }
+}
+
+/// A copy is made to be changed: it knows no answers.
+impl Clone for Asked {
+    fn clone(&self) -> Asked {
+        Asked::default()
+    }
+}
+
+/// Answers do not tell programs apart.
+impl PartialEq for Asked {
+    fn eq(&self, _: &Asked) -> bool {
+        true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::program::three_b::Document;
+
+    fn searches(document: &Document) -> usize {
+        let searches = &document.view.asked.searches;
+        searches.load(std::sync::atomic::Ordering::Relaxed)
+    }
+
+    #[test]
+    fn a_cut_is_searched_once_for_all_its_findings() {
+        let square = "B9000B0B9000GXL1\nB0B9000B9000GYL2\nB9000B0B9000GXL3\nB0B9000B9000GYL4\nD\n";
+        let text = square.to_owned() + &"B0B0B0GXL1\n".repeat(300) + "DD\n";
+        let mut document = Document::read(text.into_bytes());
+        let asked = |document: &Document| {
+            let findings = document.findings();
+            assert!(findings.len() >= 300, "{}", findings.len());
+            let fixes = findings.iter().map(|finding| document.local_fixes(finding));
+            fixes.collect::<Vec<_>>()
+        };
+        let before = asked(&document);
+        assert_eq!(searches(&document), 1);
+        assert_eq!(asked(&document), before);
+        assert_eq!(searches(&document), 1);
+        // What was known of the text before an edit does not count after it.
+        document.edit(0..0, "\n");
+        assert_eq!(searches(&document), 0);
+        asked(&document);
+        assert_eq!(searches(&document), 1);
+    }
+}
