@@ -177,3 +177,28 @@ fn what_would_be_refused_is_not_written() {
         assert_eq!(errors.len(), 1, "{value}: {errors:?}");
     }
 }
+
+/// The order in which contours are picked, where none is.
+#[test]
+fn an_order_of_picks_without_picks_is_said() {
+    let desk = Desk::new();
+    desk.write(
+        "wedm.toml",
+        "side = \"opening\"\nprogram.order = \"as-picked\"\n",
+    );
+    desk.write(
+        "x.dxf",
+        "0\nSECTION\n2\nENTITIES\n0\nCIRCLE\n5\n2A\n10\n0\n20\n0\n40\n5\n0\nENDSEC\n0\nEOF\n",
+    );
+    let said = "no contour is picked";
+    let made = desk.run("generate x.dxf -o x.3b");
+    assert!(
+        made.code == Some(0) && made.stderr.contains(said),
+        "{made:?}"
+    );
+    let made = desk.run("generate x.dxf --handle 2A -o y.3b");
+    assert!(
+        made.code == Some(0) && !made.stderr.contains(said),
+        "{made:?}"
+    );
+}
