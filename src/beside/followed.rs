@@ -10,7 +10,7 @@ use super::drawn::Drawn;
 use super::infer;
 use super::passes::corrections;
 use super::rounds::{Course, Rounds};
-use super::traced::Traced;
+use super::traced::{Block, Traced};
 use std::rc::Rc;
 
 /// The most lists of corrections that are tried.
@@ -42,6 +42,9 @@ pub(super) fn followed(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
         let (mut walked, placement) = placements
             .into_iter()
             .find_map(|placement| Some((sound(traced, &rounds, placement)?.0, placement)))?;
+        if is_left(traced, &walked.runs) {
+            return None;
+        }
         // Many are the way of its writer; a few somebody has changed.
         if SLIPS * walked.slips.len() <= walked.follows.len() {
             walked.unlike = std::mem::take(&mut walked.slips);
@@ -64,4 +67,20 @@ fn ways(drawn: &Drawn, traced: &Traced) -> Vec<Vec<Course>> {
     let beside = |list: Vec<f64>| list.into_iter().map(Course::Beside).collect();
     all.extend(single.chain(lists).take(LISTS).map(beside));
     all
+}
+
+/// Whether a block between others of a pass, while the control offsets it, follows nothing: there it is no way in or out.
+fn is_left(traced: &Traced, runs: &[bool]) -> bool {
+    let blocks: Vec<(&Block, bool)> = traced.blocks.iter().zip(runs.iter().copied()).collect();
+    let passes = blocks.chunk_by(|(one, _), (other, _)| one.stretch == other.stretch);
+    let mut offset = passes.filter(|pass| pass.iter().all(|(block, _)| block.is_offset()));
+    offset.any(|pass| {
+        let first = pass.iter().position(|(_, follows)| *follows);
+        let last = pass.iter().rposition(|(_, follows)| *follows);
+        let between = first
+            .zip(last)
+            .map_or(&[][..], |(first, last)| &pass[first..last]);
+        let mut between = between.iter();
+        between.any(|(block, follows)| !follows && block.segment().is_some())
+    })
 }

@@ -131,7 +131,8 @@ impl Members {
         if whole && !traced.four_b && rounds.is_begin(&from) {
             let (meant, _) = stretch(rounds, &from, &entry);
             let off = numbers_apart(segment, &meant, traced.counts);
-            self.slips.extend((off > NUMBER).then(|| Unlike {
+            let is_one = (length - meant.length()).abs() < 1e-6;
+            self.slips.extend((is_one && off > NUMBER).then(|| Unlike {
                 block: index,
                 source: rounds.piece(&from).source,
                 off,

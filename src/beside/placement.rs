@@ -427,8 +427,11 @@ impl Placement {
 /// shorter it is beside its radius.
 pub(super) fn lever(arc: &Arc) -> f64 {
     let chord = (arc.end - arc.start).norm();
-    if arc.sweep.abs() >= std::f64::consts::PI || chord < LEAST_PART {
+    if arc.sweep.abs() >= std::f64::consts::PI {
         return 0.0;
+    }
+    if chord < LEAST_PART {
+        return f64::INFINITY;
     }
     2.0 * SNAPPED * (arc.radius / chord - 0.5).max(0.0)
 }

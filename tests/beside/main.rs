@@ -3,6 +3,7 @@
 mod blocks;
 mod changes;
 mod edited;
+mod foreign;
 mod inferred;
 mod long;
 mod numbers;
@@ -18,7 +19,7 @@ mod unknown;
 mod written;
 
 use std::sync::Arc;
-use wedm::beside::Traced;
+use wedm::beside::{Drawn, Traced, compare};
 use wedm::document::{Document, Source};
 use wedm::drawing::{Drawing, Entity, Geometry, Kind, Role, Unit, Vertex};
 use wedm::geometry::Point;
