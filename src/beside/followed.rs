@@ -3,6 +3,7 @@
 //! A block is named where no way of writing the drawing explains it: what leaves nothing to name comes before what
 //! leaves little.
 
+use super::LEADS;
 use super::anchor::places;
 use super::comparison::{Tried, courses, longest_cut, sound, with_other_corner};
 use super::difference::Comparison;
@@ -69,18 +70,25 @@ fn ways(drawn: &Drawn, traced: &Traced) -> Vec<Vec<Course>> {
     all
 }
 
-/// Whether a block between others of a pass, while the control offsets it, follows nothing: there it is no way in or out.
+/// Whether a block of a pass, while the control offsets it, follows nothing and is no way in or out: it stands between
+/// others that follow, or is one of too many before or behind them.
 fn is_left(traced: &Traced, runs: &[bool]) -> bool {
     let blocks: Vec<(&Block, bool)> = traced.blocks.iter().zip(runs.iter().copied()).collect();
     let passes = blocks.chunk_by(|(one, _), (other, _)| one.stretch == other.stretch);
     let mut offset = passes.filter(|pass| pass.iter().all(|(block, _)| block.is_offset()));
+    let left = |blocks: &[(&Block, bool)]| {
+        let cuts = blocks
+            .iter()
+            .filter(|(block, follows)| !follows && block.segment().is_some());
+        cuts.count()
+    };
     offset.any(|pass| {
         let first = pass.iter().position(|(_, follows)| *follows);
         let last = pass.iter().rposition(|(_, follows)| *follows);
-        let between = first
-            .zip(last)
-            .map_or(&[][..], |(first, last)| &pass[first..last]);
-        let mut between = between.iter();
-        between.any(|(block, follows)| !follows && block.segment().is_some())
+        first.zip(last).is_some_and(|(first, last)| {
+            left(&pass[first..last]) > 0
+                || left(&pass[..first]) > LEADS
+                || left(&pass[last..]) > LEADS
+        })
     })
 }
