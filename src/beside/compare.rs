@@ -62,7 +62,7 @@ fn compared(drawn: &Drawn, traced: &Traced) -> (Option<Comparison>, bool) {
     let Some(known) = known else {
         let guessed = otherwise(drawn, traced);
         let seen = match guessed {
-            Some(told) if told.comparison.differences.is_empty() || is_slip(&told) => {
+            Some(told) if told.comparison.differences.is_empty() || is_slight(&told) => {
                 Some(told.whole())
             }
             guessed => clean_or_slip(drawn, traced).or(guessed.map(Told::whole)),
@@ -83,6 +83,7 @@ fn compared(drawn: &Drawn, traced: &Traced) -> (Option<Comparison>, bool) {
     };
     if (is_doubtful || known.has_moved())
         && !known.is_one_change()
+        && !is_slight(&known)
         && is_of_contours(&known)
         && let Some(seen) = clean_or_slip(drawn, traced)
     {
@@ -120,6 +121,15 @@ fn clean_or_slip(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
 fn is_slip(told: &Told) -> bool {
     let is_one = matches!(&told.comparison.differences[..], [one] if one.off <= SLIP);
     is_one && told.is_exact() && told.elsewhere == 0 && !told.has_gap
+}
+
+/// The same where the settings are not known to the last digit.
+fn is_slight(told: &Told) -> bool {
+    let one = match &told.comparison.differences[..] {
+        [one] => one.off,
+        _ => return false,
+    };
+    (LEAST..=SLIP).contains(&one) && !told.has_gap
 }
 
 /// What differs is of contours, not of the ways between them.

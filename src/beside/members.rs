@@ -128,16 +128,36 @@ impl Members {
             whole,
             miss,
         } = found;
-        if whole && !traced.four_b && rounds.is_begin(&from) {
+        if !traced.four_b && rounds.is_begin(&from) {
             let (meant, _) = stretch(rounds, &from, &entry);
-            let off = numbers_apart(segment, &meant, traced.counts);
             let is_one = (length - meant.length()).abs() < 1e-6;
-            self.slips.extend((is_one && off > NUMBER).then(|| Unlike {
+            let off = match whole {
+                true if is_one => numbers_apart(segment, &meant, (traced.counts, block.by_radius)),
+                true => 0.0,
+                // Where on its piece it ends is the program's own.
+                false => meant.distance_to(meant.start() + (segment.end() - segment.start())),
+            };
+            self.slips.extend((off > NUMBER).then(|| Unlike {
                 block: index,
                 source: rounds.piece(&from).source,
                 off,
                 kind: Kind::Block,
             }));
+        }
+        // A line that begins on the end of an arc: the arc before it ends too early.
+        let rest = rounds.rest(&from);
+        let is_early = segment.as_arc().is_none()
+            && rest.as_arc().is_some()
+            && !rounds.is_begin(&from)
+            && rest.length() > COVERED
+            && length > rest.length() + COVERED;
+        if is_early && let Some(before) = index.checked_sub(1) {
+            self.slips.push(Unlike {
+                block: before,
+                source: rounds.piece(&from).source,
+                off: rest.length(),
+                kind: Kind::Block,
+            });
         }
         if self.base.is_none() {
             self.base = rounds.beside(&from).map(|by| placement.shift - by);
@@ -252,12 +272,12 @@ impl Members {
 
 /// By how much the numbers of a block differ from those of its piece, µm: where it leads from its start, and where its
 /// centre lies from there. Where a machine counts, the end of an arc is none of them.
-fn numbers_apart(own: &Segment, meant: &Segment, counts: bool) -> f64 {
+fn numbers_apart(own: &Segment, meant: &Segment, (counts, by_radius): (bool, bool)) -> f64 {
     let ends = ((own.end() - own.start()) - (meant.end() - meant.start())).amax();
     match (own.as_arc(), meant.as_arc()) {
         (Some(arc), Some(other)) => {
             let centers = (arc.center - arc.start) - (other.center - other.start);
-            let apart = centers.amax() - lever(arc);
+            let apart = centers.amax() - if by_radius { lever(arc) } else { 0.0 };
             if counts { apart } else { apart.max(ends) }
         }
         // A chord, or an arc that is nearly straight.

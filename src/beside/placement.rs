@@ -25,6 +25,16 @@ pub(super) struct Placement {
     begun: f64,
 }
 
+/// How the end and the centre of a block are stated.
+#[derive(Clone, Copy, Debug)]
+struct Manner {
+    /// A machine counts to its end.
+    counts: bool,
+    four_b: bool,
+    /// An arc states its radius.
+    by_radius: bool,
+}
+
 /// The result of following a block.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reached {
@@ -157,13 +167,17 @@ impl Placement {
     ) -> Option<Reached> {
         let block = traced.blocks[index].segment()?;
         let counts = traced.counts && block.as_arc().is_some();
-        let kind = (counts, traced.four_b);
+        let manner = Manner {
+            counts,
+            four_b: traced.four_b,
+            by_radius: traced.blocks[index].by_radius,
+        };
         if from == entry {
             self.begun = self.begun.max(self.unsure);
         }
-        let reached = self.reach(rounds, block, kind, from, entry);
+        let reached = self.reach(rounds, block, manner, from, entry);
         if reached.is_none()
-            && let Some(drifted) = self.drifting(rounds, block, kind, from, entry)
+            && let Some(drifted) = self.drifting(rounds, block, manner, from, entry)
         {
             return Some(drifted);
         }
@@ -181,7 +195,7 @@ impl Placement {
             }
             let is_crumb = rounds.whole(from).length() <= CRUMB;
             let next = rounds.next(from).filter(|_| is_crumb)?;
-            self.reach(rounds, block, kind, &next, entry)
+            self.reach(rounds, block, manner, &next, entry)
         })?;
         self.stand(rounds, &reached, (from, entry), counts);
         Some(reached)
@@ -193,19 +207,19 @@ impl Placement {
         &mut self,
         rounds: &Rounds,
         block: &Segment,
-        (counts, four_b): (bool, bool),
+        manner: Manner,
         from: &Spot,
         entry: &Spot,
     ) -> Option<Reached> {
         let by = self.place(block.start()) - from.at;
-        if self.exact || counts || four_b || by.norm() > DRIFTED {
+        if self.exact || manner.counts || manner.four_b || by.norm() > DRIFTED {
             return None;
         }
         let there = Placement {
             lag: self.lag - by,
             ..*self
         };
-        let reached = there.reach(rounds, block, (counts, four_b), from, entry)?;
+        let reached = there.reach(rounds, block, manner, from, entry)?;
         if !reached.whole || reached.off.norm() > SNAPPED {
             return None;
         }
@@ -262,10 +276,11 @@ impl Placement {
         &self,
         rounds: &Rounds,
         block: &Segment,
-        (counts, four_b): (bool, bool),
+        manner: Manner,
         from: &Spot,
         entry: &Spot,
     ) -> Option<Reached> {
+        let counts = manner.counts;
         let way = block.moved(self.lag - self.shift);
         let (length, end) = (way.length(), way.end());
         let unsure = if self.exact { self.unsure } else { 0.0 };
@@ -288,8 +303,8 @@ impl Placement {
                         &way,
                         &rest,
                         off,
-                        counts,
-                        (merged, four_b),
+                        manner,
+                        merged,
                         spot.at,
                     );
                 return fits.then_some(Reached {
@@ -324,7 +339,7 @@ impl Placement {
             let ends_within = done > LEAST_PART
                 && left > LEAST_PART
                 && rest.distance_to(end) <= unsure + self.beside(counts)
-                && (!self.exact || self.is_centred(&way, &rest))
+                && (!self.exact || self.is_centred(&way, &rest, manner))
                 && ((1.0 - share) * length - done).abs() <= 4.0 * ROUNDED + 1e-3 * length
                 && goes_along(1.0);
             let at = rest.point_at(within);
@@ -358,10 +373,11 @@ impl Placement {
     }
 
     /// Whether an arc has its centre where the grid has one for that of the drawing.
-    fn is_centred(&self, way: &Segment, rest: &Segment) -> bool {
+    fn is_centred(&self, way: &Segment, rest: &Segment, manner: Manner) -> bool {
         match (way.as_arc(), rest.as_arc()) {
             (Some(own), Some(meant)) => {
-                let room = CENTRED + self.unsure + lever(own);
+                let lever = if manner.by_radius { lever(own) } else { 0.0 };
+                let room = CENTRED + self.unsure + lever;
                 (own.center - meant.center).amax() <= room
             }
             _ => true,
@@ -374,10 +390,11 @@ impl Placement {
         way: &Segment,
         rest: &Segment,
         off: Vector,
-        counts: bool,
-        (merged, four_b): (bool, bool),
+        manner: Manner,
+        merged: bool,
         at: Point,
     ) -> bool {
+        let Manner { counts, four_b, .. } = manner;
         let middle = rest.distance_to(way.point_at(0.5));
         if self.exact {
             let end = rest.end() + self.shift;
@@ -389,7 +406,7 @@ impl Placement {
             };
             return away <= self.unsure
                 && (merged || middle <= ASIDE + self.unsure)
-                && self.is_centred(way, rest);
+                && self.is_centred(way, rest, manner);
         }
         if !counts || merged {
             return off.norm() <= TOLERANCE + if counts { 0.3 } else { 0.0 };
@@ -423,7 +440,7 @@ impl Placement {
     }
 }
 
-/// How far the rounding of its ends moves the centre of an arc that spans less than half a turn, µm: by the more the
+/// How far the rounding of its ends moves the centre of an arc that states its radius and spans less than half a turn, µm: by the more the
 /// shorter it is beside its radius.
 pub(super) fn lever(arc: &Arc) -> f64 {
     let chord = (arc.end - arc.start).norm();

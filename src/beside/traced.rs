@@ -83,6 +83,8 @@ pub(super) struct Block {
     pub(crate) stretch: usize,
     /// An invalid arc, taken as its chord.
     pub(crate) is_lost: bool,
+    /// An arc of ISO that states its radius, not its centre.
+    pub(crate) by_radius: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -214,6 +216,11 @@ impl Traced {
             },
             side: step.side,
             is_lost: step.kind == Kind::Arc && step.ideal.is_none(),
+            by_radius: language == Language::Iso
+                && step.kind == Kind::Arc
+                && text
+                    .slice(step.range.clone())
+                    .is_some_and(|said| said.contains(&b'R')),
             range: step.range,
         });
         let blocks = blocks.collect();
