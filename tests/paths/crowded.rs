@@ -10,7 +10,7 @@ use wedm::toolpath::{Refusal, plan};
 fn star(points: usize) -> Geometry {
     let vertex = |at: usize| {
         let angle = std::f64::consts::TAU * at as f64 / points as f64;
-        let radius = if at % 2 == 0 { 48.0 } else { 50.0 };
+        let radius = if at.is_multiple_of(2) { 48.0 } else { 50.0 };
         Vertex::new(radius * angle.cos(), radius * angle.sin(), 0.0)
     };
     Geometry::Polyline {
