@@ -250,6 +250,7 @@ def test_warnings_about_settings_are_logged_and_stop_nothing(caplog: pytest.LogC
     said = [record.message for record in caplog.records if "beyond the contour" in record.message]
     assert [key for key in ("[0]", "[1]") if any(key in one for one in said)] == ["[0]", "[1]"]
     # An error beside them is refused, alone.
-    with pytest.raises(WrongSettings) as error, Server(settings={**settings, "correction": -1}, timeout=30):
+    wrong: Any = {**settings, "correction": -1}
+    with pytest.raises(WrongSettings) as error, Server(settings=wrong, timeout=30):
         pass
     assert "correction is -1" in str(error.value) and "beyond the contour" not in str(error.value)
