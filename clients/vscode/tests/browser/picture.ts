@@ -108,7 +108,7 @@ export async function picture(checks: Checks): Promise<void> {
       await host.page.keyboard.press("Enter");
       const target = join(host.folder, "made.3b");
       await window.path(target);
-      await expectSoon("a program", async () => /^(B\d+B\d+B\d+G[XY](L|SR|NR)[1-4]\n){17}DD\n$/.test(await readFile(target, "utf8")), () => readFile(target, "utf8"));
+      await expectSoon("a program", async () => /^(B\d+B\d+B\d+G[XY](L|SR|NR)[1-4]\n){14}DD\n$/.test(await readFile(target, "utf8")), () => readFile(target, "utf8"));
       await window.tab("made.3b");
       await window.notification("µm from the path; rounding of J, added up").waitFor();
       await checks.shot("generated");
@@ -173,7 +173,7 @@ export async function picture(checks: Checks): Promise<void> {
       await window.path(target);
       await expectSoon("whole µm from one point to the next", async () => /^G91\nG01 X-?\d+ Y-?\d+$/m.test(await readFile(target, "utf8")), () => readFile(target, "utf8"));
       await window.tab("made.iso");
-      await expectSoon("no word of J, which ISO has not", async () => (await window.notification("ISO: 17 blocks").innerText()).includes("µm from the path."), () => window.notification("ISO: 17 blocks").innerText());
+      await expectSoon("no word of J, which ISO has not", async () => (await window.notification("ISO: 14 blocks").innerText()).includes("µm from the path."), () => window.notification("ISO: 14 blocks").innerText());
       await checks.shot("generated-iso");
     });
     await checks.check("the picture is there again when the window is loaded again, and still follows the cursor", async () => {
