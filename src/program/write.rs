@@ -289,12 +289,15 @@ fn specks_behind(path: &WirePath, at: usize, um: f64) -> Option<(usize, Point)> 
             return None;
         }
     };
+    if count == 0 {
+        return None;
+    }
     let (before, next) = (&before.geometry, &next.geometry);
     let middle = nalgebra::center(&before.end(), &next.start());
     let met = Locus::of(before).meet(&Locus::of(next)).into_iter();
     let met = met.min_by(|a, b| (a - middle).norm().total_cmp(&(b - middle).norm()));
     let is_there = |point: &Point| (point - middle).norm() * um <= SPECK / 2.0;
-    (count > 0).then(|| (count, met.filter(is_there).unwrap_or(middle)))
+    Some((count, met.filter(is_there).unwrap_or(middle)))
 }
 
 /// True where there is anything to cut: not where the wire only stands in each hole.
