@@ -2,6 +2,7 @@
 
 use super::about::{About, Limits};
 use super::held::{Held, all_apart, look};
+use super::places::own_places;
 use crate::geometry::Bounds;
 use crate::toolpath::{Moved, Part};
 
@@ -52,6 +53,7 @@ impl Held {
                 known.splice(gone, verdict);
             }
         }
+        self.places = own_places(&self.observations, limits.rounding);
         (self.unless, self.apart) = all_apart(parts, &self.names, limits);
     }
 }

@@ -26,12 +26,12 @@ pub(crate) struct Held {
     pub(super) unless: f64,
     /// Corners of the punch, those of the plate, and walls of the punch.
     pub(super) observations: [Observations; 3],
+    /// The numbers of those of walls that are places of their own.
+    pub(super) places: Vec<u32>,
     /// What stands for all walls, where they lie too near to each other everywhere.
     pub(super) apart: Option<Spot>,
     /// What the two are called.
     pub(super) names: [Arc<str>; 2],
-    /// Clearances that differ by less are equal.
-    pub(super) rounding: f64,
 }
 
 /// A corner is examined up to this many half kerfs from where the wire turned.
@@ -60,10 +60,10 @@ pub(super) fn held(
     let (unless, apart) = all_apart(parts, names, limits);
     Held {
         unless,
+        places: own_places(&observations, limits.rounding),
         observations,
         apart,
         names: names.clone(),
-        rounding: limits.rounding,
     }
 }
 
@@ -113,18 +113,20 @@ impl Held {
     /// Where less is left than there should be, and what, in the order of the outline of the punch, then of that of the plate.
     pub(crate) fn clearances(&self) -> impl Iterator<Item = (Point, f64)> {
         let apart = self.apart.iter().map(|spot| (spot.at, spot.clearance));
-        let verdicts = self.verdicts().into_iter().flatten();
-        apart.chain(verdicts.map(|verdict| (verdict.at, verdict.clearance)))
+        let verdicts = self.verdicts();
+        apart.chain(verdicts.map(|(_, verdict)| (verdict.at, verdict.clearance)))
     }
 
-    /// What was seen of the corners of the punch, of those of the plate, and of walls: each place once.
-    fn verdicts(&self) -> [Vec<&Verdict>; 3] {
-        let [of_punch, of_plate, _] = &self.observations;
-        [
-            of_punch.verdicts.iter().collect(),
-            of_plate.verdicts.iter().collect(),
-            own_places(&self.observations, self.rounding),
-        ]
+    /// What was seen of the corners of the punch, of those of the plate, and of walls, by the number of these: each place once.
+    fn verdicts(&self) -> impl Iterator<Item = (usize, &Verdict)> {
+        let [of_punch, of_plate, of_walls] = self.observations.each_ref().map(|it| &it.verdicts);
+        let of_walls = self
+            .places
+            .iter()
+            .filter_map(|&number| of_walls.get(number as usize));
+        let corners = of_punch.iter().map(|verdict| (0, verdict));
+        let corners = corners.chain(of_plate.iter().map(|verdict| (1, verdict)));
+        corners.chain(of_walls.map(|verdict| (2, verdict)))
     }
 
     /// What the part is called whose wire turned in a corner, of these the first one so far about a place.
@@ -144,28 +146,23 @@ impl Held {
 
     /// All of these, of the parts that were compared.
     pub(crate) fn spots<'a>(&'a self, parts: [&'a Part; 2]) -> impl Iterator<Item = Spot> + 'a {
-        let of_observations = self.verdicts().into_iter().enumerate();
-        let of_observations = of_observations.flat_map(move |(which, verdicts)| {
-            let verdicts = verdicts.into_iter();
-            verdicts.filter_map(move |verdict| spot(which, verdict, parts, &self.names))
-        });
+        let verdicts = self.verdicts();
+        let of_observations =
+            verdicts.filter_map(move |(which, verdict)| spot(which, verdict, parts, &self.names));
         self.apart.iter().cloned().chain(of_observations)
     }
 
     /// The same by all cores.
     pub(super) fn all_spots(&self, parts: [&Part; 2]) -> Vec<Spot> {
-        let verdicts = self.verdicts();
-        let mut all = Vec::with_capacity(1 + verdicts.iter().map(Vec::len).sum::<usize>());
+        let verdicts: Vec<(usize, &Verdict)> = self.verdicts().collect();
+        let mut all = Vec::with_capacity(1 + verdicts.len());
         all.extend(self.apart.clone());
-        for (which, verdicts) in verdicts.iter().enumerate() {
-            let some = verdicts.par_chunks(AT_A_TIME);
-            all.par_extend(some.flat_map_iter(|verdicts| {
-                // Cores that count the uses of one name wait for each other.
-                let names = self.names.each_ref().map(|name| Arc::from(&**name));
-                let spots = verdicts.iter();
-                spots.filter_map(move |verdict| spot(which, verdict, parts, &names))
-            }));
-        }
+        all.par_extend(verdicts.par_chunks(AT_A_TIME).flat_map_iter(|some| {
+            // Cores that count the uses of one name wait for each other.
+            let names = self.names.each_ref().map(|name| Arc::from(&**name));
+            let spots = some.iter();
+            spots.filter_map(move |(which, verdict)| spot(*which, verdict, parts, &names))
+        }));
         all
     }
 }

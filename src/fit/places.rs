@@ -2,9 +2,9 @@
 
 use super::observations::{Lies, Observations, Verdict};
 
-/// What was seen of walls of the punch, without what says again what a neighbour or a corner says of the same place. Clearances, and places,
-/// that differ by less than the rounding are equal.
-pub(super) fn own_places(all: &[Observations; 3], rounding: f64) -> Vec<&Verdict> {
+/// The numbers of what was seen of walls of the punch, without what says again what a neighbour or a corner says of the same place. Clearances,
+/// and places, that differ by less than the rounding are equal.
+pub(super) fn own_places(all: &[Observations; 3], rounding: f64) -> Vec<u32> {
     let [of_punch, of_plate, of_walls] = all;
     let count = of_walls.asked.len() as u32;
     // By the edge of the punch.
@@ -62,9 +62,11 @@ pub(super) fn own_places(all: &[Observations; 3], rounding: f64) -> Vec<&Verdict
                 .is_some_and(|other| is_told_by(other, verdict))
         })
     };
-    let is_own = |verdict: &&Verdict| match verdict.lies {
+    let is_own = |verdict: &Verdict| match verdict.lies {
         Lies::AllAlong => true,
         _ => !is_in_corner(verdict) && !is_beside(verdict),
     };
-    of_walls.verdicts.iter().filter(is_own).collect()
+    let walls = (0..).zip(&of_walls.verdicts);
+    let own = walls.filter(|(_, verdict)| is_own(verdict));
+    own.map(|(number, _)| number).collect()
 }
