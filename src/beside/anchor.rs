@@ -82,8 +82,11 @@ pub(super) fn places(traced: &Traced, rounds: &Rounds) -> Vec<Placement> {
             }
             let place = refined(traced, rounds, found, index);
             let is_known = |other: &Placement| (other.shift - place.shift).norm() <= 0.5;
-            if all.len() < PLACES && !all.iter().any(is_known) {
+            if !all.iter().any(is_known) {
                 all.push(place);
+            }
+            if all.len() >= PLACES {
+                return all;
             }
         }
     }

@@ -11,6 +11,7 @@ use super::traced::{Block, Traced};
 use super::uneven::uneven;
 use super::walk::Kind;
 use crate::settings::Compensation;
+use std::ops::RangeInclusive;
 
 /// In a program of fewer blocks, one deviating block may mean other settings.
 const SMALL: usize = 40;
@@ -113,23 +114,26 @@ fn compared(drawn: &Drawn, traced: &Traced) -> (Option<Comparison>, bool) {
 /// otherwise by so little.
 fn clean_or_slip(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
     let seen = followed(drawn, traced)?;
-    let is_slip = |seen: &Comparison| matches!(&seen.differences[..], [one] if one.kind == Kind::Block && (LEAST..=SLIP).contains(&one.off));
+    let is_slip = |seen: &Comparison| {
+        is_one_off(seen, LEAST..=SLIP) && seen.differences.iter().all(|one| one.kind == Kind::Block)
+    };
     looked_at(drawn, traced).filter(is_slip).or(Some(seen))
+}
+
+/// One block differs, by so many mm.
+fn is_one_off(seen: &Comparison, by: RangeInclusive<f64>) -> bool {
+    matches!(&seen.differences[..], [one] if by.contains(&one.off))
 }
 
 /// One block differs, by so little that nobody sets anything otherwise.
 fn is_slip(told: &Told) -> bool {
-    let is_one = matches!(&told.comparison.differences[..], [one] if one.off <= SLIP);
+    let is_one = is_one_off(&told.comparison, 0.0..=SLIP);
     is_one && told.is_exact() && told.elsewhere == 0 && !told.has_gap
 }
 
 /// The same where the settings are not known to the last digit.
 fn is_slight(told: &Told) -> bool {
-    let one = match &told.comparison.differences[..] {
-        [one] => one.off,
-        _ => return false,
-    };
-    (LEAST..=SLIP).contains(&one) && !told.has_gap
+    is_one_off(&told.comparison, LEAST..=SLIP) && !told.has_gap
 }
 
 /// What differs is of contours, not of the ways between them.

@@ -7,7 +7,7 @@ use super::foreign::{foreign, segments};
 use super::gouges::gouges;
 use super::infer;
 use super::members::Members;
-use super::placement::Placement;
+use super::placement::{Placement, SNAPPED};
 use super::rounds::{Course, Rounds};
 use super::single::single;
 use super::traced::Traced;
@@ -25,8 +25,6 @@ pub use super::walk::Kind as DifferenceKind;
 pub(super) const FEW: usize = 6;
 /// The deviation of a 4B block that another rounding of its transitions explains, µm.
 const ROUNDED: f64 = 2.5;
-/// A block of another writer ends farther than this from its node where its numbers are those of a writer of steps, µm.
-const SNAPPED: f64 = 0.75;
 /// Of several differing blocks one deviates by at least this, µm.
 const CHANGED: f64 = 2.5;
 /// For each differing block this many must be as we write them: then it is a change, and not another writer's rounding.

@@ -59,18 +59,18 @@ pub(super) fn displaced(pairs: &Pairs, from: Vector, least: f64) -> Vec<Displace
                     (pair.own.motion.ends()?, pair.meant.motion.ends()?);
                 Some((end - start) - (to - from))
             };
+            let step = by + base - before;
             let leads_there = |number: &usize| {
                 let apart = apart(*number);
-                apart.is_some_and(|apart| (apart - (by + base - before)).norm() <= ALIKE)
+                apart.is_some_and(|apart| (apart - step).norm() <= ALIKE)
             };
             let is_way =
                 |number: &usize| matches!(pairs.pairs[*number].own.motion, Motion::Way(..));
             let leading = ways.clone().find(leads_there);
             let begins = first.own.motion.ends().zip(first.meant.motion.ends());
-            let begins_there = begins.is_none_or(|([start, _], [from_there, _])| {
-                (start - from - from_there - (by + base)).norm() <= ALIKE
+            let begins_there = begins.is_none_or(|([start, _], [meant, _])| {
+                (start - from - meant - (by + base)).norm() <= ALIKE
             });
-            let step = by + base - before;
             // Where places are stated, its first block may lead there.
             let is_within = pairs.traced.counts && leading.is_none() && !begins_there;
             // A block of the contour before it moves all that comes after.

@@ -115,7 +115,7 @@ fn votes<'a>(
             votes.extend([wider.abs(); 3]);
         }
         // A circle has no corners: each arc of the program votes, wherever it begins.
-        if let Some((_, radius)) = circle(&segments) {
+        if let Some((_, radius)) = circle(segments.iter()) {
             let arcs = blocks.iter().filter_map(Segment::as_arc);
             votes.extend(arcs.map(|arc| (arc.radius - radius).abs()));
         }
@@ -150,8 +150,8 @@ fn most(mut votes: Vec<f64>) -> Vec<f64> {
 }
 
 /// Centre and radius of segments that are one circle.
-pub(super) fn circle(segments: &[Segment]) -> Option<(Point, f64)> {
-    let first = segments.first()?.as_arc()?;
+pub(super) fn circle<'a>(mut segments: impl Iterator<Item = &'a Segment>) -> Option<(Point, f64)> {
+    let first = segments.next()?.as_arc()?;
     let is_of_it = |segment: &Segment| {
         let arc = segment.as_arc();
         arc.is_some_and(|arc| {
@@ -159,7 +159,6 @@ pub(super) fn circle(segments: &[Segment]) -> Option<(Point, f64)> {
         })
     };
     segments
-        .iter()
         .all(is_of_it)
         .then_some((first.center, first.radius))
 }

@@ -119,6 +119,7 @@ impl Members {
             self.is_broken |= self.away > BETWEEN;
             return;
         };
+        self.note_slips(traced, rounds, index, &found);
         let Found {
             from,
             entry,
@@ -128,37 +129,6 @@ impl Members {
             whole,
             miss,
         } = found;
-        if !traced.four_b && rounds.is_begin(&from) {
-            let (meant, _) = stretch(rounds, &from, &entry);
-            let is_one = (length - meant.length()).abs() < 1e-6;
-            let off = match whole {
-                true if is_one => numbers_apart(segment, &meant, (traced.counts, block.by_radius)),
-                true => 0.0,
-                // Where on its piece it ends is the program's own.
-                false => meant.distance_to(meant.start() + (segment.end() - segment.start())),
-            };
-            self.slips.extend((off > NUMBER).then(|| Unlike {
-                block: index,
-                source: rounds.piece(&from).source,
-                off,
-                kind: Kind::Block,
-            }));
-        }
-        // A line that begins on the end of an arc: the arc before it ends too early.
-        let rest = rounds.rest(&from);
-        let is_early = segment.as_arc().is_none()
-            && rest.as_arc().is_some()
-            && !rounds.is_begin(&from)
-            && rest.length() > COVERED
-            && length > rest.length() + COVERED;
-        if is_early && let Some(before) = index.checked_sub(1) {
-            self.slips.push(Unlike {
-                block: before,
-                source: rounds.piece(&from).source,
-                off: rest.length(),
-                kind: Kind::Block,
-            });
-        }
         if self.base.is_none() {
             self.base = rounds.beside(&from).map(|by| placement.shift - by);
         }
@@ -183,6 +153,46 @@ impl Members {
         self.miss += miss;
         self.contours.push(rounds.rounds[from.round].contour);
         rounds.cover(&from, length, |part| self.coverage.cut(from.round, part));
+    }
+
+    /// Notes a block with numbers that no writer rounds so.
+    fn note_slips(&mut self, traced: &Traced, rounds: &Rounds, index: usize, found: &Found) {
+        let block = &traced.blocks[index];
+        let Some(segment) = block.segment() else {
+            return;
+        };
+        let (from, length) = (&found.from, found.length);
+        let mut note = |block: usize, off: f64| {
+            self.slips.push(Unlike {
+                block,
+                source: rounds.piece(from).source,
+                off,
+                kind: Kind::Block,
+            });
+        };
+        if !rounds.is_begin(from) {
+            // A line that begins on the end of an arc: the arc before it ends too early.
+            let rest = rounds.rest(from);
+            let is_early = segment.as_arc().is_none()
+                && rest.as_arc().is_some()
+                && rest.length() > COVERED
+                && length > rest.length() + COVERED;
+            if is_early && let Some(before) = index.checked_sub(1) {
+                note(before, rest.length());
+            }
+        } else if !traced.four_b {
+            let (meant, _) = stretch(rounds, from, &found.entry);
+            let is_one = (length - meant.length()).abs() < 1e-6;
+            let off = match found.whole {
+                true if is_one => numbers_apart(segment, &meant, (traced.counts, block.by_radius)),
+                true => 0.0,
+                // Where on its piece it ends is the program's own.
+                false => meant.distance_to(meant.start() + (segment.end() - segment.start())),
+            };
+            if off > NUMBER {
+                note(index, off);
+            }
+        }
     }
 
     /// Whether a run goes on from one spot at another as if the blocks between them were on it: no way from pass to

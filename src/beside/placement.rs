@@ -61,7 +61,7 @@ const HUGE: f64 = 1e6;
 const ROUNDED: f64 = 3.3;
 /// The largest distance of our own blocks' ends from their nodes: lines and arcs that name their ends, by the grid;
 /// counting arcs, µm.
-const SNAPPED: f64 = 0.75;
+pub(super) const SNAPPED: f64 = 0.75;
 const COUNTED: f64 = 1.52;
 /// The largest distance of our own arcs' centres from those of the drawing, in X and in Y, and of the arcs themselves,
 /// µm.
@@ -445,12 +445,12 @@ impl Placement {
 pub(super) fn lever(arc: &Arc) -> f64 {
     let chord = (arc.end - arc.start).norm();
     if arc.sweep.abs() >= std::f64::consts::PI {
-        return 0.0;
+        0.0
+    } else if chord < LEAST_PART {
+        f64::INFINITY
+    } else {
+        2.0 * SNAPPED * (arc.radius / chord - 0.5).max(0.0)
     }
-    if chord < LEAST_PART {
-        return f64::INFINITY;
-    }
-    2.0 * SNAPPED * (arc.radius / chord - 0.5).max(0.0)
 }
 
 /// The rest of a spot's piece, up to `entry` where that lies ahead on it; and the spot after that.

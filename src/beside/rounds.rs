@@ -181,8 +181,8 @@ impl Rounds {
                 segment => round.push(segment, source),
             }
         }
-        let segments: Vec<Segment> = round.pieces.iter().map(|piece| piece.segment).collect();
-        round.circle = round.circle.or_else(|| circle(&segments));
+        let segments = round.pieces.iter().map(|piece| &piece.segment);
+        round.circle = round.circle.or_else(|| circle(segments));
         let number = self.rounds.len() as u32;
         self.leads.take();
         self.index.reserve(round.pieces.len());
