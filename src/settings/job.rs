@@ -120,12 +120,11 @@ pub(super) fn idle(settings: &Settings) -> Vec<PassFault> {
 
 /// True where some contour is to leave a tab.
 fn keeps_a_tab(settings: &Settings) -> bool {
-    let keeps = |tab: &Option<LengthSetting>| match tab {
+    match &settings.program().tab {
         None => false,
         Some(LengthSetting::One(length)) => *length > 0.0,
         Some(LengthSetting::ByHandle(lengths)) => lengths.values().any(|length| *length > 0.0),
-    };
-    keeps(&settings.program().tab)
+    }
 }
 
 enum Does {

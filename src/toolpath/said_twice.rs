@@ -29,7 +29,7 @@ pub(crate) fn said_twice(
     let mut found = Vec::new();
     for (what, given) in [
         (say!(thread_hole), threads(drawing, outlines, settings)),
-        (say!(entry), entries(drawing, outlines, settings)),
+        (say!(entry), set(drawing, outlines, settings, "entry")),
     ] {
         let near = NEAR / settings.unit_of(drawing).mm;
         let mut firsts: Vec<&Given> = Vec::new();
@@ -62,34 +62,25 @@ pub(crate) fn said_twice(
 }
 
 fn threads(drawing: &Drawing, outlines: &[Outline], settings: &Effective) -> Vec<Given> {
-    let mut given = own(drawing, outlines, settings, "thread");
-    given.extend(of_program(
-        drawing,
-        outlines,
-        settings.thread.as_ref(),
-        "program.thread",
-    ));
+    let mut given = set(drawing, outlines, settings, "thread");
     let mut marks = marks(drawing, outlines, MOST_MARKS).unwrap_or_default();
     marks.sort_by(|a, b| a.distance.total_cmp(&b.distance));
-    let is_thread =
-        |outline: usize, mark| !means_entry(drawing, &outlines[outline], mark, settings);
-    given.extend(
-        marks
-            .iter()
-            .filter(|mark| is_thread(mark.outline, mark))
-            .map(|mark| (mark.outline, mark.at, say!(a_mark_o).to_owned())),
-    );
+    let threads = marks
+        .iter()
+        .filter(|mark| !means_entry(drawing, &outlines[mark.outline], mark, settings));
+    given.extend(threads.map(|mark| (mark.outline, mark.at, say!(a_mark_o).to_owned())));
     given
 }
 
-fn entries(drawing: &Drawing, outlines: &[Outline], settings: &Effective) -> Vec<Given> {
-    let mut given = own(drawing, outlines, settings, "entry");
-    given.extend(of_program(
-        drawing,
-        outlines,
-        settings.entry.as_ref(),
-        "program.entry",
-    ));
+/// The points of `thread` or `entry` in the settings: those of single contours count before those of the program.
+fn set(drawing: &Drawing, outlines: &[Outline], settings: &Effective, key: &str) -> Vec<Given> {
+    let of_all = match key {
+        "thread" => settings.thread.as_ref(),
+        _ => settings.entry.as_ref(),
+    };
+    let mut given = own(drawing, outlines, settings, key);
+    let key = format!("program.{key}");
+    given.extend(of_program(drawing, outlines, of_all, &key));
     given
 }
 

@@ -348,14 +348,14 @@ fn one_of_each_cut(program: &impl Tried, fixes: Vec<(Rule, TextFix)>) -> Vec<(Ru
         }
         let mut in_cut = lines.range(cut.clone());
         let is_alone = in_cut.all(|(_, edit)| *edit == fix.edit);
-        let is_sound = || {
+        let mut is_sound = || {
             if of_cut == TRIED_OF_CUT || in_all == TRIED_GUESSES {
                 return false;
             }
             (of_cut, in_all) = (of_cut + 1, in_all + 1);
             !leaves_faults(&edited(program, &fix.edit), &fix.edit)
         };
-        let keeps = is_alone && (!is_short || { is_sound }());
+        let keeps = is_alone && (!is_short || is_sound());
         if keeps {
             lines.insert(own, fix.edit.clone());
         }
