@@ -296,7 +296,9 @@ fn an_edit_among_many_open_contours_judges_few() {
             Document::read(language, text.clone().into_bytes(), &Effective::default());
         let [all, _] = document.contours_judged();
         assert!(all >= 300, "{language:?}: {all}");
-        for (at, _) in text.match_indices('\n').skip(5).step_by(211) {
+        let lines = || text.match_indices('\n');
+        let behind_them = lines().rev().skip(2).step_by(3).take(8);
+        for (at, _) in lines().skip(5).step_by(211).chain(behind_them) {
             for word in ["1", "\n", "x"] {
                 document.edit(at..at, word);
                 let come = document.contours_judged();

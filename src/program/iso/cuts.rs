@@ -327,14 +327,8 @@ struct Held<'a> {
 
 impl Held<'_> {
     /// Hands over the moves of a part; returns the byte from which their places count.
-    fn moves(&self, part: usize, each: &mut dyn FnMut(&Move, Range<usize>)) -> usize {
-        let (stretch, nth) = self.places[part];
-        let heard = &mut |index: usize, step: &Move, range: (u32, u32)| {
-            if index == nth {
-                each(step, range.0 as usize..range.1 as usize);
-            }
-        };
-        self.document.run_again((stretch, nth), heard)
+    fn moves(&self, part: usize, each: &mut dyn FnMut(&Move, (u32, u32))) -> usize {
+        self.document.hear(self.places[part], each)
     }
 }
 
@@ -351,8 +345,8 @@ impl Blocks for Held<'_> {
     fn range(&self, part: usize, nth: usize) -> Option<Range<usize>> {
         let mut ranges = Vec::new();
         let offset = self.moves(part, &mut |_, range| ranges.push(range));
-        let own = ranges.into_iter().nth(nth)?;
-        Some(own.start + offset..own.end + offset)
+        let (start, end) = *ranges.get(nth)?;
+        Some(start as usize + offset..end as usize + offset)
     }
 
     fn writing(&self) -> Writing {

@@ -4,13 +4,13 @@ use super::block::{Block, Offset};
 use super::control::{Control, lines_from};
 use super::cut::JoinedCut;
 use super::evidence::{Evidence, UsualDecimals};
+use super::last_run::LastRun;
 use super::layout::{LOOKED_AT, is_parted};
 use super::leader::leader;
 use super::limits::Limits;
 use super::machine::Machine;
-use super::moves::Reading;
+use super::moves::{Move, Reading};
 use super::order::{Order, labels, order};
-use super::part::Hears;
 use super::read::words_of;
 use super::repair::found::Repairs;
 use super::stretch::{Placed, StopAt, Stretch};
@@ -60,6 +60,8 @@ pub struct Document {
     pub(super) repairs: OnceLock<Arc<Repairs>>,
     /// Those before the last edit.
     pub(super) repairs_before: Option<Arc<Repairs>>,
+    /// The moves of one stretch, until one of them changes.
+    last_run: LastRun,
     /// Whether its words stand apart, once somebody has asked.
     is_parted: OnceLock<bool>,
     /// The line of each N and O number, once somebody has asked.
@@ -94,6 +96,7 @@ impl Document {
             table: Box::default(),
             repairs: OnceLock::new(),
             repairs_before: None,
+            last_run: LastRun::default(),
             is_parted: OnceLock::new(),
             labels: OnceLock::new(),
         };
@@ -225,24 +228,31 @@ impl Document {
         self.stretches.byte(stretch)
     }
 
-    /// Runs a stretch once more, up to the end of a part, and hands each of its moves to `each`; returns the byte from
-    /// which their places count.
-    pub(super) fn run_again(&self, (index, part): PartAt, each: &mut Hears<'_>) -> usize {
+    /// Hands out each move of a part; returns the byte from which their places count.
+    pub(super) fn hear(
+        &self,
+        (index, part): PartAt,
+        each: &mut dyn FnMut(&Move, (u32, u32)),
+    ) -> usize {
         let Some(placed) = self.placed_at(index) else {
             return 0;
         };
         let Range { start, end } = placed.lines;
-        let last = placed.stretch.part_at(part).map(|part| part.last_range.0);
-        let last = last.map(|byte| self.text.line_of(placed.offset + byte as usize));
-        let count = last.map_or(end, |last| end.min(last + 1)) - start;
-        Stretch::run_with(
-            lines_from(&self.text, self.leader, start),
-            count,
-            placed.offset,
-            placed.stretch.before,
-            self.reading,
-            each,
-        );
+        let moves = self.last_run.of(index, |heard| {
+            let lines = lines_from(&self.text, self.leader, start);
+            let before = placed.stretch.before;
+            Stretch::run_with(
+                lines,
+                end - start,
+                placed.offset,
+                before,
+                self.reading,
+                heard,
+            );
+        });
+        let own = moves.iter().skip_while(|(of, ..)| *of < part);
+        own.take_while(|(of, ..)| *of == part)
+            .for_each(|(_, step, range)| each(step, *range));
         placed.offset
     }
 
@@ -268,6 +278,7 @@ impl Document {
     pub fn edit(&mut self, range: Range<usize>, replacement: &str) {
         self.repairs_before = self.repairs.take().or(self.repairs_before.take());
         self.labels = OnceLock::new();
+        self.last_run = LastRun::default();
         // The byte before belongs to the edit: a CR there may become one line end with an inserted LF.
         let first = range.start.min(self.text.len()).saturating_sub(1);
         if self.text.line_of(first) < LOOKED_AT {
@@ -347,6 +358,7 @@ impl Document {
     }
 
     fn run_stretches(&mut self) {
+        self.last_run = LastRun::default();
         let (control, text) = (self.control(), &self.text);
         self.stretches = match &self.order {
             None => Chunks::read(&control, text, 0..text.line_count()),

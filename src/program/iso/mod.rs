@@ -16,6 +16,7 @@ mod evidence;
 mod far;
 mod fixes;
 pub(crate) mod labels;
+mod last_run;
 mod layout;
 mod leader;
 mod limits;

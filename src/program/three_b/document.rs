@@ -196,12 +196,13 @@ impl Document {
     fn judge_again(&mut self, reread: Option<Reread>) {
         let before = std::mem::take(&mut *self.view);
         self.view.end = self.end_word();
-        let same_end = |reread: &Reread| {
-            let moved = |end: At| {
-                let stretch = reread.moved(end.stretch)?;
-                Some(At { stretch, ..end })
-            };
-            before.end.map(moved) == self.view.end.map(Some)
+        // An end word that was read again bears on what was read with it, which is judged again.
+        let same_end = |reread: &Reread| match (before.end, self.view.end) {
+            (Some(before), Some(now)) => match reread.moved(before.stretch) {
+                Some(stretch) => At { stretch, ..before } == now,
+                None => reread.chunks.contains(&now.stretch),
+            },
+            (before, now) => before == now,
         };
         let reread = reread.filter(same_end);
         let mut before = reread.as_ref().map_or_else(View::default, |_| before);
