@@ -37,6 +37,8 @@ pub(super) struct Abilities {
     pub(crate) apply_edit: bool,
     /// Code actions may say why they cannot be done.
     pub(crate) disabled_actions: bool,
+    /// Asks for the edit of the code action that is chosen.
+    pub(crate) resolves_actions: bool,
     /// The client has the commands that lenses name.
     pub(crate) code_lens: bool,
     /// The client opens pages of rules, which it asks for.

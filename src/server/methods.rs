@@ -107,6 +107,7 @@ impl LanguageServer for Backend {
         range_formatting: RangeFormatting, Text => formatting::range;
         on_type_formatting: OnTypeFormatting, Place => formatting::left_line;
         code_action: CodeActionRequest, Document, looking_for_fixes => code_action::code_action;
+        code_action_resolve: CodeActionResolveRequest, Document, looking_for_fixes => code_action::resolve;
     }
 
     async fn initialize(&self, params: InitializeParams) -> Result<InitializeResult> {

@@ -200,5 +200,6 @@ declare! {
     of_profile(name, why) => "profile {name}: {why}";
     its_lines_change_heights(line) => "its line {line:?} changes how heights are meant";
     a_layer_is_finer(layer, step) => "milling.layer is {layer} mm, finer than the numbers of the profile, {step} mm: expected a thicker layer, or more decimals";
+    scaled_the_program_would_take_too_many_blocks(most) => "scaled, the program would take more than {most} blocks: its arcs are too large for a block each";
     the_program_would_have_too_many_blocks(most) => "the program would have more than {most} blocks: no machine takes that many";
 }

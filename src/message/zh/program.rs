@@ -200,5 +200,6 @@ translate! {
     of_profile(name, why) => "profile {name}：{why}";
     its_lines_change_heights(line) => "它的行改变了 {line:?} 中高度的含义";
     a_layer_is_finer(layer, step) => "milling.layer 是 {layer} mm，比 profile 的最小单位 {step} mm 还小：每层应厚一些，或增加小数位数";
+    scaled_the_program_would_take_too_many_blocks(most) => "缩放后程序将超过 {most} 个程序段：圆弧过大，无法各用一个程序段表示";
     the_program_would_have_too_many_blocks(most) => "程序将超过 {most} 个程序段：没有机床能接受";
 }

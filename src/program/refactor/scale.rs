@@ -9,6 +9,7 @@
 //! again.
 
 use super::{Change, Content, Edits, Notation, Refactoring, Rewrite, Sheet};
+use crate::program::write::room_beside;
 
 pub(super) fn all<N: Notation>() -> [Refactoring<N>; 2] {
     [
@@ -55,7 +56,8 @@ pub(in crate::program) fn scaled<N: Notation>(sheet: &Sheet<'_, N>, factor: f64)
         stretch: Some(factor),
         ..Rewrite::new()
     };
-    let mut from = None;
+    let (mut from, most) = (None, room_beside(content.rows.len()));
+    let mut room = most;
     for (index, row) in content.rows.iter().enumerate() {
         let begin = from.map_or_else(|| node(row, row.from), Ok)?;
         let to = node(row, row.to)?;
@@ -64,6 +66,8 @@ pub(in crate::program) fn scaled<N: Notation>(sheet: &Sheet<'_, N>, factor: f64)
         if news.is_empty() {
             return Err(say!(the_block_becomes_shorter_than_1_um, row.line + 1));
         }
+        let too_many = || say!(scaled_the_program_would_take_too_many_blocks, most);
+        room = room.checked_sub(news.len()).ok_or_else(too_many)?;
         rewrite.rows.insert(index, news);
         rewrite.end = Some(Content::<N>::point(to));
         from = Some(to);

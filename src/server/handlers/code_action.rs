@@ -1,4 +1,6 @@
 //! `textDocument/codeAction`: the fixes of findings, one action that makes every safe fix, and the refactorings of programs.
+//!
+//! A refactoring rewrites the whole text: clients that resolve actions get its edit for the one that is chosen.
 
 use crate::document::{Document, Source};
 use crate::finding::{Edit, Finding, Keep, Place};
@@ -7,12 +9,15 @@ use crate::program;
 use crate::protocol::{self, FindingData, method};
 use crate::server::context::RequestContext;
 use crate::server::convert;
+use crate::server::errors::{moved_on, refused};
 use crate::settings;
 use ls_types::{
     CodeAction, CodeActionContext, CodeActionDisabled, CodeActionKind, CodeActionOrCommand,
     CodeActionParams, CodeActionResponse, CodeActionTriggerKind, Command, Range,
 };
 use rustc_hash::FxHashSet;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
 use tower_lsp::jsonrpc::Result;
 
 pub(in crate::server) const FIX_ALL: &str = "source.fixAll.wedm";
@@ -23,6 +28,57 @@ const LISTED: usize = 100;
 /// Lines of a text, or entities of a drawing, beyond which repairs after other repairs are only tried on request: it
 /// costs too much to try them for no use.
 const LONG: usize = 50_000;
+
+/// The `data` of an action: its document, and the refactoring that its edit comes from.
+#[derive(Deserialize, Serialize)]
+pub(super) struct Unresolved {
+    pub(super) uri: String,
+    version: i64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    refactoring: Option<Chosen>,
+}
+
+#[derive(Deserialize, Serialize)]
+struct Chosen {
+    id: String,
+    range: Range,
+}
+
+/// `codeAction/resolve`: the edit of a refactoring. Other actions come back as they are.
+pub(in crate::server) fn resolve(
+    context: &RequestContext,
+    action: CodeAction,
+) -> Result<CodeAction> {
+    let data = action
+        .data
+        .clone()
+        .map(serde_json::from_value::<Unresolved>);
+    let Some(Ok(Unresolved {
+        version,
+        refactoring: Some(chosen),
+        ..
+    })) = data
+    else {
+        return Ok(action);
+    };
+    let document = context.document();
+    let Some((document, program)) = document.and_then(|own| Some((own, own.program()?))) else {
+        return Ok(action);
+    };
+    if version != context.version {
+        return Err(moved_on());
+    }
+    let selection = convert::bytes_of(program.text(), chosen.range, context.encoding);
+    let settings = document.settings();
+    let own = program::refactorings(program, settings, selection, |id| id == chosen.id);
+    // One profile's is told from another's by its title.
+    let mut own = own.into_iter();
+    let own = own.find(|own| own.title == action.title);
+    let edits = own.map_or(Ok(Vec::new()), |own| own.edits);
+    let edit = &Edit::Text(edits.map_err(refused)?);
+    let plain = action.clone();
+    Ok(with_edit(context, document, action, edit).unwrap_or(plain))
+}
 
 pub(in crate::server) fn code_action(
     context: &RequestContext,
@@ -86,13 +142,15 @@ fn actions(
         actions.extend(
             proposals
                 .into_iter()
-                .filter_map(|proposal| refactoring(context, document, proposal)),
+                .filter_map(|proposal| refactoring(context, document, params.range, proposal)),
         );
     }
-    actions
-        .into_iter()
-        .map(CodeActionOrCommand::CodeAction)
-        .collect()
+    let named = |action: CodeAction| CodeAction {
+        data: action.data.or_else(|| unresolved(context, None)),
+        ..action
+    };
+    let named = actions.into_iter().map(named);
+    named.map(CodeActionOrCommand::CodeAction).collect()
 }
 
 /// All safe fixes; in a long document one round of them where the editor asks for everything at every step of the
@@ -131,6 +189,7 @@ fn is_asked_for(context: &CodeActionContext) -> bool {
 fn refactoring(
     context: &RequestContext,
     document: &Document,
+    range: Range,
     proposal: crate::program::Proposal,
 ) -> Option<CodeAction> {
     let action = CodeAction {
@@ -139,12 +198,28 @@ fn refactoring(
         ..CodeAction::default()
     };
     match proposal.edits {
+        Ok(_) if context.abilities.resolves_actions => {
+            let id = proposal.id.to_owned();
+            let data = unresolved(context, Some(Chosen { id, range }));
+            Some(CodeAction { data, ..action })
+        }
         Ok(edits) => with_edit(context, document, action, &Edit::Text(edits)),
         Err(reason) => context.abilities.disabled_actions.then(|| CodeAction {
             disabled: Some(CodeActionDisabled { reason }),
             ..action
         }),
     }
+}
+
+/// What resolving an action needs; nothing for clients that do not.
+fn unresolved(context: &RequestContext, refactoring: Option<Chosen>) -> Option<Value> {
+    let data = Unresolved {
+        uri: context.uri.to_string(),
+        version: context.version,
+        refactoring,
+    };
+    let is_wanted = context.abilities.resolves_actions;
+    is_wanted.then(|| serde_json::to_value(data).ok())?
 }
 
 /// True when the client asked for this kind, for one above it, or for all.

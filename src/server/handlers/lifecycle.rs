@@ -58,6 +58,7 @@ fn offers(encoding: Encoding, abilities: &Abilities) -> Value {
         "codeActionProvider": {
             "codeActionKinds": [CodeActionKind::QUICKFIX, FIX_ALL, CodeActionKind::REFACTOR_REWRITE],
             "workDoneProgress": true,
+            "resolveProvider": abilities.resolves_actions.then_some(true),
         },
         "executeCommandProvider": {
             "commands": [method::APPLY_DRAWING_EDIT_COMMAND, method::SCALE_COMMAND],
@@ -95,6 +96,8 @@ fn abilities(client: &Value) -> Abilities {
     let able = |path: &str| client.pointer(path).and_then(Value::as_bool) == Some(true);
     let folds = client.pointer("/textDocument/foldingRange/rangeLimit");
     let of_files = client.pointer("/workspace/workspaceEdit/resourceOperations");
+    let resolved = client.pointer("/textDocument/codeAction/resolveSupport/properties");
+    let has_edit = |properties: &Vec<Value>| properties.iter().any(|property| property == "edit");
     let creates = |kinds: &Vec<Value>| kinds.iter().any(|kind| kind == "create");
     Abilities {
         apply_drawing_edit: able("/experimental/wedm/applyDrawingEdit"),
@@ -109,6 +112,8 @@ fn abilities(client: &Value) -> Abilities {
         register_watched_files: able("/workspace/didChangeWatchedFiles/dynamicRegistration"),
         related_information: able("/textDocument/publishDiagnostics/relatedInformation"),
         disabled_actions: able("/textDocument/codeAction/disabledSupport"),
+        resolves_actions: able("/textDocument/codeAction/dataSupport")
+            && resolved.and_then(Value::as_array).is_some_and(has_edit),
         snippets: able("/textDocument/completion/completionItem/snippetSupport"),
         hierarchical_symbols: able(
             "/textDocument/documentSymbol/hierarchicalDocumentSymbolSupport",

@@ -1,5 +1,6 @@
 //! Where the params of each LSP request name their document.
 
+use super::code_action::Unresolved;
 use crate::server::context::About;
 use ls_types::*;
 
@@ -41,4 +42,16 @@ about! {
     SemanticTokensRangeParams: text_document.uri;
     SignatureHelpParams: text_document_position_params.text_document.uri;
     TextDocumentPositionParams: text_document.uri;
+}
+
+/// An action names its document in its `data`.
+impl From<&CodeAction> for About {
+    fn from(action: &CodeAction) -> About {
+        let data = action.data.clone().map(serde_json::from_value);
+        let uri = |data: Unresolved| data.uri.as_str().into();
+        About {
+            uri: data.and_then(Result::ok).map_or_else(|| "".into(), uri),
+            ..About::default()
+        }
+    }
 }

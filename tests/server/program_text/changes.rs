@@ -102,6 +102,37 @@ fn refactorings_are_offered_as_versioned_edits_or_with_their_reason() {
 }
 
 #[test]
+fn a_client_that_resolves_actions_gets_the_edit_of_the_one_that_is_chosen() {
+    for (language, text, line) in [(THREE_B, NUMBERED, 3), (ISO, HOLE, 5)] {
+        let mut plain = Editor::open(language, text);
+        let whole = plain.actions(lines(line, line), json!([]), "refactor");
+        plain.close();
+        let able = json!({
+            "disabledSupport": true,
+            "dataSupport": true,
+            "resolveSupport": { "properties": ["edit"] },
+        });
+        let mut editor = Editor::open_with_actions(able, json!({}), language, text);
+        let bare = editor.actions(lines(line, line), json!([]), "refactor");
+        assert_eq!(bare.len(), whole.len());
+        let mut resolve = |action: &Value| {
+            let client = &mut editor.client;
+            client.request("codeAction/resolve", action.clone())
+        };
+        for (bare, whole) in bare.iter().zip(&whole) {
+            assert_eq!(bare["edit"], Value::Null, "{bare}");
+            assert_eq!(resolve(bare).unwrap()["edit"], whole["edit"], "{bare}");
+        }
+        let first = bare.iter().find(|action| action["disabled"] == Value::Null);
+        let mut old = first.unwrap().clone();
+        old["data"]["version"] = json!(0);
+        let error = resolve(&old).unwrap_err();
+        assert_eq!(error["code"], -32801, "{error}");
+        editor.close();
+    }
+}
+
+#[test]
 fn faults_of_iso_are_repaired() {
     let text = "G92 X0. Y0.\nG90\nG01 X5. Y0.\nG03 X0. Y5. I-5. J0.\nG03 X-5. Y0. I0. J5.\nM02\n";
     let mut editor = Editor::open(ISO, text);

@@ -21,11 +21,21 @@ impl Editor {
         Editor::open_under(json!({}), language, text)
     }
 
-    fn open_under(options: Value, [uri, id]: [&'static str; 2], text: &str) -> Editor {
+    fn open_under(options: Value, language: [&'static str; 2], text: &str) -> Editor {
+        let actions = json!({ "disabledSupport": true });
+        Editor::open_with_actions(actions, options, language, text)
+    }
+
+    fn open_with_actions(
+        actions: Value,
+        options: Value,
+        [uri, id]: [&'static str; 2],
+        text: &str,
+    ) -> Editor {
         let mut all = capabilities();
         all["textDocument"] = json!({
             "documentSymbol": { "hierarchicalDocumentSymbolSupport": true },
-            "codeAction": { "disabledSupport": true },
+            "codeAction": actions,
             "completion": { "completionItem": { "snippetSupport": true } },
         });
         all["workspace"]["applyEdit"] = json!(true);
