@@ -103,6 +103,18 @@ pub(super) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
             output::say(&line);
         }
         output::say_thread_hole(&part.made.holes, document.unit_mm());
+        let beyond: Vec<String> = (1..)
+            .zip(&part.corrections)
+            .filter(|(_, correction)| **correction < 0.0)
+            .map(|(pass, _): (usize, _)| pass.to_string())
+            .collect();
+        if !beyond.is_empty() {
+            output::say(&say!(
+                some_passes_run_on_the_other_side,
+                part_title(&part.part),
+                beyond.join(say!(comma))
+            ));
+        }
         if part.is_other_side {
             output::say(&say!(
                 the_wire_runs_on_the_other_side,

@@ -34,7 +34,7 @@ struct Round {
     is_led: bool,
     /// Along the tab, which ends at the entry.
     held: Rotated,
-    /// Drawing units; 0 where the contour is the path.
+    /// Drawing units; 0 where the control offsets the contour.
     correction: f64,
     /// Where the wire goes at the tab to have its correction switched.
     aside: Option<Point>,
@@ -124,12 +124,12 @@ impl Job<'_> {
             let across = self.across();
             let of_travel = across * if back { -unled.side } else { unled.side };
             let wire = self.units(self.settings.each_correction()[number]);
-            let control = if round.correction > 0.0 {
-                0.0
-            } else {
-                across * wire
-            };
             let surroundings = self.surroundings(&unled, contours, kerfs, form, wire);
+            let wire = wire.abs();
+            let control = match self.settings.compensation {
+                Compensation::Controller => across * wire,
+                _ => 0.0,
+            };
             let entry = unled.entry.unwrap_or(Entry {
                 wall: 0,
                 share: 0.0,
@@ -238,17 +238,18 @@ impl Job<'_> {
                     true => Rotated::at(pass.path, pass.element, pass.begin),
                     false => Rotated::whole(pass.path),
                 };
-                (ring, at.map(|(_, at)| at), wire, None)
+                (ring, at.map(|(_, at)| at), wire.abs(), None)
             };
         let returns = self.returns(count);
         // The control brings the wire to the correction of the next cut on the way back, and after the last pass the tab is cut with the first
-        // one.
-        let reach = match is_last {
+        // one. Across the contour corrections rise.
+        let reach = match is_last || self.settings.comes_across {
             true => wire.max(self.units(self.settings.correction)),
             false => wire,
         };
         let aside = |at: &Entry| {
-            let away = normal(&unled.walls[at.wall].geometry, at.share, unled.side);
+            let from = unled.side * self.across();
+            let away = normal(&unled.walls[at.wall].geometry, at.share, from);
             let aside = at.point + away * (reach + self.units(CLEAR));
             (side.is_some() && count > 1 && !returns).then_some(aside)
         };

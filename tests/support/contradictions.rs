@@ -121,6 +121,7 @@ pub const CONTRADICTIONS: &[Contradiction] = &[
     row(CROSSED, wire!("side = \"auto\"\npair.clearance = 0.01\n[workpieces]\none = [\"A\"]\ntwo = [\"B\"]\n"), "does-not-fit", "it has no partner"),
     row(CROSSED, wire!("side = \"auto\"\npair.clearance = 0.01\n[workpieces]\none = [\"A\"]\ntwo = [\"C\"]\n"), "does-not-fit", "nothing is drawn on the layers of two"),
     row(ONE, wire!("pair.drawn-as = \"punch\"\npair.clearance = 0.02\nprogram.compensation = \"none\"\n"), "settings", "along the drawn lines themselves"),
+    row(ONE, "wire-diameter = 0.18\ngap = 0.01\n[passes]\ncorrections = [0.15, 0.1]\n[pair]\ndrawn-as = \"punch\"\nclearance = 0.12\n[program]\ncompensation = \"controller\"\n", "settings", "keeps to one"),
     row(CROSSED, wire!("pair.clearance = 0.01\nprogram.compensation = \"none\"\n[workpieces]\none = [\"A\"]\ntwo = [\"B\"]\n"), "settings", "along the drawn lines themselves"),
     // Milling.
     row(NARROW, "side = \"opening\"\n[milling]\ntool-diameter = 1\ngap = 0.05\nlayer = 0.01\ndepth = 0.2\nwear = 0.02\n", "narrow-slot", "the electrode needs 1.100 mm"),

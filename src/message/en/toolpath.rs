@@ -44,6 +44,5 @@ declare! {
     no_contour_has_a_partner => "no contour of a workpiece has a partner in another one: there is no pair to cut (--force writes the programs all the same)";
     a_pair_needs(missing) => "the corrections of a pair are not known: expected {missing} to be set";
     no_contour_is_of_a_pair => "no contour belongs to a pair: expected closed contours that the wire runs on both sides of, or two workpieces, one in the other";
-    passes_run_on_both_sides_of_the_contour(part, key, length, corrections) => "{key} {length} mm lies between the corrections {corrections}: some passes of the {part} would run on one side of the drawn contour, some on the other; expected it below the smallest of them, or the other part drawn (pair.drawn-as)";
-    passes_run_beyond_the_contour(part, key, length, corrections) => "{key} {length} mm is above all corrections {corrections}: the wire of the {part} would run on the other side of the drawn contour, where one pass cannot follow another; expected it below the smallest of them, or one correction for one pass";
+    passes_run_on_both_sides_of_the_contour(part, key, length, corrections) => "{key} {length} mm lies between the corrections {corrections}: some passes of the {part} run on one side of the drawn contour, some on the other, and a control that offsets the contour keeps to one; expected program.compensation = \"path\", in 3B or ISO";
 }

@@ -44,6 +44,5 @@ translate! {
     no_contour_has_a_partner => "没有一个工件的轮廓在其他工件中有配对：没有可切的一对（--force 仍写出程序）";
     a_pair_needs(missing) => "不知道这一对零件的补偿量：请设置 {missing}";
     no_contour_is_of_a_pair => "没有成对的轮廓：应有两侧都走丝的封闭轮廓，或互相套在一起的两个工件";
-    passes_run_on_both_sides_of_the_contour(part, key, length, corrections) => "{key} {length} mm 落在补偿量 {corrections} 之间：{part} 的各次切割会有的在图中轮廓一侧，有的在另一侧；它应小于其中最小的，或画另一个零件（pair.drawn-as）";
-    passes_run_beyond_the_contour(part, key, length, corrections) => "{key} {length} mm 大于全部补偿量 {corrections}：{part} 的丝会走在图中轮廓的另一侧，各次切割无法接续；它应小于其中最小的，或只切一次、只用一个补偿量";
+    passes_run_on_both_sides_of_the_contour(part, key, length, corrections) => "{key} {length} mm 落在补偿量 {corrections} 之间：{part} 的各次切割有的在图中轮廓一侧，有的在另一侧，而由控制器补偿时只能在一侧；应设 program.compensation = \"path\"，用 3B 或 ISO";
 }
