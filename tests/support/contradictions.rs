@@ -115,7 +115,7 @@ pub const CONTRADICTIONS: &[Contradiction] = &[
     row(ONE, "pair.drawn-as = \"punch\"\n", "settings", "has no effect without pair.clearance"),
     row(ONE, "pair.clearance = 0.01\n", "settings", "has no pair"),
     row(ONE, "pair.stripper = 0.01\n", "settings", "expected pair.drawn-as"),
-    row(ONE, wire!("side = \"punch\"\npair.drawn-as = \"punch\"\npair.clearance = 0.01\n"), "settings", "expected both"),
+    row(ONE, wire!("side = \"punch\"\npair.drawn-as = \"punch\"\npair.clearance = 0.01\n"), "settings", "expected side = \"both\""),
     row(NESTED, wire!("[pair]\ndrawn-as = \"punch\"\nclearance = 0.01\n[workpieces]\none = [\"A\"]\ntwo = [\"B\"]\n"), "settings", "expected one of the two"),
     row(CROSSED, wire!("pair.clearance = 0.01\n[workpieces]\none = [\"A\"]\ntwo = [\"A\"]\n"), "settings", "the layer A"),
     row(CROSSED, wire!("side = \"auto\"\npair.clearance = 0.01\n[workpieces]\none = [\"A\"]\ntwo = [\"B\"]\n"), "does-not-fit", "it has no partner"),
