@@ -211,6 +211,7 @@ impl Job<'_> {
             counter_clockwise: closed
                 .then(|| (self.outlines[outline].twice_area > 0.0) != turned()),
             cut_off: false,
+            is_way_back: false,
             correction,
             thread_hole,
             side: None,
