@@ -4,9 +4,9 @@
 //! compared; what is as far apart as the smallest arc is wide does not matter any more.
 
 use super::Analysis;
-use crate::drawing::{ContourKey, Drawing, Outline};
+use crate::drawing::{ContourKey, Drawing, Outline, Role, wire_side};
 use crate::rule::Rule;
-use crate::settings::Effective;
+use crate::settings::{Effective, Partners, Use};
 use crate::toolpath::{self, LargestWire, WirePath, Work};
 use rustc_hash::FxHashMap;
 use std::sync::Arc;
@@ -53,8 +53,12 @@ pub fn largest_wire(
             (rule == Rule::NarrowSlot).then(|| rule.default_severity()),
         );
     }
+    let uses = uses(settings);
+    let farthest = uses.iter().map(|of| of.farther);
+    let farthest = farthest.fold(f64::NEG_INFINITY, f64::max);
     // Of the thickest wire with its gap.
     let half = of_arcs.diameter / 2.0 + toolpath::last_gap(settings).unwrap_or(0.0);
+    let half = half + farthest.max(0.0);
     let mut correction = settings.correction;
     loop {
         correction = (GROWTH * correction).min(half);
@@ -63,7 +67,11 @@ pub fn largest_wire(
             severities: severities.clone(),
             ..settings.clone()
         };
-        let found = narrowest(drawing, outlines, settings, is_cut).ok()?;
+        let gap = toolpath::last_gap(&settings).unwrap_or(0.0);
+        let found = narrowest(drawing, outlines, settings, &uses, is_cut).ok()?;
+        // What is farther apart may still let less through in another part.
+        let beyond = 2.0 * (correction - gap - farthest);
+        let found = found.filter(|found| correction >= half || found.diameter <= beyond);
         if let Some(narrowest) = found {
             let smaller = narrowest.diameter < of_arcs.diameter;
             let largest = if smaller { narrowest } else { of_arcs };
@@ -75,6 +83,32 @@ pub fn largest_wire(
     }
 }
 
+/// One of the parts that are cut along the contours of a drawing.
+struct PartCut {
+    /// What a contour is in it that several parts are cut along.
+    role: Option<Role>,
+    /// How much farther from the contour than half its kerf the wire runs, mm.
+    farther: f64,
+    /// Contours with a role of their own belong to it, too.
+    with_stated: bool,
+}
+
+fn uses(settings: &Effective) -> Vec<PartCut> {
+    let Some(Partners::CutTwice(drawn_as)) = settings.partners() else {
+        return vec![PartCut {
+            role: None,
+            farther: 0.0,
+            with_stated: true,
+        }];
+    };
+    let part = |of: Use| PartCut {
+        role: Some(of.role()),
+        farther: settings.shift_of(of).unwrap_or(0.0),
+        with_stated: of == Use::from(drawn_as),
+    };
+    settings.uses().into_iter().map(part).collect()
+}
+
 /// What comes of the comparison was left out for its length.
 struct NotCompared;
 
@@ -83,6 +117,7 @@ fn narrowest(
     drawing: &Drawing,
     outlines: &[Outline],
     settings: Effective,
+    uses: &[PartCut],
     is_cut: &dyn Fn(usize) -> bool,
 ) -> Result<Option<LargestWire>, NotCompared> {
     let unit_mm = settings.unit_of(drawing).mm;
@@ -97,24 +132,37 @@ fn narrowest(
     });
     let places: FxHashMap<ContourKey, usize> = places.collect();
     let outline = |key: ContourKey| Some((*places.get(&key)?, outlines.get(*places.get(&key)?)?));
-    let counts = |keys: [ContourKey; 2]| {
-        let both = keys.map(outline);
-        let is_drawn_once = |it: &Option<(usize, &Outline)>| {
-            it.is_some_and(|(_, outline)| outline.contour.double_of.is_none())
-        };
-        both.iter().all(is_drawn_once) && both.iter().flatten().any(|(index, _)| is_cut(*index))
-    };
-    let side_of = |key: ContourKey| outline(key)?.1.wire_side();
     let outlook = |key: ContourKey| analysis.outlook(drawing, key);
-    let Some((width, facing)) = analysis.pairs.narrowest(&outlook, &side_of, &counts) else {
-        return Ok(None);
+    let of_part = |of: &PartCut| {
+        let counts = |keys: [ContourKey; 2]| {
+            let both = keys.map(outline);
+            let is_drawn_once = |it: &Option<(usize, &Outline)>| {
+                it.is_some_and(|(_, outline)| {
+                    outline.contour.double_of.is_none()
+                        && (of.with_stated || outline.role == Role::Both)
+                })
+            };
+            both.iter().all(is_drawn_once) && both.iter().flatten().any(|(index, _)| is_cut(*index))
+        };
+        let side_of = |key: ContourKey| {
+            let outline = outline(key)?.1;
+            match (of.role, outline.role) {
+                (Some(role), Role::Both) => {
+                    wire_side(role, outline.contour.closed, outline.twice_area)
+                }
+                _ => outline.wire_side(),
+            }
+        };
+        let (width, facing) = analysis.pairs.narrowest(&outlook, &side_of, &counts)?;
+        let [one, other] = facing.map(|(key, index)| outlook(key)?.segment_id(index));
+        one.map(|(entity, segment)| LargestWire {
+            diameter: width * unit_mm - 2.0 * (gap + of.farther),
+            radius: width * unit_mm / 2.0,
+            entity,
+            segment,
+            facing: other,
+        })
     };
-    let [one, other] = facing.map(|(key, index)| outlook(key)?.segment_id(index));
-    Ok(one.map(|(entity, segment)| LargestWire {
-        diameter: width * unit_mm - 2.0 * gap,
-        radius: width * unit_mm / 2.0,
-        entity,
-        segment,
-        facing: other,
-    }))
+    let found = uses.iter().filter_map(of_part);
+    Ok(found.min_by(|a, b| a.diameter.total_cmp(&b.diameter)))
 }

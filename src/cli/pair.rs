@@ -72,6 +72,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     };
     let target = |part: &str| folder.join(file_name(path, part, arguments.format));
     let targets: Vec<PathBuf> = made.iter().map(|part| target(&part.part)).collect();
+    let parts: Vec<&str> = made.iter().map(|part| &*part.part).collect();
+    refuse_one_file_for_two(&parts, &targets)?;
     for target in &targets {
         output::refuse_input(target, path)?;
         if target.exists() && !arguments.overwrite {
@@ -103,6 +105,18 @@ pub(super) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
             output::say(&line);
         }
         output::say_thread_hole(&part.made.holes, document.unit_mm());
+        let beyond: Vec<String> = (1..)
+            .zip(&part.corrections)
+            .filter(|(_, correction)| **correction < 0.0)
+            .map(|(pass, _): (usize, _)| pass.to_string())
+            .collect();
+        if !beyond.is_empty() {
+            output::say(&say!(
+                some_passes_run_on_the_other_side,
+                part_title(&part.part),
+                beyond.join(say!(comma))
+            ));
+        }
         if part.is_other_side {
             output::say(&say!(
                 the_wire_runs_on_the_other_side,
@@ -111,6 +125,20 @@ pub(super) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         }
     }
     Ok(Verdict::Clean)
+}
+
+/// Refuses parts whose names differ in nothing that a name of a file can hold, on every machine.
+fn refuse_one_file_for_two(parts: &[&str], targets: &[PathBuf]) -> Result<(), Failure> {
+    let plain = |target: &PathBuf| target.to_string_lossy().to_lowercase();
+    for (index, target) in targets.iter().enumerate() {
+        let before = targets[..index].iter();
+        if let Some(other) = before.map(plain).position(|other| other == plain(target)) {
+            let [one, other] = [other, index].map(|part| part_title(parts[part]));
+            let sentence = say!(two_parts_in_one_file, one, other);
+            return Err(Failure::of(target, sentence));
+        }
+    }
+    Ok(())
 }
 
 /// `washer-punch.3b`; characters that a file name cannot hold become `_`.

@@ -142,10 +142,9 @@ pub(crate) fn cut_twice_parts(
     before: [Option<&Part>; 2],
 ) -> Result<[Part; 2], Refusal> {
     let part_of = |of: Use, before: Option<&Part>| {
-        let (own, is_other) = settings.of_use(of).ok_or_else(|| {
-            let sentence = settings.misfit_of_passes(of);
-            Refusal::Sentence(sentence.unwrap_or_else(|| say!(no_path_can_be_made).into()))
-        })?;
+        let (own, is_other) = settings
+            .of_use(of)
+            .ok_or_else(|| Refusal::Sentence(say!(no_path_can_be_made).into()))?;
         let cutting = Cutting {
             side: side_of(outline, of.role())?,
             is_other,

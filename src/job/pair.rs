@@ -15,7 +15,7 @@ use std::sync::Arc;
 pub struct PartProgram {
     /// `punch`, `plate`, `stripper`, `holder`, or the name of a workpiece.
     pub part: String,
-    /// The correction of each pass, mm.
+    /// The correction of each pass, mm; below 0 for passes on the other side of the drawn outline, where not all run there.
     pub corrections: Vec<f64>,
     /// The wire runs on the other side of the drawn outline.
     pub is_other_side: bool,
@@ -60,7 +60,12 @@ pub fn pair(
     let planned = match partners {
         Partners::CutTwice(drawn_as) => {
             let uses = settings.uses().into_iter().map(|of| {
-                if let Some(sentence) = settings.misfit_of_passes(of) {
+                let is_offset_by_control = settings.compensation == Compensation::Controller
+                    || wanted.format == Format::FourB;
+                if let Some(sentence) = settings
+                    .sides_of_passes(of)
+                    .filter(|_| is_offset_by_control)
+                {
                     return Err(Refusal::Sentence(sentence));
                 }
                 let (own, is_other_side) = settings
@@ -137,10 +142,12 @@ fn one(
     let corrections = settings.each_correction();
     // Its passes have been checked against the wire; a correction reduced by the clearance may be below the wire's
     // radius, and still leaves the part that is meant.
-    let settings = Arc::new(Effective {
+    let mut settings = Effective {
         wire_diameter: None,
         ..settings
-    });
+    };
+    settings.severities.insert(Rule::PassOrder, None);
+    let settings = Arc::new(settings);
     let mut analysis = Analysis::new(&drawing, settings.clone());
     let (mut findings, _) = analysis.findings(&drawing, usize::MAX);
     // The fit decides whether the wire leaves too much in a tight arc.

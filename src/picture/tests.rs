@@ -150,6 +150,7 @@ fn plate() -> (Drawing, Vec<Outline>, Vec<Finding>, Vec<WirePath>) {
         pass: 1,
         counter_clockwise: None,
         cut_off: false,
+        is_way_back: false,
         correction: 0.1,
         thread_hole: at(20.0, 15.0),
         side: None,

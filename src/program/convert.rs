@@ -407,6 +407,7 @@ impl Cuts {
                 pass: 1,
                 counter_clockwise: None,
                 cut_off: false,
+                is_way_back: false,
                 correction: 0.0,
                 thread_hole,
                 side: cut.side,

@@ -93,7 +93,8 @@ pub(crate) struct PairPrograms {
 pub(crate) struct PairProgram {
     /// `punch`, `plate`, `stripper`, `holder`, or the name of a workpiece.
     pub part: String,
-    /// Correction of each pass, mm.
+    /// Correction of each pass, mm. Below 0 for the passes on the other side of what is drawn, where the clearance lies between the
+    /// corrections; where they all run there, how far they are from it, with `otherSide`.
     pub corrections: Vec<f64>,
     /// The clearance is not smaller than the correction: the wire runs on what is drawn or on its other side.
     pub(crate) other_side: bool,

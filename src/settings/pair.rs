@@ -148,26 +148,34 @@ impl Effective {
         })
     }
 
-    /// The settings for one part of a pair, cut along the drawn contour. Where its correction falls to 0 or below, the
-    /// wire runs on the other side of the contour at that distance: the flag says so, and the settings that it comes
-    /// across the contour, since what drops out lies where it did. `None` where the pair does not
-    /// say, and where the passes would run on both sides.
-    pub(crate) fn of_use(&self, of: Use) -> Option<(Effective, bool)> {
+    /// The corrections of the passes of a part, mm, from the side of the drawn contour that the part does not lie on: below 0 on its own side.
+    fn corrections_of(&self, of: Use) -> Option<Vec<f64>> {
         let shift = self.shift_of(of)?;
-        let signed = |correction: f64| correction + shift;
-        let all: Vec<f64> = self.corrections.iter().copied().map(signed).collect();
-        let is_other = all.iter().all(|correction| *correction <= ROUNDING);
-        if !is_other && all.iter().any(|correction| *correction <= ROUNDING) {
-            return None;
-        }
+        let signed = |correction: f64| match correction + shift {
+            on_contour if on_contour.abs() <= ROUNDING => 0.0,
+            signed => signed,
+        };
+        Some(self.each_correction().into_iter().map(signed).collect())
+    }
+
+    /// The settings for one part of a pair, cut along the drawn contour. Where no correction of it is above 0, the wire runs on the other side
+    /// of the contour, at distances that rise from pass to pass: the flag says so, and the settings that it comes across the contour, since
+    /// what drops out lies where it did. Where some are above 0 and some below, those below are of passes on the other side. `None` where the
+    /// pair does not say.
+    pub(crate) fn of_use(&self, of: Use) -> Option<(Effective, bool)> {
+        let signed = self.corrections_of(of)?;
+        let is_other = signed.iter().all(|correction| *correction <= 0.0);
         let role = match (of.role(), is_other) {
             (Role::Punch, false) | (Role::Opening, true) => SideSetting::Punch,
             _ => SideSetting::Opening,
         };
-        let corrections: Vec<f64> = all.iter().map(|correction| correction.abs()).collect();
-        let correction = corrections.iter().copied().fold(0.0, f64::max);
+        let corrections: Vec<f64> = match is_other {
+            true => signed.iter().map(|correction| correction.abs()).collect(),
+            false => signed,
+        };
+        let farthest = corrections.iter().map(|correction| correction.abs());
         let mut settings = Effective {
-            correction,
+            correction: farthest.fold(0.0, f64::max),
             pass: self.pass,
             side: role,
             comes_across: is_other,
@@ -184,16 +192,11 @@ impl Effective {
         Some((settings, is_other))
     }
 
-    /// Why no program of several passes is made of a part, as a sentence: its clearance is larger than some correction, or than all.
-    pub(crate) fn misfit_of_passes(&self, of: Use) -> Option<String> {
-        let shift = self.shift_of(of)?;
-        let passes = self.each_correction();
-        let beyond = |correction: &&f64| **correction + shift <= ROUNDING;
-        let count = passes.iter().filter(beyond).count();
-        // Passes that are all alike follow each other on either side.
-        let mut pairs = passes.iter().zip(passes.iter().skip(1));
-        let differ = pairs.any(|(one, next)| (one - next).abs() > ROUNDING);
-        if count == 0 || !differ {
+    /// Why the control cannot offset the passes of a part, as a sentence: some would run on one side of the drawn contour, some on the other.
+    pub(crate) fn sides_of_passes(&self, of: Use) -> Option<String> {
+        let signed = self.corrections_of(of)?;
+        let is_any = |sign: f64| signed.iter().any(|correction| *correction * sign > 0.0);
+        if !is_any(1.0) || !is_any(-1.0) {
             return None;
         }
         let key = match (of, self.pair.drawn_as) {
@@ -201,19 +204,15 @@ impl Effective {
             (Use::Stripper, _) => "pair.stripper",
             _ => "pair.clearance",
         };
-        let listed: Vec<String> = passes.iter().map(f64::to_string).collect();
-        let (listed, length) = (listed.join(say!(comma)), rounded(-shift));
-        let part = part_title(of.name());
-        Some(match count == passes.len() {
-            true => say!(passes_run_beyond_the_contour, part, key, length, listed),
-            false => say!(
-                passes_run_on_both_sides_of_the_contour,
-                part,
-                key,
-                length,
-                listed
-            ),
-        })
+        let listed = self.each_correction().into_iter().map(rounded);
+        let listed: Vec<String> = listed.map(|mm| mm.to_string()).collect();
+        Some(say!(
+            passes_run_on_both_sides_of_the_contour,
+            part_title(of.name()),
+            key,
+            rounded(-self.shift_of(of)?),
+            listed.join(say!(comma))
+        ))
     }
 
     /// The settings for one of the drawn workpieces alone.
@@ -280,8 +279,18 @@ pub(super) fn faults(settings: &Settings) -> Vec<PassFault> {
             }
         }
     }
-    if pair.clearance.is_some() && settings.program().compensation() == Compensation::None {
-        complain("pair.clearance", on_the_drawn_line());
+    match settings.program().compensation() {
+        Compensation::None if pair.clearance.is_some() => {
+            complain("pair.clearance", on_the_drawn_line());
+        }
+        Compensation::Controller => {
+            let effective = Effective::of(settings);
+            let uses = effective.uses().into_iter();
+            for sentence in uses.filter_map(|of| effective.sides_of_passes(of)) {
+                complain("pair.clearance", sentence);
+            }
+        }
+        _ => {}
     }
     if pair.clearance.is_some() {
         let key = "pair.clearance";

@@ -2,7 +2,7 @@
 
 use super::clearance::Walls;
 use super::cores::{first_fault, sum};
-use super::corners::{Element, Joining, Offsets, Raw};
+use super::corners::{Element, Joining, Offsets, Raw, elements};
 use super::crowd::{MOST_IN_A_SQUARE, crowd};
 use super::job::{Job, ROUNDING};
 use super::loops::{self, Found};
@@ -34,10 +34,24 @@ const SPECK: f64 = 4e-5;
 pub(super) struct Along {
     /// +1 where the wire runs to the left of the walls, −1 to the right.
     pub(crate) side: f64,
-    /// Drawing units.
+    /// Drawing units; below 0 where the wire runs on the other side.
     pub(crate) correction: f64,
     pub(crate) corner: Corner,
     pub(crate) closed: bool,
+}
+
+impl Along {
+    /// The same by the side on which the wire runs.
+    pub(super) fn on_own_side(self) -> Along {
+        match self.correction < 0.0 {
+            true => Along {
+                side: -self.side,
+                correction: -self.correction,
+                ..self
+            },
+            false => self,
+        }
+    }
 }
 
 /// What has been proved before of a path beside the same walls.
@@ -157,6 +171,9 @@ impl Job<'_> {
         } = along;
         if walls.is_empty() {
             return Ok(Err(Fault::Nothing));
+        }
+        if correction <= self.units(ROUNDING) {
+            return Ok(Ok(Laid::Path(elements(walls))));
         }
         if crowd(own, 2.0 * correction) > MOST_IN_A_SQUARE {
             return Ok(Err(Fault::Crowded));

@@ -79,6 +79,7 @@ pub(super) fn one_path(
         pass: 1,
         counter_clockwise: None,
         cut_off: false,
+        is_way_back: false,
         correction: 0.0,
         thread_hole: begin,
         side: None,

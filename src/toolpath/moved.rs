@@ -73,10 +73,7 @@ impl Part {
         edited: &[Range<usize>],
     ) -> Option<Moved> {
         let Cut {
-            job,
-            half,
-            last,
-            away,
+            job, half, last, ..
         } = Cut::of(drawing, cutting, &|| true).ok()?;
         let is_laid = self.is_by_neighbours == [true; 2] && !self.path_follows.is_empty();
         if !is_laid || contour.len() != self.drawn.len() {
@@ -86,7 +83,8 @@ impl Part {
         if new.is_empty() {
             return Some(Moved::default());
         }
-        let sides = [(away.sign(), last), (-cutting.side.sign(), half)];
+        let last = last.on_own_side();
+        let sides = [(last.side, last.correction), (-cutting.side.sign(), half)];
         let gone = self.put_drawn(&new)?;
         let moved = self.path_follows_on(&job, &new, sides);
         if moved.is_none() {

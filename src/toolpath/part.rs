@@ -128,12 +128,8 @@ pub(crate) fn part(
     before: Option<&Part>,
     goes_on: &(dyn Fn() -> bool + Sync),
 ) -> Result<Part, Refusal> {
-    let Cut {
-        job,
-        half,
-        last,
-        away,
-    } = Cut::of(drawing, cutting, goes_on)?;
+    let cut = Cut::of(drawing, cutting, goes_on)?;
+    let (job, half) = (&cut.job, cut.half);
     let Cutting { side, walls, .. } = cutting;
     let segment = |at: usize| match walls {
         Some(walls) => contour.segment_with(drawing, at, *walls.segment(at)),
@@ -149,7 +145,7 @@ pub(crate) fn part(
         path,
         is_proved,
         swing,
-    } = job.last_path(contour, away, last, before)?;
+    } = cut.last_path(contour, before)?;
     let is_path_by_neighbours = !job.searched.swap(false, Relaxed);
     let path_follows = follows(&path);
     let beside: Vec<Wall> = path
@@ -225,7 +221,7 @@ pub(crate) fn part(
         let edge = Edge::of(element, &path_follows);
         let piece = beside[element.wall].geometry;
         let swung = piece.as_arc().filter(|arc| {
-            let is_inside = arc.sweep.signum() == away.sign();
+            let is_inside = arc.sweep.signum() == side.sign();
             swing > 0.0 && is_inside && (arc.radius - swing).abs() <= rounding
         });
         match swung.filter(|_| !element.is_roll()) {
@@ -255,11 +251,12 @@ pub(crate) fn part(
 /// What a part is cut by.
 pub(super) struct Cut<'a> {
     pub(super) job: Job<'a>,
-    /// Half the kerf of the last pass, and its correction. Drawing units.
+    /// Half the kerf of the last pass, drawing units.
     pub(super) half: f64,
-    pub(super) last: f64,
-    /// The side of the contour on which the wire runs.
-    pub(super) away: Side,
+    /// How the last pass runs along the contour.
+    pub(super) last: Along,
+    /// The correction of the first pass, from the same side.
+    rough: f64,
 }
 
 impl<'a> Cut<'a> {
@@ -276,16 +273,22 @@ impl<'a> Cut<'a> {
         };
         let passes = settings.each_correction();
         let half = settings.half_kerf(passes.len() - 1);
-        let (Some(&last), Some(half)) = (passes.last(), half) else {
+        let (Some(&rough), Some(&last), Some(half)) = (passes.first(), passes.last(), half) else {
             return Err(Refusal::Sentence(say!(no_path_can_be_made).into()));
+        };
+        let from = match cutting.is_other {
+            true => cutting.side.reversed(),
+            false => cutting.side,
         };
         Ok(Cut {
             half: job.units(half),
-            last: job.units(last),
-            away: match cutting.is_other {
-                true => cutting.side.reversed(),
-                false => cutting.side,
+            last: Along {
+                side: from.sign(),
+                correction: job.units(last),
+                corner: settings.corner,
+                closed: true,
             },
+            rough: job.units(rough),
             job,
         })
     }
@@ -310,23 +313,18 @@ struct Segments<'a> {
     segment: &'a (dyn Fn(usize) -> Option<ContourSegment> + Sync),
 }
 
-impl Job<'_> {
-    /// The walls of a closed contour, and the path of the last pass along them on a side; one line without length where the wire can only
-    /// stand.
-    fn last_path(
-        &self,
-        contour: Segments,
-        side: Side,
-        last: f64,
-        before: Option<&Part>,
-    ) -> Result<Last, Refusal> {
-        let settings = self.settings;
-        let rough = self.units(settings.correction);
-        let is_beside_rough = settings.passes.skim_corner() == SkimCorner::ConstantStock
-            && rough > last
-            && settings.corrections.len() > 1;
-        if last <= self.units(super::job::ROUNDING) {
-            let walls = self.closed_walls(contour);
+impl Cut<'_> {
+    /// The walls of a closed contour, and the path of the last pass along them; one line without length where the wire can only stand.
+    fn last_path(&self, contour: Segments, before: Option<&Part>) -> Result<Last, Refusal> {
+        let Cut {
+            job, rough, last, ..
+        } = self;
+        let rounding = job.units(super::job::ROUNDING);
+        let swing = (rough - last.correction).abs();
+        let is_beside_rough =
+            job.settings.passes.skim_corner() == SkimCorner::ConstantStock && swing > rounding;
+        if last.correction.abs() <= rounding && !is_beside_rough {
+            let walls = job.closed_walls(contour);
             let path = elements(&walls);
             return Ok(Last {
                 walls,
@@ -336,28 +334,34 @@ impl Job<'_> {
                 swing: 0.0,
             });
         }
-        let is_plain = !is_beside_rough && settings.corner == Corner::Arc;
+        let is_plain = !is_beside_rough && last.corner == Corner::Arc;
         if let Some(before) = before.filter(|_| is_plain)
-            && let Some(mended) = self.mended(contour, side, last, before)?
+            && let Some(mended) = job.mended(contour, last.on_own_side(), before)?
         {
             return Ok(mended);
         }
-        let first = if is_beside_rough { rough } else { last };
-        let (walls, own, laid) =
-            self.along(contour.count, contour.segment, side.sign(), first, true)?;
+        let first = Along {
+            correction: match is_beside_rough {
+                true => *rough,
+                false => last.correction,
+            },
+            ..*last
+        };
+        let first = first.on_own_side();
+        let (walls, own, laid) = job.along(
+            contour.count,
+            contour.segment,
+            first.side,
+            first.correction,
+            true,
+        )?;
         let laid = match (laid, is_beside_rough) {
             (Ok(Laid::Path(path)), true) => {
                 let rough = Rough {
-                    correction: rough,
+                    correction: *rough,
                     path,
                 };
-                let along = Along {
-                    side: side.sign(),
-                    correction: last,
-                    corner: settings.corner,
-                    closed: true,
-                };
-                self.skim(&walls, &own, &rough, along)?
+                job.skim(&walls, &own, &rough, *last)?
             }
             (laid, _) => laid,
         };
@@ -368,7 +372,7 @@ impl Job<'_> {
                 own,
                 path,
                 is_proved: is_plain,
-                swing: if is_beside_rough { rough - last } else { 0.0 },
+                swing: if is_beside_rough { swing } else { 0.0 },
             }),
             Ok(Laid::Point(stand)) => {
                 let element = Element {
@@ -384,10 +388,15 @@ impl Job<'_> {
                     swing: 0.0,
                 })
             }
-            Err(fault) => Err(Refusal::Findings(vec![self.no_path(&fault, &walls, first)])),
+            Err(fault) => {
+                let finding = job.no_path(&fault, &walls, first.correction);
+                Err(Refusal::Findings(vec![finding]))
+            }
         }
     }
+}
 
+impl Job<'_> {
     fn closed_walls(&self, Segments { count, segment }: Segments) -> Vec<Wall> {
         let zero_length = self.units(self.settings.tolerances.zero_length);
         walls(count, segment, true, zero_length)
@@ -397,8 +406,7 @@ impl Job<'_> {
     fn mended(
         &self,
         contour: Segments,
-        side: Side,
-        correction: f64,
+        along: Along,
         before: &Part,
     ) -> Result<Option<Last>, Refusal> {
         let walls = self.closed_walls(contour);
@@ -414,12 +422,6 @@ impl Job<'_> {
             &before.path_follows,
             before.is_by_neighbours[0],
         );
-        let along = Along {
-            side: side.sign(),
-            correction,
-            corner: Corner::Arc,
-            closed: true,
-        };
         let known = Known {
             kept: Some(kept),
             ..Known::default()

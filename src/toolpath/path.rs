@@ -65,6 +65,8 @@ pub struct WirePath {
     pub counter_clockwise: Option<bool>,
     /// It cuts off the tab that the passes of the contour have left; before its first pass the machine stops.
     pub cut_off: bool,
+    /// It goes back along what its pass has cut up to the tab, and cuts nothing: the next pass goes the same way.
+    pub is_way_back: bool,
     /// The distance of the path from the contour, drawing units; 0 where the contour is the path.
     pub correction: f64,
     /// The thread hole, to which the wire returns.
@@ -88,7 +90,7 @@ impl WirePath {
 
     /// The first path of its contour.
     pub(crate) fn is_first(&self) -> bool {
-        self.pass == 1 && !self.cut_off
+        self.pass == 1 && !self.cut_off && !self.is_way_back
     }
 
     /// It cuts a tab that another pass has cut before, from that pass's end: the machine does not stop in between.

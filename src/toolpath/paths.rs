@@ -47,7 +47,7 @@ const CONTOURS_AT_A_TIME: usize = 8;
 
 /// One pass along a contour.
 pub(super) struct Pass {
-    /// Drawing units.
+    /// Drawing units; below 0 where the wire runs on the other side of the contour than in the first pass.
     pub(crate) correction: f64,
     /// Begins anywhere; empty where the wire stands in one point.
     pub(crate) path: Vec<Element>,
@@ -221,10 +221,11 @@ impl Job<'_> {
         }
         // Half the kerf of the last pass is its correction where nothing else is known: no later pass finds any stock.
         let kerf = |(number, pass): (usize, &Pass)| {
-            let last = (number + 1 == count).then_some(pass.correction);
+            let correction = pass.correction.abs();
+            let last = (number + 1 == count).then_some(correction);
             let half = self.settings.half_kerf(number).map(|half| self.units(half));
             let half = half.or(last)?;
-            Some(Kerf::new(&pass.path, pass.begin, pass.correction, half))
+            Some(Kerf::new(&pass.path, pass.begin, correction, half))
         };
         let kerfs: Vec<Kerf> = unled.passes.iter().enumerate().filter_map(kerf).collect();
         let last = unled.passes.last()?;
@@ -364,7 +365,7 @@ impl Job<'_> {
         };
         let corrections = settings.each_correction().into_iter();
         let corrections: Vec<f64> = corrections.map(|mm| self.units(mm)).collect();
-        let rough = corrections.iter().copied().fold(0.0, f64::max);
+        let rough = corrections.first().copied().unwrap_or_default();
         let segment = |at: usize| contour.segment(self.drawing, at);
         let (walls, own, first) = self.along(contour.len(), segment, side, rough, closed)?;
         let along = Along {
@@ -416,7 +417,7 @@ impl Job<'_> {
                     continue;
                 }
                 Err(fault) => {
-                    let finding = self.no_path(&fault, &walls, correction);
+                    let finding = self.no_path(&fault, &walls, correction.abs());
                     return Err(Refusal::Findings(vec![finding]));
                 }
             };
@@ -425,7 +426,7 @@ impl Job<'_> {
             };
             let (element, begin) = begin.ok_or_else(|| {
                 let fault = Fault::Unproved { wall: at.wall };
-                Refusal::Findings(vec![self.no_path(&fault, &walls, correction)])
+                Refusal::Findings(vec![self.no_path(&fault, &walls, correction.abs())])
             })?;
             passes.push(Pass {
                 correction,

@@ -63,14 +63,17 @@ impl Job<'_> {
         along: Along,
     ) -> Result<Outcome, Refusal> {
         let by = rough.correction - along.correction;
+        let side = along.side;
         let is_constant = self.settings.passes.skim_corner() == SkimCorner::ConstantStock;
-        if !is_constant || by <= self.units(ROUNDING) || rough.path.is_empty() {
+        if !is_constant || by.abs() <= self.units(ROUNDING) || rough.path.is_empty() {
+            let along = along.on_own_side();
             let before = Before {
                 path: &rough.path,
                 correction: rough.correction,
             };
             // With tips a path is more than what has been proved, and beside the first path it has been otherwise.
             let is_plain = along.corner == Corner::Arc && !is_constant;
+            let is_plain = is_plain && along.side == side && along.correction <= rough.correction;
             let known = Known {
                 before: is_plain.then_some(before),
                 ..Known::default()
@@ -92,7 +95,7 @@ impl Job<'_> {
             corner: Corner::Arc,
             closed: along.closed,
         };
-        let laid = self.laid(&beside, &near, back)?;
+        let laid = self.laid(&beside, &near, back.on_own_side())?;
         Ok(match laid {
             Ok(Laid::Path(mut path)) => {
                 for element in &mut path {

@@ -2,8 +2,8 @@
 //! which is cut off after a stop.
 //!
 //! With a tab the passes end where it begins, and go back from there: a step leads from the path of one to that of the next. Then the tab is
-//! cut in passes of its own, to and fro from where the wire stands. Several passes that all go one way keep no tab: the way from where it
-//! begins back to the thread hole would cut off what hangs on it.
+//! cut in passes of its own, to and fro from where the wire stands. Of several passes that all go one way each goes back along what it has
+//! cut: the straight way from where the tab begins to the thread hole would cut off what hangs on it.
 
 use super::corners::Element;
 use super::entry::{Entry, path_point};
@@ -34,7 +34,7 @@ struct Round {
     is_led: bool,
     /// Along the tab, which ends at the entry.
     held: Rotated,
-    /// Drawing units; 0 where the contour is the path.
+    /// Drawing units; 0 where the control offsets the contour.
     correction: f64,
     /// Where the wire goes at the tab to have its correction switched.
     aside: Option<Point>,
@@ -52,14 +52,8 @@ impl Job<'_> {
     ) -> Result<Vec<WirePath>, Refusal> {
         let tab = self.tab(&unled)?;
         // From the far end of an open contour to the thread hole, in place of along the contour.
-        let returns = self.returns(unled.passes.len());
-        if returns && tab.is_some() {
-            let handle = name(self.drawing, &self.outlines[unled.outline]);
-            let source = unled.walls.first().map(|wall| wall.source);
-            let sentence = say!(one_way_keeps_no_tab, handle);
-            let finding = fault(self.severity(), source, sentence, None);
-            return Err(Refusal::Findings(vec![finding]));
-        }
+        let is_one_way = self.is_one_way(unled.passes.len());
+        let returns = is_one_way && tab.is_none();
         let form = self.lead(wanted);
         let is_straight = form == Lead::Straight;
         let overlap = self.overlap(&unled)?;
@@ -90,15 +84,16 @@ impl Job<'_> {
         let mut paths = Vec::with_capacity(2 * count);
         // Where the wire stands, if that is at the tab.
         let mut at_tab: Option<Point> = None;
-        let cut_off = (0..count).map(|number| (number, true));
-        let stages = (0..count)
-            .map(|number| (number, false))
-            .chain(cut_off.filter(|_| tab.is_some()));
-        for (number, cut_off) in stages {
+        for stage in stages(count, tab.is_some(), is_one_way) {
+            let Stage {
+                number,
+                cut_off,
+                is_way_back,
+            } = stage;
             let round = &mut rounds[number];
             let back = match cut_off {
                 true => at_tab.is_none(),
-                false => self.settings.runs_back(number),
+                false => self.settings.runs_back(number) || is_way_back,
             };
             let from_tab = (tab.is_some() || !closed) && cut_off != back;
             let to_tab = (tab.is_some() || !closed) && !from_tab;
@@ -106,14 +101,15 @@ impl Job<'_> {
             let main = round.main.iter().skip(usize::from(round.is_led));
             let beyond = match back == self.settings.runs_back(number) {
                 _ if !overlaps => Vec::new(),
-                true => beyond(main.copied(), overlap),
-                false => beyond(main.rev().map(reversed), overlap),
+                true => beyond(main.clone().copied(), overlap),
+                false => beyond(main.clone().rev().map(reversed), overlap),
             };
-            let is_led = round.is_led && !cut_off;
+            let is_led = round.is_led && !cut_off && !is_way_back;
             let mut segments = match cut_off {
                 true => std::mem::take(&mut round.held).into_segments(back, None),
-                // What lies beyond the tab is asked of it once more.
-                false if tab.is_some() && overlap > 0.0 => round.main.clone(),
+                false if is_way_back => main.rev().map(reversed).collect(),
+                // What is gone back along, and what lies beyond the tab is asked of it once more.
+                false if tab.is_some() && (overlap > 0.0 || is_one_way) => round.main.clone(),
                 false => std::mem::take(&mut round.main),
             };
             let (begin, end) = match (segments.get(usize::from(is_led)), segments.last()) {
@@ -124,12 +120,12 @@ impl Job<'_> {
             let across = self.across();
             let of_travel = across * if back { -unled.side } else { unled.side };
             let wire = self.units(self.settings.each_correction()[number]);
-            let control = if round.correction > 0.0 {
-                0.0
-            } else {
-                across * wire
-            };
             let surroundings = self.surroundings(&unled, contours, kerfs, form, wire);
+            let wire = wire.abs();
+            let control = match self.settings.compensation {
+                Compensation::Controller => across * wire,
+                _ => 0.0,
+            };
             let entry = unled.entry.unwrap_or(Entry {
                 wall: 0,
                 share: 0.0,
@@ -196,6 +192,7 @@ impl Job<'_> {
                 pass: number + 1,
                 counter_clockwise: closed.then_some(counter_clockwise != back),
                 cut_off,
+                is_way_back,
                 correction: round.correction,
                 thread_hole: thread,
                 side: if back { side.map(Side::reversed) } else { side },
@@ -238,17 +235,18 @@ impl Job<'_> {
                     true => Rotated::at(pass.path, pass.element, pass.begin),
                     false => Rotated::whole(pass.path),
                 };
-                (ring, at.map(|(_, at)| at), wire, None)
+                (ring, at.map(|(_, at)| at), wire.abs(), None)
             };
-        let returns = self.returns(count);
+        let returns = self.is_one_way(count) && tab.is_none();
         // The control brings the wire to the correction of the next cut on the way back, and after the last pass the tab is cut with the first
-        // one.
-        let reach = match is_last {
+        // one. Across the contour corrections rise.
+        let reach = match is_last || self.settings.comes_across {
             true => wire.max(self.units(self.settings.correction)),
             false => wire,
         };
         let aside = |at: &Entry| {
-            let away = normal(&unled.walls[at.wall].geometry, at.share, unled.side);
+            let from = unled.side * self.across();
+            let away = normal(&unled.walls[at.wall].geometry, at.share, from);
             let aside = at.point + away * (reach + self.units(CLEAR));
             (side.is_some() && count > 1 && !returns).then_some(aside)
         };
@@ -288,7 +286,7 @@ impl Job<'_> {
     }
 
     /// Whether each of so many passes comes back to the thread hole to go the same way as the one before.
-    fn returns(&self, passes: usize) -> bool {
+    fn is_one_way(&self, passes: usize) -> bool {
         self.settings.passes.sequence() == Sequence::OneWay && passes > 1
     }
 
@@ -373,6 +371,39 @@ impl Job<'_> {
             None,
         )]))
     }
+}
+
+/// One path along a contour.
+#[derive(Clone, Copy)]
+struct Stage {
+    /// Of the pass, from 0.
+    number: usize,
+    cut_off: bool,
+    is_way_back: bool,
+}
+
+/// The paths of so many passes in their order. Those that go one way to a tab go back before the next. The tab is cut to and fro, and ends at
+/// the thread hole: an even number of times from there, else from where the last pass stands.
+fn stages(count: usize, keeps_tab: bool, is_one_way: bool) -> Vec<Stage> {
+    let mut stages = Vec::new();
+    let mut add = |number: usize, cut_off: bool, is_way_back: bool| {
+        stages.push(Stage {
+            number,
+            cut_off,
+            is_way_back,
+        });
+    };
+    for number in 0..count {
+        add(number, false, false);
+        let is_last = number + 1 == count;
+        if keeps_tab && is_one_way && (!is_last || count.is_multiple_of(2)) {
+            add(number, false, true);
+        }
+    }
+    if keeps_tab {
+        (0..count).for_each(|number| add(number, true, false));
+    }
+    stages
 }
 
 /// How a pass is travelled.

@@ -19,7 +19,7 @@ impl Job<'_> {
     pub(super) fn clearance(&self, correction: f64) -> f64 {
         match self.settings.compensation {
             Compensation::None => self.units(ROUNDING),
-            _ => correction - self.units(ROUNDING),
+            _ => (correction - self.units(ROUNDING)).max(self.units(ROUNDING)),
         }
     }
 
@@ -44,7 +44,8 @@ impl Job<'_> {
         }
     }
 
-    /// What the leads of a pass are checked against; its correction is in drawing units.
+    /// What the leads of a pass are checked against; its correction is in drawing units, and below 0 where the wire runs on the other side
+    /// of the contour than in the first pass; 0 on the contour itself.
     pub(super) fn surroundings<'a>(
         &'a self,
         unled: &'a Unled,
@@ -60,8 +61,8 @@ impl Job<'_> {
             own: &unled.own,
             contours,
             kerfs,
-            clearance: self.clearance(correction),
-            comes_across: self.settings.comes_across,
+            clearance: self.clearance(correction.abs()),
+            comes_across: self.settings.comes_across || correction <= 0.0,
             unit_mm: self.unit_mm,
             severity: self.severity(),
             lead,
@@ -145,7 +146,8 @@ impl Job<'_> {
             if pass.begin != thread && !pass.path.is_empty() {
                 let surroundings = surroundings(pass.correction);
                 let landing = pass.landing(unled.side * self.across());
-                surroundings.hold(thread, &landing, entry, &unled.walls, pass.correction)?;
+                let least = pass.correction.abs();
+                surroundings.hold(thread, &landing, entry, &unled.walls, least)?;
             }
         }
         Ok(thread)
@@ -209,6 +211,7 @@ impl Job<'_> {
             counter_clockwise: closed
                 .then(|| (self.outlines[outline].twice_area > 0.0) != turned()),
             cut_off: false,
+            is_way_back: false,
             correction,
             thread_hole,
             side: None,

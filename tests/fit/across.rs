@@ -8,8 +8,19 @@ use wedm::program::Format;
 
 /// The places of the wire along an absolute ISO program, close to each other.
 fn places(text: &str) -> Vec<Point> {
+    places_between_stops(text).concat()
+}
+
+/// The same, of each stretch between two stops.
+fn places_between_stops(text: &str) -> Vec<Vec<Point>> {
+    let mut stretches = Vec::new();
     let mut places: Vec<Point> = Vec::new();
     for line in text.lines() {
+        if line.starts_with("M00") {
+            let stands = places.last().copied();
+            stretches.push(std::mem::take(&mut places));
+            places.extend(stands);
+        }
         let number = |letter: char| {
             let word = line.split(' ').find(|word| word.starts_with(letter))?;
             word[1..].parse::<f64>().ok()
@@ -33,7 +44,8 @@ fn places(text: &str) -> Vec<Point> {
         let steps = (way.length() / 0.1).ceil().max(1.0) as usize;
         places.extend((1..=steps).map(|step| way.point_at(step as f64 / steps as f64)));
     }
-    places
+    stretches.push(places);
+    stretches
 }
 
 /// How far a point lies outside of a polygon, below 0 inside.
@@ -123,6 +135,117 @@ fn the_wire_comes_from_what_drops_out() {
                     assert!(threaded < -0.2, "{label}: {threaded}");
                 }
             }
+        }
+    }
+}
+
+/// A clearance above the corrections of all passes, of some, and as large as one of them: each pass runs at its own distance from the drawn
+/// contour, on the side where the table says, and the finished parts have the clearance.
+#[test]
+fn passes_beyond_the_contour_follow_each_other() {
+    let square: Vec<Vertex> = [(0.0, 0.0), (20.0, 0.0), (20.0, 12.0), (0.0, 12.0)]
+        .map(|(x, y)| Vertex::new(x, y, 0.0))
+        .into();
+    let of = |vertices: Vec<Vertex>| drawing(vec![polyline("0", "2A", vertices)]);
+    let drawings = [circle(6.0), of(square), of(notch(60.0, 1.0))];
+    let corrections = [0.15, 0.12, 0.1];
+    for (shape, drawing) in drawings.iter().enumerate() {
+        for clearance in [0.11, 0.1, 0.12, 0.13, 0.15, 0.2, 0.4] {
+            for (number, keys) in [
+                "",
+                "start-hole = 1.0",
+                "lead = \"arc\"\ncorner = \"intersection\"",
+                "lead-in = 0.4",
+                "tab = 2.0",
+                "closing-overlap = 0.5\n[passes]\nskim-corner = \"constant-stock\"",
+                "tab = 2.0\n[passes]\nskim-corner = \"constant-stock\"",
+                "[passes]\nsequence = \"one-way\"",
+            ]
+            .into_iter()
+            .enumerate()
+            {
+                if !keys.is_empty() && ![0.13, 0.2].contains(&clearance) {
+                    continue;
+                }
+                let drawn_as = ["punch", "plate"][(number + shape) % 2];
+                let label = format!("{shape} {drawn_as} {clearance} {keys}");
+                let (program, passes) = keys.split_once("[passes]").unwrap_or((keys, ""));
+                let own = settings(&format!(
+                    "wire-diameter = 0.18\ngap = 0.01\n[pair]\ndrawn-as = \"{drawn_as}\"\nclearance = {clearance:?}\n\
+                     [passes]\ncorrections = {corrections:?}{passes}\n[program]\n{program}\n"
+                ));
+                let snapshot = snapshot(drawing, &own);
+                let wanted = Wanted {
+                    format: Format::Iso,
+                    handles: None,
+                    layers: None,
+                    force: true,
+                };
+                let made = job::pair(&snapshot, &[], &wanted, &());
+                let made =
+                    made.unwrap_or_else(|refusal| panic!("{label}: {}", refusal.sentence(1.0)));
+                let (polygon, shifted) = (outline(drawing, &own), usize::from(drawn_as == "punch"));
+                let part = &made[shifted];
+                let meant = corrections.map(|correction| correction - clearance);
+                let is_other = meant.iter().all(|correction| *correction < 1e-9);
+                assert_eq!(part.is_other_side, is_other, "{label}");
+                let sign = if drawn_as == "punch" { 1.0 } else { -1.0 };
+                let into_part = |at: &Point| sign * outside(&polygon, *at);
+                let stretches = places_between_stops(&part.made.program.text);
+                for ((stretch, meant), told) in stretches.iter().zip(meant).zip(&part.corrections) {
+                    let told = if is_other { -told } else { *told };
+                    assert!((told - meant).abs() < 1e-9, "{label}: {told} {meant}");
+                    let deepest = stretch
+                        .iter()
+                        .step_by(5)
+                        .map(into_part)
+                        .fold(f64::MIN, f64::max);
+                    let is_tip = keys.contains("intersection") && deepest > -meant;
+                    assert!(
+                        (deepest + meant).abs() < 2e-3 || is_tip,
+                        "{label}: {deepest}, expected {}",
+                        -meant
+                    );
+                }
+                let threaded = into_part(&stretches[0][0]);
+                assert!(threaded < -0.2, "{label}: {threaded}");
+                let found = super::fit_of(drawing, &own);
+                assert!(found.fits(), "{label}: {}", found.least());
+                if !keys.contains("constant-stock") {
+                    assert!((found.least() - clearance).abs() < 1e-6, "{label}");
+                }
+            }
+        }
+    }
+}
+
+/// The rough pass turns in a point inside the drawn corner, and the last one runs beside it, on the other side of the contour.
+#[test]
+fn a_constant_stock_is_left_across_the_contour() {
+    let k = f64::sqrt(2.0) - 1.0;
+    for (corrections, clearance) in [
+        ([0.15, 0.11], 0.12),
+        ([0.2, 0.11], 0.13),
+        ([0.2, 0.11], 0.11),
+    ] {
+        for drawn_as in ["punch", "plate"] {
+            let own = settings(&format!(
+                "wire-diameter = 0.18\ngap = 0.02\n[pair]\ndrawn-as = \"{drawn_as}\"\nclearance = {clearance:?}\n\
+                 [passes]\ncorrections = {corrections:?}\nskim-corner = \"constant-stock\"\n"
+            ));
+            let square = [(0.0, 0.0), (20.0, 0.0), (20.0, 12.0), (0.0, 12.0)];
+            let square = match drawn_as {
+                "punch" => square.map(|(x, y)| Vertex::new(x, y, 0.0)).to_vec(),
+                // The corner of a notch is the one that the punch's wire runs inside of.
+                _ => notch(90.0, 0.0),
+            };
+            let found = super::fit_of(&drawing(vec![polyline("0", "2A", square)]), &own);
+            let expected = clearance - k * (corrections[0] - clearance);
+            assert!(
+                (found.least() - expected).abs() < 1e-6,
+                "{drawn_as} {corrections:?} {clearance}: {}, expected {expected}",
+                found.least()
+            );
         }
     }
 }

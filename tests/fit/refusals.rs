@@ -74,7 +74,7 @@ fn settings_that_contradict_each_other_are_named_at_their_key() {
     check(
         "side = \"auto\"\n[pair]\ndrawn-as = \"plate\"\n",
         "drawn-as",
-        "side is auto: expected both",
+        "side is \"auto\" in the settings that apply here (wedm.toml, client, command line or request), and pair.drawn-as",
     );
     check(
         "[pair]\ndrawn-as = \"plate\"\n[workpieces]\nA = [\"A\"]\nB = [\"B\"]\n",

@@ -310,3 +310,55 @@ fn a_tab_of_a_contour_that_is_not_there_is_said() {
     let said = refusal(&punch, &settings("[program]\ntab = { 2Z = 5 }\n"));
     assert_eq!(said, "there is no entity with the handle 2Z");
 }
+
+/// A neck of an opening and a notch of its outside, each 0.5 mm wide and away from all arcs: the wire of the plate runs in the neck, that of the
+/// punch in the notch.
+#[test]
+fn a_narrow_place_of_a_pair_is_that_of_the_part_that_is_cut_there() {
+    let bump = quarter();
+    let neck: &[[f64; 3]] = &[
+        [0.0, 0.0, 0.0],
+        [8.0, 0.0, bump],
+        [10.0, 2.0, 0.0],
+        [10.0, 4.75, 0.0],
+        [14.0, 4.75, 0.0],
+        [14.0, 0.0, 0.0],
+        [24.0, 0.0, 0.0],
+        [24.0, 10.0, 0.0],
+        [14.0, 10.0, 0.0],
+        [14.0, 5.25, 0.0],
+        [10.0, 5.25, 0.0],
+        [10.0, 10.0, 0.0],
+        [0.0, 10.0, 0.0],
+    ];
+    let notch: &[[f64; 3]] = &[
+        [0.0, 0.0, 0.0],
+        [8.0, 0.0, bump],
+        [10.0, 2.0, 0.0],
+        [10.0, 4.75, 0.0],
+        [4.0, 4.75, 0.0],
+        [4.0, 5.25, 0.0],
+        [10.0, 5.25, 0.0],
+        [10.0, 10.0, 0.0],
+        [0.0, 10.0, 0.0],
+    ];
+    let check = |vertices: &[[f64; 3]], pair: &str, expected: f64| {
+        let text = format!("wire-diameter = 0.2\ngap = 0.02\n[pair]\nclearance = 0.05\n{pair}");
+        let settings = settings(&text);
+        let drawing = drawing(vec![polygon("2A", Role::Both, vertices)]);
+        let outlines = Analysis::new(&drawing, Arc::new(settings.clone()))
+            .outlines(&drawing)
+            .clone();
+        let found = wedm::analysis::largest_wire(&drawing, &outlines, &settings, &|_| true);
+        let found = found.map_or(0.0, |found| found.diameter);
+        assert!((found - expected).abs() < 1e-9, "{pair}: {found}");
+    };
+    // 0.5 less two gaps, and two clearances more where the wire runs nearer to its contour by one.
+    check(neck, "drawn-as = \"punch\"\n", 0.56);
+    check(neck, "drawn-as = \"plate\"\n", 0.46);
+    check(notch, "drawn-as = \"punch\"\n", 0.46);
+    check(notch, "drawn-as = \"plate\"\n", 0.56);
+    check(neck, "drawn-as = \"punch\"\nholder = 0.01\n", 0.44);
+    check(neck, "drawn-as = \"plate\"\nholder = 0.01\n", 0.34);
+    check(notch, "drawn-as = \"plate\"\nholder = 0.01\n", 0.56);
+}

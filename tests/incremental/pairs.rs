@@ -29,6 +29,21 @@ fn change() -> impl Strategy<Value = Change> {
     (at, 0..3usize, proptest::collection::vec(corner(), 0..3))
 }
 
+/// A clearance and passes: below the correction, and above some or all of those of several passes.
+fn passes() -> impl Strategy<Value = (f64, String)> {
+    let several = |(clearance, skim_corner): (f64, &str)| {
+        let passes =
+            format!("[passes]\ncorrections = [0.15, 0.1]\nskim-corner = \"{skim_corner}\"\n");
+        (clearance, passes)
+    };
+    let clearance = prop_oneof![Just(0.02), Just(0.1), Just(0.12), Just(0.2)];
+    let skim_corner = prop_oneof![Just("sharp"), Just("constant-stock")];
+    prop_oneof![
+        2 => Just((0.01, String::new())),
+        1 => (clearance, skim_corner).prop_map(several),
+    ]
+}
+
 /// A corner of a ring of `count`, at a share of the way round, so far outside of where it is drawn.
 fn vertex((away, bulge): Corner, share: f64, count: usize, outside: f64) -> Vertex {
     let (sin, cos) = (std::f64::consts::TAU * share).sin_cos();
@@ -46,12 +61,14 @@ proptest! {
         edits in proptest::collection::vec((any::<bool>(), change()), 1..8),
         outside in -0.02..0.06,
         is_drawn in any::<bool>(),
+        (clearance, passes) in passes(),
     ) {
         let keys = match is_drawn {
-            true => "[workpieces]\nA = [\"A\"]\nB = [\"B\"]\n",
-            false => "drawn-as = \"punch\"\n",
+            true => "[workpieces]\nA = [\"A\"]\nB = [\"B\"]\n".to_owned(),
+            false => format!("drawn-as = \"punch\"\n{passes}"),
         };
-        let text = format!("wire-diameter = 0.18\ngap = 0.01\n[pair]\nclearance = 0.01\n{keys}");
+        let clearance = if is_drawn { 0.01 } else { clearance };
+        let text = format!("wire-diameter = 0.18\ngap = 0.01\n[pair]\nclearance = {clearance}\n{keys}");
         let (settings, errors) = wedm::settings::from_toml(&text);
         prop_assert_eq!(errors, []);
         let settings = Arc::new(Effective::of(&settings));

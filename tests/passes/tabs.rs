@@ -5,7 +5,7 @@ use wedm::drawing::Role;
 use wedm::finding::{Finding, Rule};
 use wedm::geometry::Point;
 use wedm::program::Format;
-use wedm::toolpath::{Refusal, Source, plan};
+use wedm::toolpath::{Source, WirePath, plan};
 
 fn is_of_contour(source: &Source) -> bool {
     matches!(source, Source::Segment { .. } | Source::Corner { .. })
@@ -69,29 +69,62 @@ fn passes_leave_the_tab_and_cut_it_off_in_passes_of_its_own() {
     }
 }
 
-/// The way from where the tab begins back to the thread hole would cut off the punch, and what hangs on it, with the
-/// first pass.
+/// Each pass goes the same way up to the tab, and back along what it has cut: the straight way from there to the thread hole would cut off the
+/// punch, and what hangs on it, with the first pass.
 #[test]
-fn passes_one_way_keep_no_tab() {
-    for compensation in ["path", "controller"] {
-        let with = |tab: f64| {
-            settings(&format!(
-                "{THREE}sequence = \"one-way\"\n[program]\ntab = {tab}\ncompensation = \"{compensation}\"\n"
-            ))
-        };
-        let drawing = drawing(Role::Punch, &PLATE);
-        let outlines = outlines(&drawing, &with(3.0));
-        let refused = plan(&drawing, &outlines, &with(3.0), None).expect_err("it drops");
-        let Refusal::Findings(findings) = refused else {
-            panic!("{refused:?}")
-        };
-        assert_eq!(findings.len(), 1);
-        let said = format!("{:?}", findings[0]);
-        assert!(said.contains("passes.sequence"), "{said}");
-        assert_eq!(
-            plan(&drawing, &outlines, &with(0.0), None).map(|paths| paths.len()),
-            Ok(3)
-        );
+fn passes_one_way_go_back_along_what_they_have_cut() {
+    for corrections in ["0.17, 0.14", "0.215, 0.17, 0.14", "0.2, 0.18, 0.16, 0.14"] {
+        for compensation in ["path", "controller"] {
+            for lead in ["straight", "perpendicular", "arc"] {
+                let text = format!(
+                    "wire-diameter = 0.25\ngap = 0.015\n[passes]\ncorrections = [{corrections}]\nsequence = \"one-way\"\n\
+                     [program]\ntab = 3\ncompensation = \"{compensation}\"\nlead = \"{lead}\"\n"
+                );
+                let settings = settings(&text);
+                let drawing = drawing(Role::Punch, &PLATE);
+                let found = paths(&drawing, &settings);
+                let count = settings.corrections.len();
+                let (cuts, back): (Vec<_>, Vec<_>) =
+                    found.iter().partition(|path| !path.is_way_back);
+                assert_eq!(cuts.len(), 2 * count, "{text}");
+                // The tab is cut to and fro, so that the wire ends in the thread hole.
+                assert_eq!(back.len(), count - count % 2, "{text}");
+                let first = cuts[0].counter_clockwise;
+                assert!(
+                    cuts[..count]
+                        .iter()
+                        .all(|path| path.counter_clockwise == first)
+                );
+                let of_contour = |path: &WirePath| -> Vec<[Point; 2]> {
+                    let pieces = path.segments.iter();
+                    let pieces = pieces.filter(|piece| is_of_contour(&piece.source));
+                    pieces
+                        .map(|piece| [piece.geometry.start(), piece.geometry.end()])
+                        .collect()
+                };
+                for way in &back {
+                    assert_ne!(way.counter_clockwise, first, "{text}");
+                    let own = cuts.iter().find(|path| path.pass == way.pass);
+                    let own = own.map(|path| of_contour(path)).unwrap_or_default();
+                    let reversed: Vec<[Point; 2]> =
+                        own.iter().rev().map(|[from, to]| [*to, *from]).collect();
+                    assert_eq!(of_contour(way), reversed, "{text}");
+                    assert_eq!(way.end(), way.thread_hole, "{text}");
+                }
+                // Before the tab is cut off it stands between the ends of every pass.
+                for path in cuts.iter().filter(|path| !path.cut_off) {
+                    assert!(length(path, is_of_contour) > 116.0, "{text}");
+                }
+                for pair in found.windows(2) {
+                    assert_eq!(pair[0].end(), pair[1].begin(), "{text}");
+                }
+                assert_eq!(found.last().map(WirePath::end), Some(found[0].thread_hole));
+                held(&drawing, &settings, Format::Iso);
+                if compensation == "path" {
+                    held(&drawing, &settings, Format::ThreeB);
+                }
+            }
+        }
     }
 }
 

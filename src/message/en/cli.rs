@@ -28,6 +28,8 @@ declare! {
     everywhere_more_is_left(more) => "; everywhere {more:.1} µm more is left than there should be";
     the_program_is_there_already => "it already exists, expected a folder without it, or --overwrite";
     the_program_of_a_part_is_written(written, target, part, corrections, blocks, length) => "{written} {target}: {part}, correction {corrections} mm, {blocks}, {length}";
+    two_parts_in_one_file(one, other) => "the parts {one} and {other} would both be written to this file; expected names of workpieces that differ in more than case and characters that a file name cannot hold";
+    some_passes_run_on_the_other_side(part, passes) => "      {part}: the clearance lies between the corrections, so the wire runs on the other side of what is drawn in pass {passes}, at the distance that is given with a minus sign";
     the_wire_runs_on_the_other_side(part) => "      {part}: the clearance is not smaller than the correction, so the wire runs on what is drawn or on its other side";
     drawn_without_the_path(note, reason) => "{note} drawn without the path of the wire: {reason}";
     a_program_is_drawn_as_svg(path, word) => "{path}: a program is drawn as .svg, .png or .pdf; as a drawing: wedm convert {word} -o OUT.dxf";

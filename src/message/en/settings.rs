@@ -49,7 +49,7 @@ declare! {
     a_pair_without_partner(key) => "{key} has no pair: expected pair.drawn-as where a contour is cut twice, or two workpieces where both parts are drawn";
     a_pair_without_clearance(key) => "{key} has no effect without pair.clearance: expected the clearance, mm a side";
     a_pair_drawn_and_cut_twice(key) => "{key} says that each contour is cut twice, workpieces that both parts are drawn: expected one of the two";
-    a_pair_on_one_side(key, side) => "{key} says that each contour is cut from both sides, but side is {side}: expected both";
+    a_pair_on_one_side(key, side) => "side is \"{side}\" in the settings that apply here (wedm.toml, client, command line or request), and {key} says that each contour is cut twice, once on each side: expected side = \"both\", or none";
     a_pair_on_the_drawn_line(key, other) => "{key} is the clearance of two parts, but {other} is none: both would be cut along the drawn lines themselves; expected path or controller as {other}";
     an_extra_needs_a_drawn_part(key) => "{key} needs a contour that is cut for several parts: expected pair.drawn-as as well";
     a_layer_in_two_workpieces(layer, one, other) => "the layer {layer} belongs to the workpieces {one} and {other}: expected one of them";

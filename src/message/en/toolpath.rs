@@ -19,7 +19,6 @@ declare! {
     a_punch_is_free_after_its_first_pass(handle) => "contour {handle} is a punch and keeps no tab: it drops in its first pass, and the later ones cut nothing; expected a program.tab, unless it is held otherwise";
     the_tab_is_longer_than_contour(tab, handle, length) => "the tab of {tab:.3} mm leaves nothing of contour {handle}, which is {length:.3} mm long: expected a shorter tab";
     the_overlap_is_longer_than_contour(overlap, handle, length) => "the overlap of {overlap:.3} mm goes all round contour {handle}, which is {length:.3} mm long: expected a shorter one";
-    one_way_keeps_no_tab(handle) => "contour {handle} keeps no tab in passes that all go one way: the way from where it begins back to the thread hole would cut the part off with the first pass; expected passes.sequence = \"alternate\"";
     nothing_of_the_tab_is_left_standing(tab, handle, cut) => "nothing of the tab of {tab:.3} mm at contour {handle} is left standing: what is cut from both its ends is {cut:.3} mm wide; expected a longer tab, or a start hole that is smaller or farther away";
     the_tab_stands_by_a_neck(tab, handle, width) => "of the tab of {tab:.3} mm at contour {handle} a neck of {width:.3} mm is left standing, between what is cut from both its ends";
     the_cut_meets_itself(handle, x, y, area) => "the cut of contour {handle} meets itself at ({x:.3}, {y:.3}) before the stop: {area:.1} mm² of the slug are loose there, and the tab does not hold them; expected another entry, a shorter lead or no tab";
@@ -44,6 +43,5 @@ declare! {
     no_contour_has_a_partner => "no contour of a workpiece has a partner in another one: there is no pair to cut (--force writes the programs all the same)";
     a_pair_needs(missing) => "the corrections of a pair are not known: expected {missing} to be set";
     no_contour_is_of_a_pair => "no contour belongs to a pair: expected closed contours that the wire runs on both sides of, or two workpieces, one in the other";
-    passes_run_on_both_sides_of_the_contour(part, key, length, corrections) => "{key} {length} mm lies between the corrections {corrections}: some passes of the {part} would run on one side of the drawn contour, some on the other; expected it below the smallest of them, or the other part drawn (pair.drawn-as)";
-    passes_run_beyond_the_contour(part, key, length, corrections) => "{key} {length} mm is above all corrections {corrections}: the wire of the {part} would run on the other side of the drawn contour, where one pass cannot follow another; expected it below the smallest of them, or one correction for one pass";
+    passes_run_on_both_sides_of_the_contour(part, key, length, corrections) => "{key} {length} mm lies between the corrections {corrections}: some passes of the {part} run on one side of the drawn contour, some on the other, and a control that offsets the contour keeps to one; expected program.compensation = \"path\", in 3B or ISO";
 }

@@ -28,6 +28,8 @@ translate! {
     everywhere_more_is_left(more) => "；各处都比应有的间隙多 {more:.1} µm";
     the_program_is_there_already => "文件已存在，应换没有它的文件夹，或加 --overwrite";
     the_program_of_a_part_is_written(written, target, part, corrections, blocks, length) => "{written} {target}：{part}，补偿量 {corrections} mm，{blocks}，{length}";
+    two_parts_in_one_file(one, other) => "零件 {one} 和 {other} 会写进同一个文件；工件名应有大小写和文件名不能用的字符以外的区别";
+    some_passes_run_on_the_other_side(part, passes) => "      {part}：间隙落在补偿量之间，第 {passes} 次切割的电极丝走在图线的另一侧，距离以负号表示";
     the_wire_runs_on_the_other_side(part) => "      {part}：间隙不小于补偿量，电极丝走在图线上或图线的另一侧";
     drawn_without_the_path(note, reason) => "{note}只画轮廓，没有切割路线：{reason}";
     a_program_is_drawn_as_svg(path, word) => "{path}：程序画成 .svg、.png 或 .pdf；要画成图形：wedm convert {word} -o OUT.dxf";

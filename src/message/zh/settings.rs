@@ -53,7 +53,7 @@ translate! {
     a_pair_without_partner(key) => "{key} 没有成对的零件：同一轮廓切两次时应设 pair.drawn-as，两个零件都画出时应有两个 workpieces";
     a_pair_without_clearance(key) => "没有 pair.clearance，{key} 不起作用：应设单边间隙，mm";
     a_pair_drawn_and_cut_twice(key) => "{key} 表示每个轮廓切两次，workpieces 表示两个零件都已画出：只能取其一";
-    a_pair_on_one_side(key, side) => "{key} 表示每个轮廓两侧都切，而 side 是 {side}：应为 both";
+    a_pair_on_one_side(key, side) => "此处生效的设置（wedm.toml、客户端、命令行或请求）中 side 是 \"{side}\"，而 {key} 表示每个轮廓切两次，两侧各一次：应为 side = \"both\"，或不设";
     a_pair_on_the_drawn_line(key, other) => "{key} 是两个零件之间的间隙，而 {other} 是 none：两者都会沿图中的线本身切割；{other} 应为 path 或 controller";
     an_extra_needs_a_drawn_part(key) => "{key} 需要为多个零件切割的轮廓：同时应设 pair.drawn-as";
     a_layer_in_two_workpieces(layer, one, other) => "图层 {layer} 同时属于工件 {one} 和 {other}：只能属于一个";

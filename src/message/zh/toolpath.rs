@@ -19,7 +19,6 @@ translate! {
     a_punch_is_free_after_its_first_pass(handle) => "轮廓 {handle} 是凸模而不留暂留段：第一次切割后它就掉下，以后各次切不到东西；若不另行固定，请设 program.tab";
     the_tab_is_longer_than_contour(tab, handle, length) => "暂留段长 {tab:.3} mm，而轮廓 {handle} 只长 {length:.3} mm，没有可切的了：请缩短暂留段";
     the_overlap_is_longer_than_contour(overlap, handle, length) => "重叠段长 {overlap:.3} mm，绕满了只长 {length:.3} mm 的轮廓 {handle}：请缩短重叠段";
-    one_way_keeps_no_tab(handle) => "各次都按同一方向切割时，轮廓 {handle} 不能留暂留段：第一次从暂留段起点返回穿丝孔就会把工件切下；请设 passes.sequence = \"alternate\"";
     nothing_of_the_tab_is_left_standing(tab, handle, cut) => "轮廓 {handle} 的暂留段长 {tab:.3} mm，却什么也没留下：两端共切去 {cut:.3} mm；请加长暂留段，或用更小、更远的穿丝孔";
     the_tab_stands_by_a_neck(tab, handle, width) => "轮廓 {handle} 的暂留段长 {tab:.3} mm，两端切去之后只剩 {width:.3} mm 宽的颈";
     the_cut_meets_itself(handle, x, y, area) => "轮廓 {handle} 的切缝在停机前于 ({x:.3}, {y:.3}) 处相遇：那里有 {area:.1} mm² 的废料松脱，暂留段没有支撑它；请换切入点、缩短引入线或不留暂留段";
@@ -44,6 +43,5 @@ translate! {
     no_contour_has_a_partner => "没有一个工件的轮廓在其他工件中有配对：没有可切的一对（--force 仍写出程序）";
     a_pair_needs(missing) => "不知道这一对零件的补偿量：请设置 {missing}";
     no_contour_is_of_a_pair => "没有成对的轮廓：应有两侧都走丝的封闭轮廓，或互相套在一起的两个工件";
-    passes_run_on_both_sides_of_the_contour(part, key, length, corrections) => "{key} {length} mm 落在补偿量 {corrections} 之间：{part} 的各次切割会有的在图中轮廓一侧，有的在另一侧；它应小于其中最小的，或画另一个零件（pair.drawn-as）";
-    passes_run_beyond_the_contour(part, key, length, corrections) => "{key} {length} mm 大于全部补偿量 {corrections}：{part} 的丝会走在图中轮廓的另一侧，各次切割无法接续；它应小于其中最小的，或只切一次、只用一个补偿量";
+    passes_run_on_both_sides_of_the_contour(part, key, length, corrections) => "{key} {length} mm 落在补偿量 {corrections} 之间：{part} 的各次切割有的在图中轮廓一侧，有的在另一侧，而由控制器补偿时只能在一侧；应设 program.compensation = \"path\"，用 3B 或 ISO";
 }

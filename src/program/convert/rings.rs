@@ -10,6 +10,9 @@ const LEAD: usize = 2;
 /// The most blocks of a tab.
 const TAB: usize = 64;
 
+/// How much shorter than the rest of its pass a tab is: the way back along the same cut is just as long, but for rounding.
+const SHORTER: f64 = 0.9;
+
 /// A pass as a closed contour, and the way to it from the thread hole.
 pub(super) struct Ring {
     pub segments: Vec<Segment>,
@@ -122,7 +125,7 @@ fn with_tab(runs: &[&[Segment]], run: usize, thread: Point, near: f64) -> Option
         let is_open = !is_at(ends[0], ends[1]) && !ends.iter().any(|end| is_at(*end, thread));
         let length = |pieces: &[Segment]| pieces.iter().map(Segment::length).sum::<f64>();
         let tabs = || others().filter_map(|other| tab_in(other, ends, &is_at));
-        let shorter = || tabs().find(|tab| length(tab) < length(main));
+        let shorter = || tabs().find(|tab| length(tab) < SHORTER * length(main));
         is_open.then(shorter).flatten().map(|tab| {
             let is_at_thread = |point: Point| is_at(point, thread);
             let lead = match own.first().is_some_and(|first| is_at_thread(first.start())) {

@@ -30,6 +30,7 @@ fn path_of(segments: Vec<Segment>) -> WirePath {
         pass: 1,
         counter_clockwise: None,
         cut_off: false,
+        is_way_back: false,
         correction: 0.0,
         thread_hole,
         side: None,

@@ -133,6 +133,7 @@ pub(crate) fn of_part(
         pass: 1,
         counter_clockwise: None,
         cut_off: false,
+        is_way_back: false,
         correction: 0.0,
         thread_hole: segments.first()?.geometry.start(),
         side: Some(side),

@@ -531,7 +531,7 @@ class PairProgram(Program):
     """The program of one part of a pair: ``punch``, ``plate``, ``stripper``, ``holder``, or the name of a workpiece."""
 
     part: str = ""
-    # One for each pass, mm.
+    # One for each pass, mm; below 0 for the passes on the other side of what is drawn, where not all run there.
     corrections: list[float] = field(default_factory=list)
     # The wire runs on the other side of what is drawn.
     other_side: bool = False

@@ -64,7 +64,8 @@ async function targetsOf(
 ): Promise<Map<vscode.Uri, PairProgram> | undefined> {
   const stem = (uri.path.split("/").pop() ?? "").replace(/\.[^.]*$/, "");
   const names = programs.map(({ part }) => partFile(stem, part, ENDINGS[format][0]));
-  const twice = names.find((name, index) => names.indexOf(name) < index);
+  const plain = names.map((name) => name.toLowerCase());
+  const twice = names.find((_name, index) => plain.indexOf(plain[index] ?? "") < index);
   if (twice !== undefined) {
     void vscode.window.showErrorMessage(t("Wire EDM: two parts would be written to {0}: give them other names.", twice));
     return undefined;
