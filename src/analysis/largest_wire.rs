@@ -16,6 +16,8 @@ const MOST_SEGMENTS: usize = 100_000;
 
 /// By how much the correction grows from one comparison to the next.
 const GROWTH: f64 = 6.0;
+/// The least part of the last correction with which the comparison begins.
+const LEAST_SHARE: f64 = 1e-3;
 
 /// The totals of `paths` of a drawing.
 pub fn work(
@@ -59,7 +61,8 @@ pub fn largest_wire(
     // Of the thickest wire with its gap.
     let half = of_arcs.diameter / 2.0 + toolpath::last_gap(settings).unwrap_or(0.0);
     let half = half + farthest.max(0.0);
-    let mut correction = settings.correction;
+    // Where the wire runs on the contour's other side, its correction is no beginning.
+    let mut correction = settings.correction.max(half * LEAST_SHARE);
     loop {
         correction = (GROWTH * correction).min(half);
         let settings = Effective {
