@@ -1,5 +1,6 @@
 //! The ways of the wire round the contours of a drawing, as places along which a program moves.
 
+use super::REACH;
 use super::drawn::{Contour, Drawn};
 use super::infer::circle;
 use crate::drawing::EntityId;
@@ -74,6 +75,8 @@ pub(super) struct Rounds {
     laid: Vec<(usize, Side, Course)>,
     /// Pieces by the vector from their start to their end, in cells of [`CELL`].
     leads: OnceCell<FxHashMap<(i64, i64), Vec<Place>>>,
+    /// Those that are arcs by their radii, in cells of the same width.
+    radii: OnceCell<FxHashMap<i64, Vec<Place>>>,
 }
 
 /// Width of a cell for finding pieces by their vectors, µm.
@@ -185,6 +188,7 @@ impl Rounds {
         round.circle = round.circle.or_else(|| circle(segments));
         let number = self.rounds.len() as u32;
         self.leads.take();
+        self.radii.take();
         self.index.reserve(round.pieces.len());
         for (index, piece) in round.pieces.iter().enumerate() {
             self.index
@@ -230,6 +234,15 @@ impl Rounds {
             (true, _) => count - 1,
         };
         Some(self.at_begin(spot.round, piece, spot.back))
+    }
+
+    /// Where the piece before one begins; `None` at the beginning of an open round.
+    pub(super) fn before(&self, spot: &Spot) -> Option<Spot> {
+        let back = self.next(&Spot {
+            back: !spot.back,
+            ..*spot
+        })?;
+        Some(self.at_begin(back.round, back.piece, spot.back))
     }
 
     /// The spot at the beginning of a piece, seen in its way.
@@ -319,6 +332,35 @@ impl Rounds {
             }
         }
         found.sort_by_key(|(spot, _)| (spot.round, spot.piece, spot.back));
+        found
+    }
+
+    /// The pieces that are arcs of this radius, with their rounds.
+    pub(crate) fn with_radius(&self, radius: f64) -> Vec<(usize, usize)> {
+        let cell = |radius: f64| (radius / CELL).floor() as i64;
+        let radii = self.radii.get_or_init(|| {
+            let mut radii: FxHashMap<_, Vec<_>> = FxHashMap::default();
+            for (number, round) in self.rounds.iter().enumerate() {
+                for (index, piece) in round.pieces.iter().enumerate() {
+                    if let Some(arc) = piece.segment.as_arc() {
+                        let place = (number as u32, index as u32);
+                        radii.entry(cell(arc.radius)).or_default().push(place);
+                    }
+                }
+            }
+            radii
+        });
+        let around = (-1..=1).map(|by| cell(radius) + by);
+        let mut found: Vec<(usize, usize)> = around
+            .filter_map(|cell| radii.get(&cell))
+            .flatten()
+            .map(|&(round, piece)| (round as usize, piece as usize))
+            .filter(|&(round, piece)| {
+                let arc = self.rounds[round].pieces[piece].segment.as_arc();
+                arc.is_some_and(|arc| (arc.radius - radius).abs() <= REACH)
+            })
+            .collect();
+        found.sort_unstable();
         found
     }
 

@@ -7,7 +7,7 @@ use super::members::Members;
 use super::placement::{Placement, stretch};
 use super::rounds::{Rounds, Spot};
 use super::traced::{Block, Motion, Traced};
-use super::walk::{Kind, Unlike};
+use super::walk::{Kind, Unlike, Walked};
 use super::{REACH, TOLERANCE};
 use crate::geometry::{Arc, Point, Segment, Vector};
 use std::f64::consts::TAU;
@@ -18,21 +18,31 @@ const MOST: usize = 60_000;
 /// The most pieces that one block may stand for, and how far apart they may lie as one line or arc, µm.
 const TOGETHER: usize = 5;
 const SAME: f64 = 1e-2;
-/// A smaller deviation is no change, µm; nor is a larger one, where nothing was named.
+/// A smaller deviation is no change, µm.
 const LEAST: f64 = 1.4;
-const MOST_UNNAMED: f64 = 50.0;
 /// A place nearer to a node is that node, µm.
 const NODE: f64 = 1.6;
 
-/// The one block that explains it best; `None` where none does. `miss` is the sum of the deviations of a program's
-/// blocks, `None` where one does not follow.
+/// The one block that explains all.
+pub(super) struct Only {
+    pub unlike: Unlike,
+    /// The program with that block as it should be, on its drawing.
+    pub repaired: Traced,
+    pub walked: Walked,
+}
+
+/// A program of which every block follows, and the sum of their deviations, µm.
+type Whole<'a> = &'a dyn Fn(&Traced, Placement) -> Option<(Walked, f64)>;
+
+/// The one block that explains it best, by no more than `most` µm; `None` where none does.
 pub(super) fn single(
     traced: &Traced,
     rounds: &Rounds,
     placement: Placement,
     named: &[Unlike],
-    miss: &dyn Fn(&Traced, Placement) -> Option<f64>,
-) -> Option<Unlike> {
+    most: f64,
+    whole: Whole,
+) -> Option<Only> {
     let mut tried: Vec<usize> = Vec::new();
     for away in 0..=ABOUT {
         for unlike in named {
@@ -60,14 +70,75 @@ pub(super) fn single(
         at = index;
         before.insert(index, members.clone());
     }
-    let mut best: Option<(f64, Unlike)> = None;
+    let mut best: Option<(f64, Only)> = None;
+    let mut consider = |unlike: Unlike, repaired: Traced, placement: Placement| -> bool {
+        let Some((walked, miss)) = whole(&repaired, placement) else {
+            return false;
+        };
+        let sum = miss + unlike.off;
+        if best.as_ref().is_none_or(|(least, _)| sum < *least) {
+            let only = Only {
+                unlike,
+                repaired,
+                walked,
+            };
+            best = Some((sum, only));
+        }
+        true
+    };
     'tries: for index in tried {
         let members = &before[&index];
         let own = *traced.blocks[index].segment()?;
-        let near = rounds.near(members.placement.place(own.start()), 2.0 * REACH);
-        let near = near.into_iter().map(|spot| (spot, spot));
+        let unlike = |source, off| Unlike {
+            block: index,
+            source,
+            off,
+            kind: Kind::Block,
+        };
+        // Where the program lies may have been found before the change, or after it.
+        let mut either = |unlike: Unlike, repaired: Traced, by: Vector| {
+            if !consider(unlike.clone(), repaired.clone(), placement) {
+                consider(unlike, repaired, placement.moved(by));
+            }
+        };
         let goes_on = members.spot.zip(members.entry);
-        for (spot, entry) in goes_on.into_iter().chain(near) {
+        let at = |point: Point| rounds.near(members.placement.place(point), 2.0 * REACH);
+        let begun = at(own.start()).into_iter().map(|spot| (spot, spot));
+        let begun: Vec<_> = goes_on.into_iter().chain(begun).collect();
+        let ending = |point: Point| {
+            let all = at(point).into_iter().filter(|spot| rounds.is_begin(spot));
+            all.filter_map(|spot| rounds.before(&spot))
+                .map(|spot| (spot, spot))
+        };
+        let source = begun.first().map(|(spot, _)| rounds.piece(spot).source);
+        let source = source.flatten();
+        if let Some((edited, by)) = doubled(traced, index) {
+            let block = index - 1;
+            either(
+                Unlike {
+                    block,
+                    ..unlike(source, by.norm())
+                },
+                edited,
+                by,
+            );
+        }
+        if let Some((edited, off)) = exchanged(traced, index) {
+            either(unlike(source, off), edited, Vector::zeros());
+        }
+        for (spot, entry) in begun.iter().copied().chain(ending(own.start())) {
+            let (lost, _) = stretch(rounds, &spot, &entry);
+            let by = lost.end() - lost.start();
+            for edited in lacking(traced, index, &lost, &members.placement) {
+                fuel = fuel.saturating_sub(1);
+                either(
+                    unlike(rounds.piece(&spot).source, lost.length()),
+                    edited,
+                    by,
+                );
+            }
+        }
+        for (spot, entry) in begun.iter().copied().chain(ending(own.end())) {
             let all = stretches(rounds, spot, &entry);
             // To the end of a piece, or to where a tab begins.
             let end = members.placement.place(own.end());
@@ -80,37 +151,31 @@ pub(super) fn single(
                 let Some((meant, by)) = meant_by(&meant, &own, is_lost, &members.placement) else {
                     continue;
                 };
-                if named.is_empty() && by.norm() > MOST_UNNAMED {
+                if by.norm() > most {
                     continue;
                 }
-                for how in How::ALL {
+                // A machine that counts goes on from wherever it is.
+                let hows = if traced.counts {
+                    &How::ALL[..1]
+                } else {
+                    &How::ALL
+                };
+                for &how in hows {
                     if fuel == 0 {
                         break 'tries;
                     }
                     fuel -= 1;
                     let repaired = repaired(traced, index, meant, by, how);
-                    let miss = match how {
-                        // Where the program lies may have been found after the change.
-                        How::Relative => miss(&repaired, placement)
-                            .or_else(|| miss(&repaired, placement.moved(by))),
-                        _ => miss(&repaired, placement),
-                    };
-                    let sum = miss.map(|miss| miss + by.norm());
-                    let is_better = |sum: &f64| best.as_ref().is_none_or(|(least, _)| sum < least);
-                    if let Some(sum) = sum.filter(is_better) {
-                        let unlike = Unlike {
-                            block: index,
-                            source: rounds.piece(&spot).source,
-                            off: by.norm(),
-                            kind: Kind::Block,
-                        };
-                        best = Some((sum, unlike));
+                    let unlike = unlike(rounds.piece(&spot).source, by.norm());
+                    match how {
+                        How::Relative => either(unlike, repaired, by),
+                        _ => either(unlike, repaired, Vector::zeros()),
                     }
                 }
             }
         }
     }
-    best.map(|(_, unlike)| unlike)
+    best.map(|(_, only)| only)
 }
 
 /// The possible meanings of a block from a spot on: the rest of its piece, and more where that continues as one line or
@@ -178,6 +243,83 @@ fn meant_by(
     (is_alike && by.norm() >= LEAST).then_some((meant, by))
 }
 
+/// The program without a block that stands twice, and by how much what lies behind moves.
+fn doubled(traced: &Traced, index: usize) -> Option<(Traced, Vector)> {
+    let before = traced.blocks[index.checked_sub(1)?].segment()?;
+    let own = traced.blocks[index].segment()?;
+    let by = own.start() - own.end();
+    let is_again = (before.start() - before.end() - by).norm() < SAME
+        && before.as_arc().is_some() == own.as_arc().is_some();
+    if !is_again {
+        return None;
+    }
+    let mut edited = traced.clone();
+    edited.blocks.remove(index);
+    shift_cuts(&mut edited, index, -1);
+    move_on(&mut edited.blocks[index..], by);
+    Some((edited, by))
+}
+
+/// The program with a block and the next in the other order, and how far the place between them moves.
+fn exchanged(traced: &Traced, index: usize) -> Option<(Traced, f64)> {
+    let own = *traced.blocks[index].segment()?;
+    let next = *traced.blocks.get(index + 1)?.segment()?;
+    let mut edited = traced.clone();
+    let first = next.moved(own.start() - next.start());
+    let second = own.moved(first.end() - own.start());
+    let off = (first.end() - own.end()).norm();
+    edited.blocks[index].motion = Motion::Cut(first);
+    edited.blocks[index + 1].motion = Motion::Cut(second);
+    (off > REACH).then_some((edited, off))
+}
+
+/// The program with a block that it lacks before another: what lies behind is counted from there, or is where it was.
+fn lacking(traced: &Traced, index: usize, lost: &Segment, placement: &Placement) -> Vec<Traced> {
+    let Some(own) = traced.blocks[index].segment() else {
+        return Vec::new();
+    };
+    let lost = lost.moved(own.start() - lost.start());
+    let end = placement.program(placement.place(lost.end()));
+    let by = end - own.start();
+    let mut counted = traced.clone();
+    let block = Block {
+        motion: Motion::Cut(lost),
+        ..counted.blocks[index].clone()
+    };
+    counted.blocks.insert(index, block);
+    shift_cuts(&mut counted, index, 1);
+    let mut placed = counted.clone();
+    let (start, end) = (own.start() + by, own.end());
+    placed.blocks[index + 1].motion = Motion::Cut(begun_at(own, start, end, by, How::AbsoluteFrom));
+    move_on(&mut counted.blocks[index + 1..], by);
+    vec![counted, placed]
+}
+
+/// Cuts of a program that has a block more or less.
+fn shift_cuts(traced: &mut Traced, from: usize, by: isize) {
+    let shifted = |at: &mut usize, is_behind: bool| {
+        if is_behind {
+            *at = at.saturating_add_signed(by);
+        }
+    };
+    for range in traced.cuts.iter_mut().flatten() {
+        let (behind, ends) = (range.start > from, range.end > from);
+        shifted(&mut range.start, behind);
+        shifted(&mut range.end, ends);
+    }
+}
+
+/// Moves blocks.
+fn move_on(blocks: &mut [Block], by: Vector) {
+    for block in blocks {
+        match &mut block.motion {
+            Motion::Cut(segment) => *segment = segment.moved(by),
+            Motion::Way(start, _) => *start += by,
+            Motion::Stop => {}
+        }
+    }
+}
+
 /// How the blocks after a changed end continue.
 #[derive(Clone, Copy, PartialEq)]
 enum How {
@@ -197,17 +339,11 @@ impl How {
 fn repaired(traced: &Traced, index: usize, meant: Segment, by: Vector, how: How) -> Traced {
     let mut repaired = traced.clone();
     repaired.blocks[index].motion = Motion::Cut(meant);
-    let mut behind = repaired.blocks[index + 1..].iter_mut();
     if how == How::Relative {
-        for block in behind {
-            match &mut block.motion {
-                Motion::Cut(segment) => *segment = segment.moved(by),
-                Motion::Way(start, _) => *start += by,
-                Motion::Stop => {}
-            }
-        }
+        move_on(&mut repaired.blocks[index + 1..], by);
         return repaired;
     }
+    let mut behind = repaired.blocks[index + 1..].iter_mut();
     if how == How::Held {
         hold(behind, by);
         return repaired;
