@@ -65,8 +65,8 @@ fn compared(drawn: &Drawn, traced: &Traced) -> (Option<Comparison>, bool) {
         let seen = match guessed {
             Some(told) if is_silent(&told) || is_slight(&told) => Some(told.whole()),
             guessed => clean_or_slip(drawn, traced)
-                .or(guessed.map(Told::whole))
-                .or_else(|| but_one(drawn, traced)),
+                .or_else(|| but_one(drawn, traced))
+                .or(guessed.map(Told::whole)),
         };
         let seen = seen.or_else(|| looked_at(drawn, traced));
         return (seen.or_else(|| on_other_side(drawn, traced)), false);

@@ -3,7 +3,6 @@
 //! A block is named where no way of writing the drawing explains it: what leaves nothing to name comes before what
 //! leaves little.
 
-use super::LEADS;
 use super::anchor::places;
 use super::comparison::{Tried, courses, longest_cut, sound, with_other_corner};
 use super::difference::Comparison;
@@ -15,6 +14,7 @@ use super::placement::Placement;
 use super::rounds::{Course, Rounds};
 use super::single::{Only, single};
 use super::traced::{Block, Traced};
+use super::{LEADS, REACH};
 use std::cmp::Reverse;
 use std::rc::Rc;
 
@@ -29,8 +29,24 @@ const SLIPS: usize = 3;
 /// A way in which a program may lie on its drawing.
 struct Laying {
     drawn: Drawn,
+    courses: Vec<Course>,
     rounds: Rc<Rounds>,
     placement: Placement,
+}
+
+impl Laying {
+    /// All but the last micrometre is the same.
+    fn is_like(&self, other: &Laying) -> bool {
+        let is_near = |(one, other): (&Course, &Course)| match (one, other) {
+            (Course::Beside(one), Course::Beside(other)) => (one - other).abs() < 2e-3,
+            _ => one == other,
+        };
+        let away = (self.placement.shift - other.placement.shift).norm();
+        away < REACH
+            && self.drawn.settings.corner == other.drawn.settings.corner
+            && self.courses.len() == other.courses.len()
+            && self.courses.iter().zip(&other.courses).all(is_near)
+    }
 }
 
 /// The comparison of a program of which every block follows the drawing; `None` where one does not. A number that is off
@@ -53,6 +69,7 @@ pub(super) fn followed(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
         drawn,
         rounds,
         placement,
+        ..
     } = laying;
     Tried::of(traced, walked, &[], (rounds, placement)).told(&drawn, traced)
 }
@@ -69,8 +86,13 @@ pub(super) fn but_one(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
         })
         .collect();
     all.sort_by_key(|(count, _)| Reverse(*count));
-    all.truncate(LIKELY);
-    let found = all.into_iter().filter_map(|(_, laying)| {
+    let mut likely: Vec<Laying> = Vec::new();
+    for (_, laying) in all {
+        if likely.len() < LIKELY && !likely.iter().any(|other| other.is_like(&laying)) {
+            likely.push(laying);
+        }
+    }
+    let found = likely.into_iter().filter_map(|laying| {
         let (rounds, placement) = (&laying.rounds, laying.placement);
         let whole = |traced: &Traced, placement: Placement| {
             let (walked, miss) = sound(traced, rounds, placement)?;
@@ -80,17 +102,18 @@ pub(super) fn but_one(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
         let only = single(traced, rounds, placement, &[], f64::INFINITY, &whole)?;
         Some((laying, only))
     });
-    let off = |only: &Only| only.unlike.off;
-    let (laying, only) = found.min_by(|(_, one), (_, other)| off(one).total_cmp(&off(other)))?;
+    let (laying, only) = found.min_by(|(_, one), (_, other)| one.sum.total_cmp(&other.sum))?;
     let Laying {
         drawn,
         rounds,
         placement,
+        ..
     } = laying;
     let Only {
         repaired,
         mut walked,
         unlike,
+        ..
     } = only;
     walked.unlike = vec![unlike];
     Tried::of(&repaired, walked, &[], (rounds, placement)).told(&drawn, &repaired)
@@ -116,6 +139,7 @@ fn layings(drawn: &Drawn, traced: &Traced) -> impl Iterator<Item = Laying> {
             let (drawn, rounds) = (drawn.clone(), Rc::new(rounds));
             placements.into_iter().map(move |placement| Laying {
                 drawn: drawn.clone(),
+                courses: courses.clone(),
                 rounds: rounds.clone(),
                 placement,
             })

@@ -324,7 +324,11 @@ impl Members {
 
 /// By how much the numbers of a block differ from those of its piece, µm: where it leads from its start, and where its
 /// centre lies from there. Where a machine counts, the end of an arc is none of them.
-fn numbers_apart(own: &Segment, meant: &Segment, (counts, by_radius): (bool, bool)) -> f64 {
+pub(super) fn numbers_apart(
+    own: &Segment,
+    meant: &Segment,
+    (counts, by_radius): (bool, bool),
+) -> f64 {
     let ends = ((own.end() - own.start()) - (meant.end() - meant.start())).amax();
     match (own.as_arc(), meant.as_arc()) {
         (Some(arc), Some(other)) => {
