@@ -64,6 +64,9 @@ fn compared(drawn: &Drawn, traced: &Traced) -> (Option<Comparison>, bool) {
         let guessed = otherwise(drawn, traced);
         let seen = match guessed {
             Some(told) if is_silent(&told) || is_slight(&told) => Some(told.whole()),
+            Some(told) if told.is_one_change() => {
+                clean_or_slip(drawn, traced).or(Some(told.whole()))
+            }
             guessed => clean_or_slip(drawn, traced)
                 .or_else(|| but_one(drawn, traced))
                 .or(guessed.map(Told::whole)),
