@@ -33,7 +33,8 @@ pub(super) struct Members {
     /// Their length together, µm.
     skipped: f64,
     left: Option<Spot>,
-    is_broken: bool,
+    /// A block shows a difference.
+    pub(crate) is_broken: bool,
     miss: f64,
     stretch: Stretch,
     slips: Vec<Unlike>,

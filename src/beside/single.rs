@@ -9,6 +9,7 @@ use super::placement::Placement;
 use super::rounds::Rounds;
 use super::traced::Traced;
 use super::walk::{Kind, Unlike, Walked};
+use crate::geometry::Vector;
 
 /// Blocks before and after a named one that are tried, and the blocks that all tries together may read.
 const ABOUT: usize = 3;
@@ -75,8 +76,14 @@ pub(super) fn single(
             fuel -= 1;
             let repaired = edit.of(traced);
             // Where the program lies may have been found before the change, or after it.
-            let found =
-                whole(&repaired, placement).or_else(|| whole(&repaired, placement.moved(edit.by)));
+            let is_told_before = before[&index].is_broken;
+            let there = (!is_told_before).then(|| whole(&repaired, placement));
+            let is_moved = edit.by != Vector::zeros();
+            let moved = || {
+                let moved = is_moved.then(|| placement.moved(edit.by))?;
+                whole(&repaired, moved)
+            };
+            let found = there.flatten().or_else(moved);
             let Some((walked, miss)) = found else {
                 continue;
             };
