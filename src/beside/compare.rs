@@ -67,11 +67,17 @@ fn compared(drawn: &Drawn, traced: &Traced) -> (Option<Comparison>, bool) {
             Some(told) if told.is_one_change() => {
                 clean_or_slip(drawn, traced).or(Some(told.whole()))
             }
-            guessed => clean_or_slip(drawn, traced)
+            Some(told) => clean_or_slip(drawn, traced)
                 .or_else(|| but_one(drawn, traced))
-                .or(guessed.map(Told::whole)),
+                .or(Some(told.whole())),
+            None => clean_or_slip(drawn, traced).or_else(|| {
+                let seen = looked_at(drawn, traced);
+                match seen.as_ref().is_some_and(is_clean) {
+                    true => seen,
+                    false => but_one(drawn, traced).or(seen),
+                }
+            }),
         };
-        let seen = seen.or_else(|| looked_at(drawn, traced));
         return (seen.or_else(|| on_other_side(drawn, traced)), false);
     };
     let blocks = traced.blocks.len();
@@ -113,13 +119,14 @@ fn compared(drawn: &Drawn, traced: &Traced) -> (Option<Comparison>, bool) {
     if known.differences.len() < 2 {
         return (Some(known), false);
     }
-    if let Some(seen) = but_one(drawn, traced) {
-        return (Some(seen), false);
-    }
     // One may be as another writer has it in a place or two.
-    let is_clean = |seen: &Comparison| seen.differences.is_empty();
     let seen = looked_at(drawn, traced).filter(is_clean);
+    let seen = seen.or_else(|| but_one(drawn, traced));
     (seen.or(Some(known)), false)
+}
+
+fn is_clean(seen: &Comparison) -> bool {
+    seen.differences.is_empty()
 }
 
 /// What says nothing of a program; but where one block of it may be a few micrometres off, that: nobody sets anything

@@ -26,7 +26,7 @@ pub(super) const FEW: usize = 6;
 /// The deviation of a 4B block that another rounding of its transitions explains, µm.
 const ROUNDED: f64 = 2.5;
 /// Of several differing blocks one deviates by at least this, µm.
-const CHANGED: f64 = 2.5;
+pub(super) const CHANGED: f64 = 2.5;
 /// For each differing block this many must be as we write them: then it is a change, and not another writer's rounding.
 const OWN: usize = 8;
 /// For each of two differing blocks this many must follow, where one ends quite elsewhere.

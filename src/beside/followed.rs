@@ -4,7 +4,7 @@
 //! leaves little.
 
 use super::anchor::places;
-use super::comparison::{Tried, courses, longest_cut, sound, with_other_corner};
+use super::comparison::{CHANGED, Tried, courses, longest_cut, sound, with_other_corner};
 use super::difference::Comparison;
 use super::drawn::Drawn;
 use super::infer;
@@ -115,7 +115,10 @@ pub(super) fn but_one(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
         unlike,
         ..
     } = only;
-    walked.unlike = vec![unlike];
+    // Another writer's rounding is no change; an arc of which no arc can be made is one.
+    let is_lost = traced.blocks.get(unlike.block).is_some_and(|it| it.is_lost);
+    let is_change = unlike.off >= CHANGED || is_lost;
+    walked.unlike = Vec::from_iter(is_change.then_some(unlike));
     Tried::of(&repaired, walked, &[], (rounds, placement)).told(&drawn, &repaired)
 }
 
