@@ -115,9 +115,9 @@ pub(super) fn but_one(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
         unlike,
         ..
     } = only;
-    // Another writer's rounding is no change; an arc of which no arc can be made is one.
+    // A step that is rounded by itself is no change; an arc of which no arc can be made is one.
     let is_lost = traced.blocks.get(unlike.block).is_some_and(|it| it.is_lost);
-    let is_change = unlike.off >= CHANGED || is_lost;
+    let is_change = unlike.off >= CHANGED || traced.counts || is_lost;
     walked.unlike = Vec::from_iter(is_change.then_some(unlike));
     Tried::of(&repaired, walked, &[], (rounds, placement)).told(&drawn, &repaired)
 }
