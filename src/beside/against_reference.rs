@@ -278,6 +278,14 @@ impl Pairs<'_> {
             run = Some((number, !self.is_placed(number, from), is_aside));
             // A move and its return are one change, and so are two exchanged blocks.
             if goes_on && self.comes_back(number, from) {
+                // Of a vertex elsewhere it is not the neighbour that is hardly longer.
+                if let Some(last) = found.last_mut()
+                    && last.kind == Kind::Block
+                    && is_of_contour
+                    && last.off < *off / 2.0
+                {
+                    *last = Difference::of(own, source, *off, Kind::Block);
+                }
                 continue;
             }
             unlike += usize::from(is_of_contour && is_as_drawn);

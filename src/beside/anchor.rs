@@ -76,8 +76,8 @@ pub(super) fn places(traced: &Traced, rounds: &Rounds) -> Vec<Placement> {
         .collect();
     for index in cuts(traced, 0..traced.blocks.len()).into_iter().take(FIRST) {
         for found in matching(rounds, traced, index, &still) {
-            let (count, ends) = walk.verify(found.placement, found.spot, found.spot, index, SURE);
-            if count + usize::from(ends) < 2 {
+            let (count, _) = walk.verify(found.placement, found.spot, found.spot, index, 1);
+            if count == 0 {
                 continue;
             }
             let place = refined(traced, rounds, found, index);

@@ -5,7 +5,7 @@ use super::against_reference::{Told, against_reference};
 use super::comparison::looked_at;
 use super::difference::{Comparison, Difference};
 use super::drawn::Drawn;
-use super::followed::followed;
+use super::followed::{but_one, followed};
 use super::guess::otherwise;
 use super::traced::{Block, Traced};
 use super::uneven::uneven;
@@ -63,12 +63,21 @@ fn compared(drawn: &Drawn, traced: &Traced) -> (Option<Comparison>, bool) {
     let Some(known) = known else {
         let guessed = otherwise(drawn, traced);
         let seen = match guessed {
-            Some(told) if told.comparison.differences.is_empty() || is_slight(&told) => {
-                Some(told.whole())
+            Some(told) if is_silent(&told) || is_slight(&told) => Some(told.whole()),
+            Some(told) if told.is_one_change() => {
+                clean_or_slip(drawn, traced).or(Some(told.whole()))
             }
-            guessed => clean_or_slip(drawn, traced).or(guessed.map(Told::whole)),
+            Some(told) => clean_or_slip(drawn, traced)
+                .or_else(|| but_one(drawn, traced))
+                .or(Some(told.whole())),
+            None => clean_or_slip(drawn, traced).or_else(|| {
+                let seen = looked_at(drawn, traced);
+                match seen.as_ref().is_some_and(is_clean) {
+                    true => seen,
+                    false => but_one(drawn, traced).or(seen),
+                }
+            }),
         };
-        let seen = seen.or_else(|| looked_at(drawn, traced));
         return (seen.or_else(|| on_other_side(drawn, traced)), false);
     };
     let blocks = traced.blocks.len();
@@ -78,9 +87,15 @@ fn compared(drawn: &Drawn, traced: &Traced) -> (Option<Comparison>, bool) {
         _ if !known.is_exact() => true,
         // Nobody sets anything otherwise by so little.
         _ if is_slip(&known) => false,
+        // A way that is lost, and nothing else.
+        [one] if one.kind == Kind::Lead && known.is_one_change() => false,
         [one] if one.kind == Kind::Moved && known.elsewhere == 0 && !known.has_gap => false,
         [_] => known.has_gap || known.elsewhere > 0 || blocks < SMALL,
-        all => 16 * all.len() > blocks || all.iter().any(|one| one.off < ROUNDING),
+        all => {
+            known.elsewhere > 0
+                || 16 * all.len() > blocks
+                || all.iter().any(|one| one.off < ROUNDING)
+        }
     };
     if (is_doubtful || known.has_moved())
         && !known.is_one_change()
@@ -105,9 +120,13 @@ fn compared(drawn: &Drawn, traced: &Traced) -> (Option<Comparison>, bool) {
         return (Some(known), false);
     }
     // One may be as another writer has it in a place or two.
-    let is_clean = |seen: &Comparison| seen.differences.is_empty();
     let seen = looked_at(drawn, traced).filter(is_clean);
+    let seen = seen.or_else(|| but_one(drawn, traced));
     (seen.or(Some(known)), false)
+}
+
+fn is_clean(seen: &Comparison) -> bool {
+    seen.differences.is_empty()
 }
 
 /// What says nothing of a program; but where one block of it may be a few micrometres off, that: nobody sets anything
@@ -134,6 +153,12 @@ fn is_slip(told: &Told) -> bool {
 /// The same where the settings are not known to the last digit.
 fn is_slight(told: &Told) -> bool {
     is_one_off(&told.comparison, LEAST..=SLIP) && !told.has_gap
+}
+
+/// It tells nothing, not even of a word that may be of a side which nobody has set.
+fn is_silent(told: &Told) -> bool {
+    let is_of_side = |one: &Difference| one.kind != Kind::Unstopped;
+    told.comparison.differences.is_empty() && !told.words.iter().any(is_of_side)
 }
 
 /// What differs is of contours, not of the ways between them.

@@ -26,11 +26,13 @@ pub(super) const FEW: usize = 6;
 /// The deviation of a 4B block that another rounding of its transitions explains, µm.
 const ROUNDED: f64 = 2.5;
 /// Of several differing blocks one deviates by at least this, µm.
-const CHANGED: f64 = 2.5;
+pub(super) const CHANGED: f64 = 2.5;
 /// For each differing block this many must be as we write them: then it is a change, and not another writer's rounding.
 const OWN: usize = 8;
 /// For each of two differing blocks this many must follow, where one ends quite elsewhere.
 const LIKE: usize = 4;
+/// A larger deviation is no change where nothing was named, µm.
+const MOST_UNNAMED: f64 = 50.0;
 /// The most corrections that are found for further passes.
 const FURTHER: usize = 4;
 
@@ -345,18 +347,22 @@ impl Tried {
         let Some((rounds, placement)) = self.laid.clone() else {
             return self;
         };
-        let miss =
-            |traced: &Traced, placement: Placement| Some(sound(traced, &rounds, placement)?.1);
-        if miss(traced, placement).is_some() {
+        let whole = |traced: &Traced, placement: Placement| sound(traced, &rounds, placement);
+        if whole(traced, placement).is_some() {
             self.unlike.clear();
             return self;
         }
         if !placement.is_exact() && self.unlike.is_empty() {
             return self;
         }
+        let most = match self.unlike.is_empty() {
+            true => MOST_UNNAMED,
+            false => f64::INFINITY,
+        };
         let mut placements = std::iter::once(placement).chain(others(traced, &rounds, &placement));
         let only = placements
-            .find_map(|placement| single(traced, &rounds, placement, &self.unlike, &miss));
+            .find_map(|placement| single(traced, &rounds, placement, &self.unlike, most, &whole))
+            .map(|only| only.unlike);
         // What is named needs no larger change elsewhere to explain it.
         let is_larger = |only: &Unlike| {
             let named = self.unlike.iter();

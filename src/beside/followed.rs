@@ -3,54 +3,150 @@
 //! A block is named where no way of writing the drawing explains it: what leaves nothing to name comes before what
 //! leaves little.
 
-use super::LEADS;
 use super::anchor::places;
-use super::comparison::{Tried, courses, longest_cut, sound, with_other_corner};
+use super::comparison::{CHANGED, Tried, courses, longest_cut, sound, with_other_corner};
 use super::difference::Comparison;
 use super::drawn::Drawn;
 use super::infer;
+use super::members::Members;
 use super::passes::corrections;
+use super::placement::Placement;
 use super::rounds::{Course, Rounds};
+use super::single::{Only, single};
 use super::traced::{Block, Traced};
+use super::{LEADS, REACH};
+use std::cmp::Reverse;
 use std::rc::Rc;
 
 /// The most lists of corrections that are tried.
 const LISTS: usize = 12;
+/// The most layings in which one changed block is looked for.
+const LIKELY: usize = 8;
 
 /// For each block whose numbers are off, this many must be as any writer has them.
 const SLIPS: usize = 3;
 
-/// The comparison of a program of which every block follows the drawing; `None` where one does not. A number that is off
-/// by less than moves its block aside is told.
-pub(super) fn followed(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
-    if traced.is_empty() || drawn.contours().is_empty() {
-        return None;
+/// A way in which a program may lie on its drawing.
+struct Laying {
+    drawn: Drawn,
+    courses: Vec<Course>,
+    rounds: Rc<Rounds>,
+    placement: Placement,
+}
+
+impl Laying {
+    /// All but the last micrometre is the same.
+    fn is_like(&self, other: &Laying) -> bool {
+        let is_near = |(one, other): (&Course, &Course)| match (one, other) {
+            (Course::Beside(one), Course::Beside(other)) => (one - other).abs() < 2e-3,
+            _ => one == other,
+        };
+        let away = (self.placement.shift - other.placement.shift).norm();
+        away < REACH
+            && self.drawn.settings.corner == other.drawn.settings.corner
+            && self.courses.len() == other.courses.len()
+            && self.courses.iter().zip(&other.courses).all(is_near)
     }
+}
+
+/// The comparison of a program of which every block follows the drawing; `None` where one does not. A number that is off
+/// by less than moves its block aside is told, and the one block without which the wire does not come back.
+pub(super) fn followed(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
+    let (laying, mut walked) = layings(drawn, traced).find_map(|laying| {
+        let (walked, _) = sound(traced, &laying.rounds, laying.placement)?;
+        (!is_left(traced, &walked.runs)).then_some((laying, walked))
+    })?;
+    if walked.misses_start
+        && let Some(seen) = but_one(drawn, traced)
+    {
+        return Some(seen);
+    }
+    // Many are the way of its writer; a few somebody has changed.
+    if SLIPS * walked.slips.len() <= walked.follows.len() {
+        walked.unlike = std::mem::take(&mut walked.slips);
+    }
+    let Laying {
+        drawn,
+        rounds,
+        placement,
+        ..
+    } = laying;
+    Tried::of(traced, walked, &[], (rounds, placement)).told(&drawn, traced)
+}
+
+/// The comparison of a program that follows the drawing, and comes back to where each cut begins, but for one block:
+/// of all such blocks the one that is the least off.
+pub(super) fn but_one(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
+    let mut all: Vec<(usize, Laying)> = layings(drawn, traced)
+        .map(|laying| {
+            (
+                Members::count(traced, &laying.rounds, laying.placement),
+                laying,
+            )
+        })
+        .collect();
+    all.sort_by_key(|(count, _)| Reverse(*count));
+    let mut likely: Vec<Laying> = Vec::new();
+    for (_, laying) in all {
+        if likely.len() < LIKELY && !likely.iter().any(|other| other.is_like(&laying)) {
+            likely.push(laying);
+        }
+    }
+    let found = likely.into_iter().filter_map(|laying| {
+        let (rounds, placement) = (&laying.rounds, laying.placement);
+        let whole = |traced: &Traced, placement: Placement| {
+            let (walked, miss) = sound(traced, rounds, placement)?;
+            let is_whole = !walked.misses_start && !is_left(traced, &walked.runs);
+            is_whole.then_some((walked, miss))
+        };
+        let only = single(traced, rounds, placement, &[], f64::INFINITY, &whole)?;
+        Some((laying, only))
+    });
+    let (laying, only) = found.min_by(|(_, one), (_, other)| one.sum.total_cmp(&other.sum))?;
+    let Laying {
+        drawn,
+        rounds,
+        placement,
+        ..
+    } = laying;
+    let Only {
+        repaired,
+        mut walked,
+        unlike,
+        ..
+    } = only;
+    // A step that is rounded by itself is no change; an arc of which no arc can be made is one.
+    let is_lost = traced.blocks.get(unlike.block).is_some_and(|it| it.is_lost);
+    let is_change = unlike.off >= CHANGED || traced.counts || is_lost;
+    walked.unlike = Vec::from_iter(is_change.then_some(unlike));
+    Tried::of(&repaired, walked, &[], (rounds, placement)).told(&drawn, &repaired)
+}
+
+/// All of them, the likeliest first.
+fn layings(drawn: &Drawn, traced: &Traced) -> impl Iterator<Item = Laying> {
     let mut tried: Vec<Vec<Course>> = Vec::new();
-    for courses in ways(drawn, traced) {
-        if !tried.contains(&courses) {
-            tried.push(courses);
+    if !traced.is_empty() && !drawn.contours().is_empty() {
+        for courses in ways(drawn, traced) {
+            if !tried.contains(&courses) {
+                tried.push(courses);
+            }
         }
     }
     let corners = [drawn.clone(), with_other_corner(drawn)];
-    let mut all = corners
-        .iter()
-        .flat_map(|drawn| tried.iter().map(move |courses| (drawn, courses)));
-    all.find_map(|(drawn, courses)| {
-        let mut rounds = Rounds::default();
-        rounds.add(drawn, courses, None);
-        let placements = places(traced, &rounds);
-        let (mut walked, placement) = placements
-            .into_iter()
-            .find_map(|placement| Some((sound(traced, &rounds, placement)?.0, placement)))?;
-        if is_left(traced, &walked.runs) {
-            return None;
-        }
-        // Many are the way of its writer; a few somebody has changed.
-        if SLIPS * walked.slips.len() <= walked.follows.len() {
-            walked.unlike = std::mem::take(&mut walked.slips);
-        }
-        Tried::of(traced, walked, &[], (Rc::new(rounds), placement)).told(drawn, traced)
+    corners.into_iter().flat_map(move |drawn| {
+        let laid: Vec<_> = tried.clone();
+        laid.into_iter().flat_map(move |courses| {
+            let mut rounds = Rounds::default();
+            rounds.add(&drawn, &courses, None);
+            let placements = places(traced, &rounds);
+            let (drawn, rounds) = (drawn.clone(), Rc::new(rounds));
+            placements.into_iter().map(move |placement| Laying {
+                drawn: drawn.clone(),
+                courses: courses.clone(),
+                rounds: rounds.clone(),
+                placement,
+            })
+        })
     })
 }
 

@@ -12,7 +12,14 @@ pub(super) fn foreign(traced: &Traced, walked: &Walked) -> Vec<Range<usize>> {
     for [all, contour] in &traced.cuts {
         let runs = |range: Range<usize>| walked.runs[range].iter().any(|runs| *runs);
         if !runs(all.clone()) {
-            found.extend((!contour.is_empty() && closes(traced, contour)).then(|| contour.clone()));
+            let is_contour = !contour.is_empty() && closes(traced, contour);
+            // One that does not come back is more than a way there and away.
+            let is_more = || segments(&traced.blocks[all.clone()]).count() > LEADS;
+            if is_contour {
+                found.push(contour.clone());
+            } else if contour.is_empty() && is_more() {
+                found.push(all.start + 1..all.end);
+            }
             continue;
         }
         let mut from = all.start;

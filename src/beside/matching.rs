@@ -40,18 +40,20 @@ pub(super) fn matching(
             }
         }
     }
+    // An arc lies about its centre, wherever on it the block begins.
     if let Some(arc) = block.as_arc() {
         let center = placement.place(arc.center);
-        for (round, of) in rounds.rounds.iter().enumerate() {
-            let Some((own, radius)) = of.circle else {
+        for (round, piece) in rounds.with_radius(arc.radius) {
+            let Some(own) = rounds.rounds[round].pieces[piece].segment.as_arc() else {
                 continue;
             };
-            if (radius - arc.radius).abs() > REACH || found.len() >= PLACES {
-                continue;
+            if found.len() >= PLACES {
+                break;
             }
-            let moved = placement.moved(center - own);
+            let moved = placement.moved(center - own.center);
             let spots = rounds.near(moved.place(block.start()), 2.0 * REACH);
-            let own = spots.into_iter().filter(|spot| spot.round == round);
+            let own = spots.into_iter();
+            let own = own.filter(|spot| (spot.round, spot.piece) == (round, piece));
             found.extend(own.map(|spot| Found {
                 spot,
                 placement: moved,

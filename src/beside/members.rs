@@ -10,7 +10,8 @@ use super::rounds::{Rounds, Spot};
 use super::traced::{Motion, Traced};
 use super::walk::{Kind, Unlike, Walked};
 use super::{BETWEEN, COVERED, LEADS, REACH};
-use crate::geometry::{Segment, Vector};
+use crate::geometry::{Point, Segment, Vector};
+use std::ops::Range;
 
 /// The state of a program up to one of its blocks.
 #[derive(Clone)]
@@ -32,7 +33,8 @@ pub(super) struct Members {
     /// Their length together, µm.
     skipped: f64,
     left: Option<Spot>,
-    is_broken: bool,
+    /// A block shows a difference.
+    pub(crate) is_broken: bool,
     miss: f64,
     stretch: Stretch,
     slips: Vec<Unlike>,
@@ -40,6 +42,9 @@ pub(super) struct Members {
 
 /// What no writer rounds the numbers of a block by, µm: both of its ends, or its start and its centre, lie on the grid.
 const NUMBER: f64 = 1.9;
+
+/// A wire that leaves by more from where it came is meant to, where the program may take it anywhere, µm.
+const MOST_MISSED: f64 = 50.0;
 
 /// The blocks since the correction was switched on or off.
 #[derive(Clone, Copy, Default)]
@@ -85,7 +90,8 @@ impl Members {
             && before.stretch != block.stretch
         {
             self.is_broken |= before.is_offset() && self.stretch.is_foreign();
-            self.stretch = Stretch::default();
+            // The words that switch the correction say that another pass begins, wherever that is.
+            (self.stretch, self.left) = (Stretch::default(), None);
         }
         let segment = match &block.motion {
             Motion::Cut(segment) => segment,
@@ -254,6 +260,13 @@ impl Members {
         breaks
     }
 
+    /// How many blocks follow.
+    pub(super) fn count(traced: &Traced, rounds: &Rounds, placement: Placement) -> usize {
+        let mut members = Members::new(traced, placement);
+        (0..traced.blocks.len()).for_each(|index| members.take(traced, rounds, index));
+        members.runs.iter().filter(|runs| **runs).count()
+    }
+
     /// All of them, and the sum of their deviations, µm; `None` where there is a difference.
     pub(super) fn all(
         traced: &Traced,
@@ -261,10 +274,18 @@ impl Members {
         placement: Placement,
     ) -> Option<(Walked, f64)> {
         let mut members = Members::new(traced, placement);
+        let mut cuts = traced.cuts.iter().map(|[all, _]| all).peekable();
+        let (mut begun, mut misses_start) = (None, false);
         for index in 0..traced.blocks.len() {
+            if cuts.peek().is_some_and(|cut| cut.start == index) {
+                begun = members.placement.begin(&traced.blocks[index]);
+            }
             members.take(traced, rounds, index);
             if members.is_broken {
                 return None;
+            }
+            if let Some(cut) = cuts.next_if(|cut| cut.end == index + 1) {
+                misses_start |= members.misses(traced, rounds, cut, begun);
             }
         }
         let whole = members.coverage.are_whole(rounds);
@@ -274,15 +295,41 @@ impl Members {
             follows: members.follows,
             contours: members.contours,
             slips: members.slips,
+            misses_start,
             ..Walked::default()
         };
         (whole && !walked.contours.is_empty()).then_some((walked, members.miss))
+    }
+
+    /// Whether a cut that goes round closed contours ends elsewhere than where it has begun.
+    fn misses(
+        &self,
+        traced: &Traced,
+        rounds: &Rounds,
+        cut: &Range<usize>,
+        begun: Option<Point>,
+    ) -> bool {
+        let mut on = self.on[cut.clone()].iter().flatten().peekable();
+        let is_closed = on.peek().is_some() && on.all(|(round, _)| rounds.rounds[*round].closed);
+        let mut blocks = traced.blocks[cut.clone()].iter().rev();
+        let last = blocks.find_map(|block| block.motion.ends());
+        let end = last.map(|[_, end]| self.placement.place(end));
+        let apart = begun
+            .zip(end)
+            .map_or(0.0, |(begun, end)| (end - begun).norm());
+        // In ISO the wire may leave where it likes.
+        let is_meant = !traced.counts && apart > MOST_MISSED;
+        is_closed && apart > REACH && !is_meant
     }
 }
 
 /// By how much the numbers of a block differ from those of its piece, µm: where it leads from its start, and where its
 /// centre lies from there. Where a machine counts, the end of an arc is none of them.
-fn numbers_apart(own: &Segment, meant: &Segment, (counts, by_radius): (bool, bool)) -> f64 {
+pub(super) fn numbers_apart(
+    own: &Segment,
+    meant: &Segment,
+    (counts, by_radius): (bool, bool),
+) -> f64 {
     let ends = ((own.end() - own.start()) - (meant.end() - meant.start())).amax();
     match (own.as_arc(), meant.as_arc()) {
         (Some(arc), Some(other)) => {

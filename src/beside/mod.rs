@@ -20,6 +20,7 @@ mod coverage;
 mod difference;
 mod displaced;
 mod drawn;
+mod edits;
 mod findings;
 mod followed;
 mod foreign;

@@ -1,5 +1,7 @@
 //! The ways of the wire round the contours of a drawing, as places along which a program moves.
 
+mod pieces;
+
 use super::drawn::{Contour, Drawn};
 use super::infer::circle;
 use crate::drawing::EntityId;
@@ -72,16 +74,14 @@ pub(super) struct Rounds {
     index: Grid<Place>,
     /// Rounds of each course that have been laid.
     laid: Vec<(usize, Side, Course)>,
-    /// Pieces by the vector from their start to their end, in cells of [`CELL`].
+    /// Pieces by the vector from their start to their end, in cells.
     leads: OnceCell<FxHashMap<(i64, i64), Vec<Place>>>,
+    /// Those that are arcs by their radii, in cells of the same width.
+    radii: OnceCell<FxHashMap<i64, Vec<Place>>>,
 }
 
-/// Width of a cell for finding pieces by their vectors, µm.
-const CELL: f64 = 8.0;
 /// How far a transition of 4B may differ from the one in the other direction, µm.
 const SAME: f64 = 6.0;
-/// The largest difference between the vectors of a block and of its piece when both are rounded, µm.
-const ALIKE: f64 = 2.9;
 
 impl Rounds {
     /// Adds a course beside all contours, or one of them, unless it is there.
@@ -185,6 +185,7 @@ impl Rounds {
         round.circle = round.circle.or_else(|| circle(segments));
         let number = self.rounds.len() as u32;
         self.leads.take();
+        self.radii.take();
         self.index.reserve(round.pieces.len());
         for (index, piece) in round.pieces.iter().enumerate() {
             self.index
@@ -230,6 +231,15 @@ impl Rounds {
             (true, _) => count - 1,
         };
         Some(self.at_begin(spot.round, piece, spot.back))
+    }
+
+    /// Where the piece before one begins; `None` at the beginning of an open round.
+    pub(super) fn before(&self, spot: &Spot) -> Option<Spot> {
+        let back = self.next(&Spot {
+            back: !spot.back,
+            ..*spot
+        })?;
+        Some(self.at_begin(back.round, back.piece, spot.back))
     }
 
     /// The spot at the beginning of a piece, seen in its way.
@@ -289,37 +299,6 @@ impl Rounds {
         } else {
             cut(begin..end);
         }
-    }
-
-    /// The beginnings of pieces with this vector in either direction, with the whole of them.
-    pub(crate) fn leading(&self, by: Vector) -> Vec<(Spot, Segment)> {
-        let cell = |by: Vector| ((by.x / CELL).floor() as i64, (by.y / CELL).floor() as i64);
-        let leads = self.leads.get_or_init(|| {
-            let mut leads: FxHashMap<_, Vec<_>> = FxHashMap::default();
-            for (number, round) in self.rounds.iter().enumerate() {
-                for (index, piece) in round.pieces.iter().enumerate() {
-                    let by = piece.segment.end() - piece.segment.start();
-                    let place = (number as u32, index as u32);
-                    leads.entry(cell(by)).or_default().push(place);
-                }
-            }
-            leads
-        });
-        let mut found = Vec::new();
-        for back in [false, true] {
-            let by = if back { -by } else { by };
-            let (x, y) = cell(by);
-            let around = (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| (x + dx, y + dy)));
-            for &(round, piece) in around.filter_map(|cell| leads.get(&cell)).flatten() {
-                let spot = self.at_begin(round as usize, piece as usize, back);
-                let own = &self.piece(&spot).segment;
-                if (own.end() - own.start() - by).norm() <= ALIKE {
-                    found.push((spot, self.whole(&spot)));
-                }
-            }
-        }
-        found.sort_by_key(|(spot, _)| (spot.round, spot.piece, spot.back));
-        found
     }
 
     /// The distance by which 4B moves a contour that begins at a spot, µm; `None` where the wire runs as written.

@@ -113,18 +113,52 @@ fn registers(pairs: &Pairs) -> Vec<Difference> {
     found
 }
 
-/// Where no stop is, and nothing in its place. A program that stops nowhere may be for a machine that does by itself,
-/// except where the settings ask for a tab.
+/// What a stop is before.
+#[derive(Clone, Copy, PartialEq)]
+enum Before {
+    Tab,
+    /// Another pass of the same contour.
+    Pass,
+    Way,
+}
+
+impl Before {
+    fn of(pairs: &Pairs, before: &Pair, behind: &Pair) -> Before {
+        let cuts = &pairs.reference.traced.cuts;
+        let is_way = |pair: &Pair| {
+            let own = cuts.iter().find(|[all, _]| all.contains(&pair.nth));
+            own.is_none_or(|[_, contour]| contour.is_empty())
+        };
+        let follows = |pair: &Pair| pairs.reference.source_of(&pair.meant.motion).is_some();
+        if is_way(before) || is_way(behind) {
+            Before::Way
+        } else if follows(before) && follows(behind) {
+            Before::Tab
+        } else {
+            Before::Pass
+        }
+    }
+}
+
+/// Where no stop is, and nothing in its place, though the program stops elsewhere before the like. A program that stops
+/// before nothing of that kind may be for a machine that does by itself, except where the settings ask for a tab.
 fn stops(pairs: &Pairs, is_set: bool) -> Vec<Difference> {
-    let others = pairs.pairs.iter().rev().skip(1);
-    let stops_elsewhere = others.clone().any(|pair| pair.own.motion == Motion::Stop);
+    if pairs.unstopped.is_empty() {
+        return Vec::new();
+    }
+    let all = &pairs.pairs;
+    let stopping = all.windows(3).filter_map(|about| match about {
+        [before, stop, behind] if stop.own.motion == Motion::Stop => {
+            Some(Before::of(pairs, before, behind))
+        }
+        _ => None,
+    });
+    let stopping: Vec<Before> = stopping.collect();
     let lost = |number: &usize| {
-        let [before, behind] = [number.checked_sub(1)?, *number].map(|at| pairs.pairs.get(at));
+        let [before, behind] = [number.checked_sub(1)?, *number].map(|at| all.get(at));
         let (before, behind) = (before?, behind?);
-        let is_tab = [before, behind]
-            .iter()
-            .all(|pair| is_of_contour(pairs, pair));
-        let is_lost = stops_elsewhere || is_set && is_tab;
+        let kind = Before::of(pairs, before, behind);
+        let is_lost = stopping.contains(&kind) || is_set && kind == Before::Tab;
         let is_bare = is_lost && pairs.traced.is_bare_between(before.own, behind.own);
         is_bare.then(|| Difference::of(behind.own, None, 0.0, Kind::Unstopped))
     };

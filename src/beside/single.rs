@@ -3,36 +3,40 @@
 //! A walk names a changed block where it can tell it from a lead, a tab or another pass. Where it is unsure, each block
 //! near the named ones is tried: if it is laid as the drawing has it, does all the rest follow?
 
+use super::edits::edits;
 use super::members::Members;
-use super::placement::{Placement, stretch};
-use super::rounds::{Rounds, Spot};
-use super::traced::{Block, Motion, Traced};
-use super::walk::{Kind, Unlike};
-use super::{REACH, TOLERANCE};
-use crate::geometry::{Arc, Point, Segment, Vector};
-use std::f64::consts::TAU;
+use super::placement::Placement;
+use super::rounds::Rounds;
+use super::traced::Traced;
+use super::walk::{Kind, Unlike, Walked};
+use crate::geometry::Vector;
 
 /// Blocks before and after a named one that are tried, and the blocks that all tries together may read.
 const ABOUT: usize = 3;
 const MOST: usize = 60_000;
-/// The most pieces that one block may stand for, and how far apart they may lie as one line or arc, µm.
-const TOGETHER: usize = 5;
-const SAME: f64 = 1e-2;
-/// A smaller deviation is no change, µm; nor is a larger one, where nothing was named.
-const LEAST: f64 = 1.4;
-const MOST_UNNAMED: f64 = 50.0;
-/// A place nearer to a node is that node, µm.
-const NODE: f64 = 1.6;
 
-/// The one block that explains it best; `None` where none does. `miss` is the sum of the deviations of a program's
-/// blocks, `None` where one does not follow.
+/// The one block that explains all.
+pub(super) struct Only {
+    pub unlike: Unlike,
+    /// The program with that block as it should be, on its drawing.
+    pub repaired: Traced,
+    pub walked: Walked,
+    /// How far all blocks are off together, µm: the less, the likelier.
+    pub sum: f64,
+}
+
+/// A program of which every block follows, and the sum of their deviations, µm.
+type Whole<'a> = &'a dyn Fn(&Traced, Placement) -> Option<(Walked, f64)>;
+
+/// The one block that explains it best, by no more than `most` µm; `None` where none does.
 pub(super) fn single(
     traced: &Traced,
     rounds: &Rounds,
     placement: Placement,
     named: &[Unlike],
-    miss: &dyn Fn(&Traced, Placement) -> Option<f64>,
-) -> Option<Unlike> {
+    most: f64,
+    whole: Whole,
+) -> Option<Only> {
     let mut tried: Vec<usize> = Vec::new();
     for away in 0..=ABOUT {
         for unlike in named {
@@ -60,206 +64,45 @@ pub(super) fn single(
         at = index;
         before.insert(index, members.clone());
     }
-    let mut best: Option<(f64, Unlike)> = None;
+    let mut best: Option<Only> = None;
     'tries: for index in tried {
-        let members = &before[&index];
-        let own = *traced.blocks[index].segment()?;
-        let near = rounds.near(members.placement.place(own.start()), 2.0 * REACH);
-        let near = near.into_iter().map(|spot| (spot, spot));
-        let goes_on = members.spot.zip(members.entry);
-        for (spot, entry) in goes_on.into_iter().chain(near) {
-            let all = stretches(rounds, spot, &entry);
-            // To the end of a piece, or to where a tab begins.
-            let end = members.placement.place(own.end());
-            let part = all.last().and_then(|rest| {
-                let share = rest.share_of(end);
-                (share > 0.0 && share < 1.0).then(|| rest.part(0.0, share))
-            });
-            for meant in all.into_iter().chain(part) {
-                let is_lost = traced.blocks[index].is_lost;
-                let Some((meant, by)) = meant_by(&meant, &own, is_lost, &members.placement) else {
-                    continue;
-                };
-                if named.is_empty() && by.norm() > MOST_UNNAMED {
-                    continue;
-                }
-                for how in How::ALL {
-                    if fuel == 0 {
-                        break 'tries;
-                    }
-                    fuel -= 1;
-                    let repaired = repaired(traced, index, meant, by, how);
-                    let miss = match how {
-                        // Where the program lies may have been found after the change.
-                        How::Relative => miss(&repaired, placement)
-                            .or_else(|| miss(&repaired, placement.moved(by))),
-                        _ => miss(&repaired, placement),
-                    };
-                    let sum = miss.map(|miss| miss + by.norm());
-                    let is_better = |sum: &f64| best.as_ref().is_none_or(|(least, _)| sum < least);
-                    if let Some(sum) = sum.filter(is_better) {
-                        let unlike = Unlike {
-                            block: index,
-                            source: rounds.piece(&spot).source,
-                            off: by.norm(),
-                            kind: Kind::Block,
-                        };
-                        best = Some((sum, unlike));
-                    }
-                }
+        for edit in edits(traced, rounds, &before[&index], index) {
+            if edit.off > most {
+                continue;
             }
-        }
-    }
-    best.map(|(_, unlike)| unlike)
-}
-
-/// The possible meanings of a block from a spot on: the rest of its piece, and more where that continues as one line or
-/// arc.
-fn stretches(rounds: &Rounds, spot: Spot, entry: &Spot) -> Vec<Segment> {
-    let (mut rest, mut next) = stretch(rounds, &spot, entry);
-    let mut all = vec![rest];
-    while let Some(further) = next.filter(|_| all.len() < TOGETHER) {
-        let (piece, behind) = stretch(rounds, &further, entry);
-        let Some(both) = joined(&rest, &piece) else {
-            break;
-        };
-        (rest, next) = (both, behind);
-        all.push(rest);
-    }
-    all
-}
-
-/// Two pieces as one line or arc.
-fn joined(first: &Segment, second: &Segment) -> Option<Segment> {
-    match (first, second) {
-        (Segment::Line(first), Segment::Line(second)) => {
-            let both = Segment::line(first.start, second.end);
-            (both.distance_to(first.end) < SAME).then_some(both)
-        }
-        (Segment::Arc(first), Segment::Arc(second)) => {
-            let sweep = first.sweep + second.sweep;
-            let is_same = (first.center - second.center).norm() < SAME
-                && first.sweep * second.sweep > 0.0
-                && sweep.abs() <= TAU + 1e-9;
-            is_same.then_some(Segment::Arc(Arc {
-                sweep,
-                end: second.end,
-                ..*first
-            }))
-        }
-        _ => None,
-    }
-}
-
-/// A stretch of the drawing that replaces a block, and by how much its end moves.
-fn meant_by(
-    stretch: &Segment,
-    own: &Segment,
-    is_lost: bool,
-    placement: &Placement,
-) -> Option<(Segment, Vector)> {
-    // In a program that counts from block to block, a change moves either what lies after it or, seen from there, what
-    // lies before it.
-    let aside = own.start() - placement.program(stretch.start());
-    let aside = if aside.norm() > NODE {
-        aside
-    } else {
-        Vector::zeros()
-    };
-    let end = placement.program(stretch.end()) + aside;
-    let by = end - own.end();
-    let is_alike = is_lost
-        || stretch.as_arc().is_some() == own.as_arc().is_some()
-            && (stretch.length() - own.length()).abs() <= 2.0 * by.norm() + TOLERANCE;
-    let meant = match stretch.moved(end - stretch.end()) {
-        Segment::Line(_) => Segment::line(own.start(), end),
-        arc => arc,
-    };
-    (is_alike && by.norm() >= LEAST).then_some((meant, by))
-}
-
-/// How the blocks after a changed end continue.
-#[derive(Clone, Copy, PartialEq)]
-enum How {
-    /// Counted from there: it is moved.
-    Relative,
-    /// Where it was; an arc about the place that is counted from its start, or about where it was.
-    AbsoluteFrom,
-    Absolute,
-    /// The same where each coordinate holds until another one is said.
-    Held,
-}
-
-impl How {
-    const ALL: [How; 4] = [How::Relative, How::AbsoluteFrom, How::Absolute, How::Held];
-}
-
-fn repaired(traced: &Traced, index: usize, meant: Segment, by: Vector, how: How) -> Traced {
-    let mut repaired = traced.clone();
-    repaired.blocks[index].motion = Motion::Cut(meant);
-    let mut behind = repaired.blocks[index + 1..].iter_mut();
-    if how == How::Relative {
-        for block in behind {
-            match &mut block.motion {
-                Motion::Cut(segment) => *segment = segment.moved(by),
-                Motion::Way(start, _) => *start += by,
-                Motion::Stop => {}
+            if fuel == 0 {
+                break 'tries;
             }
-        }
-        return repaired;
-    }
-    if how == How::Held {
-        hold(behind, by);
-        return repaired;
-    }
-    let next = behind.find_map(|block| match &mut block.motion {
-        Motion::Cut(segment) => Some(segment),
-        _ => None,
-    });
-    if let Some(next) = next {
-        let end = next.end();
-        *next = begun_at(next, next.start() + by, end, by, how);
-    }
-    repaired
-}
-
-/// Moves the blocks after a changed end that name no other place in the direction of the change.
-fn hold<'a>(behind: impl Iterator<Item = &'a mut Block>, mut by: Vector) {
-    for block in behind {
-        let Some([start, end]) = block.motion.ends() else {
-            continue;
-        };
-        let kept = by.zip_map(&(end - start), |by, way| if way == 0.0 { by } else { 0.0 });
-        match &mut block.motion {
-            Motion::Cut(Segment::Line(_)) => {
-                block.motion = Motion::Cut(Segment::line(start + by, end + kept));
-            }
-            Motion::Cut(Segment::Arc(arc)) => {
-                let center = arc.center + by;
-                *arc = Arc::about(center, start + by, end + kept, arc.sweep > 0.0);
-            }
-            Motion::Way(start, way) => {
-                *start += by;
-                *way += kept - by;
-            }
-            Motion::Stop => {}
-        }
-        by = kept;
-        if by == Vector::zeros() {
-            return;
-        }
-    }
-}
-
-fn begun_at(segment: &Segment, start: Point, end: Point, by: Vector, how: How) -> Segment {
-    match segment {
-        Segment::Line(_) => Segment::line(start, end),
-        Segment::Arc(arc) => {
-            let center = match how {
-                How::AbsoluteFrom => arc.center + by,
-                _ => arc.center,
+            fuel -= 1;
+            let repaired = edit.of(traced);
+            // Where the program lies may have been found before the change, or after it.
+            let is_told_before = before[&index].is_broken;
+            let there = (!is_told_before).then(|| whole(&repaired, placement));
+            let is_moved = edit.by != Vector::zeros();
+            let moved = || {
+                let moved = is_moved.then(|| placement.moved(edit.by))?;
+                whole(&repaired, moved)
             };
-            Segment::Arc(Arc::about(center, start, end, arc.sweep > 0.0))
+            let found = there.flatten().or_else(moved);
+            let Some((walked, miss)) = found else {
+                continue;
+            };
+            let sum = miss + edit.off;
+            if best.as_ref().is_none_or(|only| sum < only.sum) {
+                let unlike = Unlike {
+                    block: edit.named(),
+                    source: edit.source,
+                    off: edit.off,
+                    kind: Kind::Block,
+                };
+                best = Some(Only {
+                    unlike,
+                    repaired,
+                    walked,
+                    sum,
+                });
+            }
         }
     }
+    best
 }

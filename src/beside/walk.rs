@@ -77,6 +77,8 @@ pub(super) struct Walked {
     pub contours: Vec<usize>,
     /// Blocks that follow within the tolerance, with numbers that no writer rounds so.
     pub slips: Vec<Unlike>,
+    /// A cut round closed contours does not end where it began.
+    pub misses_start: bool,
 }
 
 /// This many blocks must follow so that others before them count as changed.

@@ -29,6 +29,7 @@ fn what_follows_its_drawing_has_nothing_said_and_a_change_is_named_where_it_is()
         for file in files(&folder) {
             let format = match file.extension().and_then(|ending| ending.to_str()) {
                 Some("3b") => Format::ThreeB,
+                Some("4b") => Format::FourB,
                 Some("iso") => Format::Iso,
                 _ => continue,
             };
