@@ -17,7 +17,10 @@ STANDARD = {"location", "character", "codeDescription", "href"}
 
 DECLARED = {
     "general": {"positionEncodings": ["utf-8"]},
-    "textDocument": {"semanticTokens": {"requests": {"full": {"delta": True}}, "tokenTypes": [], "tokenModifiers": [], "formats": []}},
+    "textDocument": {
+        "semanticTokens": {"requests": {"full": {"delta": True}}, "tokenTypes": [], "tokenModifiers": [], "formats": []},
+        "codeAction": {"dataSupport": True, "resolveSupport": {"properties": ["edit"]}},
+    },
     "experimental": {"wedm": {"applyDrawingEdit": True, "resendDrawing": True, "codeLens": True}},
 }
 
