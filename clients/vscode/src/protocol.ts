@@ -1163,7 +1163,8 @@ export interface PairProgram {
    */
   part: string;
   /**
-   * Correction of each pass, mm. Below 0 for the passes on the other side of what is drawn, where the clearance lies between the corrections; where they all run there, how far they are from it, with `otherSide`.
+   * Correction of each pass, mm. Below 0 for the passes on the other side of what is drawn, where the clearance lies between the
+   * corrections; where they all run there, how far they are from it, with `otherSide`.
    */
   corrections: number[];
   /**
