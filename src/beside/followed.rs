@@ -3,6 +3,7 @@
 //! A block is named where no way of writing the drawing explains it: what leaves nothing to name comes before what
 //! leaves little.
 
+use super::LEADS;
 use super::anchor::places;
 use super::comparison::{CHANGED, Tried, courses, longest_cut, sound, with_other_corner};
 use super::difference::Comparison;
@@ -14,14 +15,15 @@ use super::placement::Placement;
 use super::rounds::{Course, Rounds};
 use super::single::{Only, single};
 use super::traced::{Block, Traced};
-use super::{LEADS, REACH};
 use std::cmp::Reverse;
 use std::rc::Rc;
 
 /// The most lists of corrections that are tried.
 const LISTS: usize = 12;
 /// The most layings in which one changed block is looked for.
-const LIKELY: usize = 8;
+const LIKELY: usize = 16;
+/// Layings that are less than this apart, µm, explain the same.
+const ALIKE: f64 = 0.3;
 
 /// For each block whose numbers are off, this many must be as any writer has them.
 const SLIPS: usize = 3;
@@ -35,14 +37,14 @@ struct Laying {
 }
 
 impl Laying {
-    /// All but the last micrometre is the same.
+    /// All but rounding is the same: of two that are a micrometre apart, one may lie exactly as it was written.
     fn is_like(&self, other: &Laying) -> bool {
         let is_near = |(one, other): (&Course, &Course)| match (one, other) {
-            (Course::Beside(one), Course::Beside(other)) => (one - other).abs() < 2e-3,
+            (Course::Beside(one), Course::Beside(other)) => (one - other).abs() < ALIKE * 1e-3,
             _ => one == other,
         };
         let away = (self.placement.shift - other.placement.shift).norm();
-        away < REACH
+        away < ALIKE
             && self.drawn.settings.corner == other.drawn.settings.corner
             && self.courses.len() == other.courses.len()
             && self.courses.iter().zip(&other.courses).all(is_near)
@@ -102,7 +104,10 @@ pub(super) fn but_one(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
         let only = single(traced, rounds, placement, &[], f64::INFINITY, &whole)?;
         Some((laying, only))
     });
-    let (laying, only) = found.min_by(|(_, one), (_, other)| one.sum.total_cmp(&other.sum))?;
+    let (laying, only) = found.reduce(|best, one| match one.1.is_likelier(&best.1) {
+        true => one,
+        false => best,
+    })?;
     let Laying {
         drawn,
         rounds,

@@ -14,6 +14,8 @@ use crate::geometry::Vector;
 /// Blocks before and after a named one that are tried, and the blocks that all tries together may read.
 const ABOUT: usize = 3;
 const MOST: usize = 60_000;
+/// Two explanations after which the rest is off by less than this more or less leave it as well explained, µm.
+const AS_WELL: f64 = 0.5;
 
 /// The one block that explains all.
 pub(super) struct Only {
@@ -21,8 +23,18 @@ pub(super) struct Only {
     /// The program with that block as it should be, on its drawing.
     pub repaired: Traced,
     pub walked: Walked,
-    /// How far all blocks are off together, µm: the less, the likelier.
-    pub sum: f64,
+    /// How far all other blocks are off together, µm: the less, the likelier.
+    rest: f64,
+}
+
+impl Only {
+    /// Whether it is likelier than another: where the rest follows as well, the smaller change.
+    pub(super) fn is_likelier(&self, other: &Only) -> bool {
+        match (self.rest - other.rest).abs() < AS_WELL {
+            true => self.unlike.off < other.unlike.off,
+            false => self.rest < other.rest,
+        }
+    }
 }
 
 /// A program of which every block follows, and the sum of their deviations, µm.
@@ -87,20 +99,20 @@ pub(super) fn single(
             let Some((walked, miss)) = found else {
                 continue;
             };
-            let sum = miss + edit.off;
-            if best.as_ref().is_none_or(|only| sum < only.sum) {
-                let unlike = Unlike {
-                    block: edit.named(),
-                    source: edit.source,
-                    off: edit.off,
-                    kind: Kind::Block,
-                };
-                best = Some(Only {
-                    unlike,
-                    repaired,
-                    walked,
-                    sum,
-                });
+            let unlike = Unlike {
+                block: edit.named(),
+                source: edit.source,
+                off: edit.off,
+                kind: Kind::Block,
+            };
+            let only = Only {
+                unlike,
+                repaired,
+                walked,
+                rest: miss,
+            };
+            if best.as_ref().is_none_or(|best| only.is_likelier(best)) {
+                best = Some(only);
             }
         }
     }

@@ -117,14 +117,9 @@ const MORE: usize = 1_000;
 pub(super) fn room(paths: &[WirePath], noted: bool) -> usize {
     let segments: usize = paths.iter().map(|path| path.segments.len()).sum();
     match noted {
-        true => room_beside(segments),
+        true => MOST_BLOCKS.min(MOST_FOR_EACH * segments + MORE),
         false => MOST_BLOCKS,
     }
-}
-
-/// The room for blocks in place of this many segments or blocks, where a program is only compared or offered.
-pub(super) fn room_beside(segments: usize) -> usize {
-    MOST_BLOCKS.min(MOST_FOR_EACH * segments + MORE)
 }
 
 /// A program along the path would have more blocks than there is room for.

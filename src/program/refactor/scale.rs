@@ -9,7 +9,6 @@
 //! again.
 
 use super::{Change, Content, Edits, Notation, Refactoring, Rewrite, Sheet};
-use crate::program::write::room_beside;
 
 pub(super) fn all<N: Notation>() -> [Refactoring<N>; 2] {
     [
@@ -37,6 +36,11 @@ fn between_units<N: Notation>(sheet: &Sheet<'_, N>, factor: f64) -> Edits {
     scaled(sheet, factor)
 }
 
+/// Arcs that no longer fit into a block are cut as chords: scaled, a program takes at most this many blocks for each
+/// that it has, and as many more.
+const MOST_FOR_EACH: usize = 16;
+const MORE: usize = 20_000;
+
 /// The factors by which a program can be scaled.
 const FACTORS: std::ops::RangeInclusive<f64> = 1e-4..=1e4;
 
@@ -56,7 +60,7 @@ pub(in crate::program) fn scaled<N: Notation>(sheet: &Sheet<'_, N>, factor: f64)
         stretch: Some(factor),
         ..Rewrite::new()
     };
-    let (mut from, most) = (None, room_beside(content.rows.len()));
+    let (mut from, most) = (None, MOST_FOR_EACH * content.rows.len() + MORE);
     let mut room = most;
     for (index, row) in content.rows.iter().enumerate() {
         let begin = from.map_or_else(|| node(row, row.from), Ok)?;

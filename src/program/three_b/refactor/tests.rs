@@ -155,7 +155,7 @@ fn programs_are_scaled_and_close_again() {
     // Arcs too large for a block take thousands of chords each.
     let circles = "B99000B0B396000GYNR1\n".repeat(60);
     let refused = tests::scaled_by(Language::ThreeB, &circles, 25.4).unwrap_err();
-    assert!(refused.contains("more than 1960 blocks"), "{refused}");
+    assert!(refused.contains("more than 20960 blocks"), "{refused}");
     let scaled = |factor| tests::scaled_by(Language::ThreeB, "B10B0B10GXL1\n", factor);
     for factor in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e9] {
         assert!(
