@@ -25,7 +25,7 @@ impl LastRun {
             return moves.clone();
         }
         let mut moves = Vec::new();
-        run(&mut |part, step, range| moves.push((part, step.clone(), range)));
+        run(&mut |part, step, range| moves.push((part, *step, range)));
         let moves: Arc<[Heard]> = moves.into();
         *last() = Some((stretch, moves.clone()));
         moves
