@@ -120,15 +120,15 @@ mod tests {
     #[cfg(all(target_os = "linux", target_env = "gnu"))]
     #[test]
     fn pages_of_the_program_come_back_as_they_were() {
-        let of_file = || -> usize {
-            let status = std::fs::read_to_string("/proc/self/status").unwrap();
-            let line = status.lines().find(|line| line.starts_with("RssFile"));
-            let number = line.and_then(|line| line.split_whitespace().nth(1));
-            number.unwrap().parse().unwrap()
+        // Not every kernel says it.
+        let of_file = || -> Option<usize> {
+            let status = std::fs::read_to_string("/proc/self/status").ok()?;
+            let line = status.lines().find(|line| line.starts_with("RssFile"))?;
+            line.split_whitespace().nth(1)?.parse().ok()
         };
         let before = of_file();
         leave_program();
         let after = of_file();
-        assert!(after < before, "{before} {after}");
+        assert!(before.is_none() || after < before, "{before:?} {after:?}");
     }
 }
