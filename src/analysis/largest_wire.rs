@@ -58,9 +58,9 @@ pub fn largest_wire(
     let uses = uses(settings);
     let farthest = uses.iter().map(|of| of.farther);
     let farthest = farthest.fold(f64::NEG_INFINITY, f64::max);
+    let gap = toolpath::last_gap(settings).unwrap_or(0.0);
     // Of the thickest wire with its gap.
-    let half = of_arcs.diameter / 2.0 + toolpath::last_gap(settings).unwrap_or(0.0);
-    let half = half + farthest.max(0.0);
+    let half = of_arcs.diameter / 2.0 + gap + farthest.max(0.0);
     // Where the wire runs on the contour's other side, its correction is no beginning.
     let mut correction = settings.correction.max(half * LEAST_SHARE);
     loop {
@@ -70,7 +70,6 @@ pub fn largest_wire(
             severities: severities.clone(),
             ..settings.clone()
         };
-        let gap = toolpath::last_gap(&settings).unwrap_or(0.0);
         let found = narrowest(drawing, outlines, settings, &uses, is_cut).ok()?;
         // What is farther apart may still let less through in another part.
         let beyond = 2.0 * (correction - gap - farthest);

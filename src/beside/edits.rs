@@ -333,7 +333,7 @@ impl How {
 fn go_on(behind: &mut [Block], by: Vector, how: How) {
     match how {
         How::Relative => move_on(behind, by),
-        How::Held => hold(behind.iter_mut(), by),
+        How::Held => hold(behind, by),
         How::AbsoluteFrom | How::Absolute => {
             let next = behind.iter_mut().find_map(|block| match &mut block.motion {
                 Motion::Cut(segment) => Some(segment),
@@ -348,7 +348,7 @@ fn go_on(behind: &mut [Block], by: Vector, how: How) {
 }
 
 /// Moves the blocks after a changed end that name no other place in the direction of the change.
-fn hold<'a>(behind: impl Iterator<Item = &'a mut Block>, mut by: Vector) {
+fn hold(behind: &mut [Block], mut by: Vector) {
     for block in behind {
         let Some([start, end]) = block.motion.ends() else {
             continue;

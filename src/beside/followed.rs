@@ -139,8 +139,7 @@ fn layings(drawn: &Drawn, traced: &Traced) -> impl Iterator<Item = Laying> {
     }
     let corners = [drawn.clone(), with_other_corner(drawn)];
     corners.into_iter().flat_map(move |drawn| {
-        let laid: Vec<_> = tried.clone();
-        laid.into_iter().flat_map(move |courses| {
+        tried.clone().into_iter().flat_map(move |courses| {
             let mut rounds = Rounds::default();
             rounds.add(&drawn, &courses, None);
             let placements = places(traced, &rounds);

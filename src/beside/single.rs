@@ -57,28 +57,27 @@ pub(super) fn single(
                     let block = traced.blocks.get(*index);
                     block.is_some_and(|block| block.segment().is_some())
                 };
-                tried.extend(index.filter(is_cut).filter(|index| !tried.contains(index)));
+                tried.extend(index.filter(is_cut));
             }
         }
     }
     tried.extend(Members::breaks(traced, rounds, placement));
     tried.sort_unstable();
     tried.dedup();
-    let mut fuel = MOST / traced.blocks.len().max(1);
-    tried.sort_by_key(|index| named.iter().all(|unlike| unlike.block != *index));
-    let mut order = tried.clone();
-    order.sort_unstable();
     let mut members = Members::new(traced, placement);
     let mut at = 0;
     let mut before = std::collections::BTreeMap::new();
-    for index in order {
+    for &index in &tried {
         (at..index).for_each(|block| members.take(traced, rounds, block));
         at = index;
         before.insert(index, members.clone());
     }
+    tried.sort_by_key(|index| named.iter().all(|unlike| unlike.block != *index));
+    let mut fuel = MOST / traced.blocks.len().max(1);
     let mut best: Option<Only> = None;
     'tries: for index in tried {
-        for edit in edits(traced, rounds, &before[&index], index) {
+        let members = &before[&index];
+        for edit in edits(traced, rounds, members, index) {
             if edit.off > most {
                 continue;
             }
@@ -88,15 +87,11 @@ pub(super) fn single(
             fuel -= 1;
             let repaired = edit.of(traced);
             // Where the program lies may have been found before the change, or after it.
-            let is_told_before = before[&index].is_broken;
-            let there = (!is_told_before).then(|| whole(&repaired, placement));
+            let there = (!members.is_broken).then_some(placement);
             let is_moved = edit.by != Vector::zeros();
-            let moved = || {
-                let moved = is_moved.then(|| placement.moved(edit.by))?;
-                whole(&repaired, moved)
-            };
-            let found = there.flatten().or_else(moved);
-            let Some((walked, miss)) = found else {
+            let moved = is_moved.then(|| placement.moved(edit.by));
+            let mut places = there.into_iter().chain(moved);
+            let Some((walked, rest)) = places.find_map(|place| whole(&repaired, place)) else {
                 continue;
             };
             let unlike = Unlike {
@@ -109,7 +104,7 @@ pub(super) fn single(
                 unlike,
                 repaired,
                 walked,
-                rest: miss,
+                rest,
             };
             if best.as_ref().is_none_or(|best| only.is_likelier(best)) {
                 best = Some(only);

@@ -109,8 +109,9 @@ const PIECES: usize = 4096;
 
 /// The most blocks of a program: no control, and no person, takes as many.
 pub(super) const MOST_BLOCKS: usize = 2_000_000;
-/// A program for a comparison has at most this many blocks for each segment of its paths, and as many more.
-const MOST_FOR_EACH: usize = 16;
+/// What is written to be compared or offered has at most this many blocks for each segment or block that it comes from,
+/// and, in a comparison, as many more.
+pub(super) const MOST_FOR_EACH: usize = 16;
 const MORE: usize = 1_000;
 
 /// The room for blocks in a program along these paths; less where it is only `noted`, to be compared.

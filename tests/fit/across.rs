@@ -82,15 +82,21 @@ fn outline(drawing: &Drawing, settings: &wedm::settings::Effective) -> Vec<Point
     points.collect()
 }
 
+fn square() -> Vec<Vertex> {
+    let corners = [(0.0, 0.0), (20.0, 0.0), (20.0, 12.0), (0.0, 12.0)];
+    corners.map(|(x, y)| Vertex::new(x, y, 0.0)).into()
+}
+
+/// One closed polyline as a drawing.
+fn of(vertices: Vec<Vertex>) -> Drawing {
+    drawing(vec![polyline("0", "2A", vertices)])
+}
+
 #[test]
 fn the_wire_comes_from_what_drops_out() {
-    let square: Vec<Vertex> = [(0.0, 0.0), (20.0, 0.0), (20.0, 12.0), (0.0, 12.0)]
-        .map(|(x, y)| Vertex::new(x, y, 0.0))
-        .into();
-    let of = |vertices: Vec<Vertex>| drawing(vec![polyline("0", "2A", vertices)]);
     let drawings = [
         circle(6.0),
-        of(square),
+        of(square()),
         of(corner(70.0, 1.0)),
         of(notch(60.0, 1.0)),
     ];
@@ -143,11 +149,7 @@ fn the_wire_comes_from_what_drops_out() {
 /// contour, on the side where the table says, and the finished parts have the clearance.
 #[test]
 fn passes_beyond_the_contour_follow_each_other() {
-    let square: Vec<Vertex> = [(0.0, 0.0), (20.0, 0.0), (20.0, 12.0), (0.0, 12.0)]
-        .map(|(x, y)| Vertex::new(x, y, 0.0))
-        .into();
-    let of = |vertices: Vec<Vertex>| drawing(vec![polyline("0", "2A", vertices)]);
-    let drawings = [circle(6.0), of(square), of(notch(60.0, 1.0))];
+    let drawings = [circle(6.0), of(square()), of(notch(60.0, 1.0))];
     let corrections = [0.15, 0.12, 0.1];
     for (shape, drawing) in drawings.iter().enumerate() {
         for clearance in [0.11, 0.1, 0.12, 0.13, 0.15, 0.2, 0.4] {

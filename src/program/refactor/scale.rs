@@ -9,6 +9,7 @@
 //! again.
 
 use super::{Change, Content, Edits, Notation, Refactoring, Rewrite, Sheet};
+use crate::program::write::MOST_FOR_EACH;
 
 pub(super) fn all<N: Notation>() -> [Refactoring<N>; 2] {
     [
@@ -36,9 +37,8 @@ fn between_units<N: Notation>(sheet: &Sheet<'_, N>, factor: f64) -> Edits {
     scaled(sheet, factor)
 }
 
-/// Arcs that no longer fit into a block are cut as chords: scaled, a program takes at most this many blocks for each
-/// that it has, and as many more.
-const MOST_FOR_EACH: usize = 16;
+/// Arcs that no longer fit into a block are cut as chords: scaled, a program takes at most this many blocks more than
+/// [`MOST_FOR_EACH`] for each that it has.
 const MORE: usize = 20_000;
 
 /// The factors by which a program can be scaled.
