@@ -4,14 +4,19 @@ use super::convert::{Cuts, Dropped, cuts_to_write};
 use super::document::Document;
 use super::format::Format;
 use super::iso::taper::{Words, refuse_anywhere};
-use super::refactor::Proposal;
+use super::refactor::{Edits, Offer};
 use crate::settings::{Effective, Profile, shipped_profiles};
 use crate::text::TextEdit;
+use std::cell::LazyCell;
+use std::rc::Rc;
 
 pub(super) const ID: &str = "refactor.rewrite.profile";
 
-/// One proposal for each shipped profile and for that of the settings.
-pub(super) fn proposals(document: &Document, settings: &Effective) -> Vec<Proposal> {
+/// One for each shipped profile and for that of the settings.
+pub(super) fn offers<'a>(
+    document: &'a Document,
+    settings: &'a Effective,
+) -> impl Iterator<Item = Offer<'a>> {
     let own = settings
         .profile
         .iter()
@@ -21,38 +26,38 @@ pub(super) fn proposals(document: &Document, settings: &Effective) -> Vec<Propos
         Ok(own) if own.name == name => Some(own.clone()),
         _ => Profile::of(name, None).ok(),
     });
-    let mut known = None;
-    let mut found = Vec::new();
-    for profile in shipped.chain(own) {
-        let cuts = known.get_or_insert_with(|| sound_cuts(document, settings));
+    let cuts = Rc::new(LazyCell::new(|| sound_cuts(document, settings)));
+    shipped.chain(own).map(move |profile| {
         let title = say!(write_anew_as_profile, profile.name);
-        let edits = cuts.as_ref().map_err(String::clone).and_then(|cuts| {
-            let settings = Effective {
-                profile: Ok(profile),
-                ..settings.clone()
-            };
-            if let Some(reason) = cuts.lost_correction(Format::Iso, &settings) {
-                return Err(reason);
-            }
-            let written = cuts.write(Format::Iso, &settings);
-            let written = written.map_err(|error| error.to_string())?;
-            let whole = 0..document.text().len();
-            let same = document.text().bytes() == written.text.as_bytes();
-            Ok(if same {
-                Vec::new()
-            } else {
-                vec![TextEdit::new(whole, written.text)]
-            })
-        });
-        if edits.as_ref().map_or(true, |edits| !edits.is_empty()) {
-            found.push(Proposal {
-                id: ID,
-                title,
-                edits,
-            });
-        }
+        let profile = Ok(profile);
+        let settings = Effective {
+            profile,
+            ..settings.clone()
+        };
+        let cuts = cuts.clone();
+        Offer::new(ID, title, move || {
+            written(
+                document,
+                (**cuts).as_ref().map_err(String::clone)?,
+                &settings,
+            )
+        })
+    })
+}
+
+/// The whole text anew; no edits where it is written so already.
+fn written(document: &Document, cuts: &Cuts, settings: &Effective) -> Edits {
+    if let Some(reason) = cuts.lost_correction(Format::Iso, settings) {
+        return Err(reason);
     }
-    found
+    let written = cuts.write(Format::Iso, settings);
+    let written = written.map_err(|error| error.to_string())?.text;
+    let text = document.text();
+    Ok(if text.bytes() == written.as_bytes() {
+        Vec::new()
+    } else {
+        vec![TextEdit::new(0..text.len(), written)]
+    })
 }
 
 fn sound_cuts(document: &Document, settings: &Effective) -> Result<Cuts, String> {

@@ -96,6 +96,7 @@ declare! {
     nothing_to_draw => "Nothing to draw";
     thread_hole => "thread hole";
     the_program_moves_nothing => "the program moves nothing";
+    it_would_change_nothing => "it would change nothing: the program is like that already";
     start_of_a_contour => "start of a contour";
     path_of_the_electrode => "path of the electrode";
     path_of_the_wire => "path of the wire";

@@ -96,6 +96,7 @@ translate! {
     nothing_to_draw => "没有可画的内容";
     thread_hole => "穿丝孔";
     the_program_moves_nothing => "程序没有任何移动";
+    it_would_change_nothing => "不会有任何改变：程序已经如此";
     start_of_a_contour => "轮廓的起点";
     path_of_the_electrode => "电极路线";
     path_of_the_wire => "切割路线";

@@ -23,12 +23,45 @@ pub(in crate::program) use transform::Transform;
 
 use crate::settings::Effective;
 use crate::text::TextEdit;
+use std::cell::LazyCell;
 use std::ops::Range;
+use std::rc::Rc;
 
-/// A refactoring as it is offered at a selection.
+/// A refactoring that may be possible at a selection: it is not tried before its edits are asked for.
+pub struct Offer<'a> {
+    /// Kind of its code action.
+    pub id: &'static str,
+    pub title: String,
+    make: Box<dyn Fn() -> Edits + 'a>,
+}
+
+impl<'a> Offer<'a> {
+    pub(in crate::program) fn new(
+        id: &'static str,
+        title: String,
+        make: impl Fn() -> Edits + 'a,
+    ) -> Offer<'a> {
+        let make = Box::new(make);
+        Offer { id, title, make }
+    }
+
+    /// None where there is nothing to do.
+    pub fn edits(&self) -> Edits {
+        (self.make)()
+    }
+
+    /// The refactoring with its edits; nothing where it would change nothing.
+    pub fn tried(self) -> Option<Proposal> {
+        let edits = self.edits();
+        let changes = edits.as_ref().map_or(true, |edits| !edits.is_empty());
+        let Offer { id, title, .. } = self;
+        changes.then_some(Proposal { id, title, edits })
+    }
+}
+
+/// A refactoring that has been tried.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Proposal {
-    /// Kind of its code action.
     pub id: &'static str,
     pub title: String,
     pub edits: Edits,
@@ -58,30 +91,19 @@ fn all<N: Notation>() -> impl Iterator<Item = Refactoring<N>> {
         .chain(number::all())
 }
 
-/// The possible refactorings of a program at a selection of bytes, except those that would change nothing.
-///
-/// `wanted` chooses by id.
-pub(in crate::program) fn proposals<N: Notation>(
-    document: &N::Document,
-    settings: &Effective,
+/// The refactorings of a program at a selection of bytes. `wanted` chooses by id.
+pub(in crate::program) fn offers<'a, N: Notation + 'a>(
+    document: &'a N::Document,
+    settings: &'a Effective,
     selection: Range<usize>,
     wanted: &dyn Fn(&str) -> bool,
-) -> Vec<Proposal> {
-    let mut chosen = all::<N>()
-        .filter(|refactoring| wanted(refactoring.id))
-        .peekable();
-    if chosen.peek().is_none() {
-        return Vec::new();
-    }
-    let sheet = Sheet::new(document, settings, selection);
-    let propose = |refactoring: Refactoring<N>| {
-        let edits = (refactoring.rewrite)(&sheet);
-        let changes = edits.as_ref().map_or(true, |edits| !edits.is_empty());
-        changes.then(|| Proposal {
-            id: refactoring.id,
-            title: (refactoring.title)(settings),
-            edits,
-        })
+) -> Vec<Offer<'a>> {
+    let sheet = move || Sheet::<N>::new(document, settings, selection.clone());
+    let sheet = Rc::new(LazyCell::new(sheet));
+    let offer = |refactoring: Refactoring<N>| {
+        let (sheet, Refactoring { id, title, rewrite }) = (sheet.clone(), refactoring);
+        Offer::new(id, title(settings), move || rewrite(&sheet))
     };
-    chosen.filter_map(propose).collect()
+    let chosen = all::<N>().filter(|refactoring| wanted(refactoring.id));
+    chosen.map(offer).collect()
 }

@@ -5,12 +5,13 @@
 use crate::document::{Document, Source};
 use crate::finding::{Edit, Finding, Keep, Place};
 use crate::job::{self, Repairs};
-use crate::program;
+use crate::program::{self, Offer};
 use crate::protocol::{self, FindingData, method};
 use crate::server::context::RequestContext;
 use crate::server::convert;
 use crate::server::errors::{moved_on, refused};
 use crate::settings;
+use crate::text::SourceText;
 use ls_types::{
     CodeAction, CodeActionContext, CodeActionDisabled, CodeActionKind, CodeActionOrCommand,
     CodeActionParams, CodeActionResponse, CodeActionTriggerKind, Command, Range,
@@ -28,6 +29,10 @@ const LISTED: usize = 100;
 /// Lines of a text, or entities of a drawing, beyond which repairs after other repairs are only tried on request: it
 /// costs too much to try them for no use.
 const LONG: usize = 50_000;
+
+/// Lines of a program beyond which a refactoring is not tried before it is chosen: trying all takes a second for some
+/// 20,000.
+const TRIED: usize = 5_000;
 
 /// The `data` of an action: its document, and the refactoring that its edit comes from.
 #[derive(Deserialize, Serialize)]
@@ -70,14 +75,17 @@ pub(in crate::server) fn resolve(
     }
     let selection = convert::bytes_of(program.text(), chosen.range, context.encoding);
     let settings = document.settings();
-    let own = program::refactorings(program, settings, selection, |id| id == chosen.id);
+    let offers = program::offers(program, settings, selection, |id| id == chosen.id);
     // One profile's is told from another's by its title.
-    let mut own = own.into_iter();
-    let own = own.find(|own| own.title == action.title);
-    let edits = own.map_or(Ok(Vec::new()), |own| own.edits);
-    let edit = &Edit::Text(edits.map_err(refused)?);
+    let offer = offers.iter().find(|offer| offer.title == action.title);
+    let edits = offer
+        .map_or(Ok(Vec::new()), Offer::edits)
+        .map_err(refused)?;
+    if edits.is_empty() {
+        return Err(refused(say!(it_would_change_nothing)));
+    }
     let plain = action.clone();
-    Ok(with_edit(context, document, action, edit).unwrap_or(plain))
+    Ok(with_edit(context, document, action, &Edit::Text(edits)).unwrap_or(plain))
 }
 
 pub(in crate::server) fn code_action(
@@ -136,13 +144,13 @@ fn actions(
         && is_asked_for(asked)
     {
         let selection = convert::bytes_of(program.text(), params.range, context.encoding);
-        let proposals = program::refactorings(program, document.settings(), selection, |id| {
+        let offers = program::offers(program, document.settings(), selection, |id| {
             wants(asked, id)
         });
         actions.extend(
-            proposals
+            offers
                 .into_iter()
-                .filter_map(|proposal| refactoring(context, document, params.range, proposal)),
+                .filter_map(|offer| refactoring(context, document, params.range, offer)),
         );
     }
     let named = |action: CodeAction| CodeAction {
@@ -185,24 +193,34 @@ fn is_asked_for(context: &CodeActionContext) -> bool {
     context.only.is_some() || context.trigger_kind != Some(CodeActionTriggerKind::AUTOMATIC)
 }
 
-/// A refactoring, or why it is not possible for clients that show that.
+/// A refactoring, or why it is not possible for clients that show that. In a long text it is not tried before it is
+/// chosen, where the client asks again then.
 fn refactoring(
     context: &RequestContext,
     document: &Document,
     range: Range,
-    proposal: crate::program::Proposal,
+    offer: Offer,
 ) -> Option<CodeAction> {
     let action = CodeAction {
-        title: proposal.title,
-        kind: Some(CodeActionKind::new(proposal.id)),
+        title: offer.title.clone(),
+        kind: Some(CodeActionKind::new(offer.id)),
         ..CodeAction::default()
     };
-    match proposal.edits {
-        Ok(_) if context.abilities.resolves_actions => {
-            let id = proposal.id.to_owned();
-            let data = unresolved(context, Some(Chosen { id, range }));
-            Some(CodeAction { data, ..action })
-        }
+    let resolves = context.abilities.resolves_actions;
+    let lines = document.text().map_or(0, SourceText::line_count);
+    let later = || {
+        let id = offer.id.to_owned();
+        let data = unresolved(context, Some(Chosen { id, range }));
+        Some(CodeAction {
+            data,
+            ..action.clone()
+        })
+    };
+    if resolves && lines > TRIED {
+        return later();
+    }
+    match offer.tried()?.edits {
+        Ok(_) if resolves => later(),
         Ok(edits) => with_edit(context, document, action, &Edit::Text(edits)),
         Err(reason) => context.abilities.disabled_actions.then(|| CodeAction {
             disabled: Some(CodeActionDisabled { reason }),

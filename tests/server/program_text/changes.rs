@@ -132,6 +132,37 @@ fn a_client_that_resolves_actions_gets_the_edit_of_the_one_that_is_chosen() {
     }
 }
 
+/// Trying all refactorings of a long program takes long, for a menu that is open meanwhile.
+#[test]
+fn in_a_long_program_a_refactoring_is_tried_when_it_is_chosen() {
+    let square = "B5000B0B5000GXL1\nB0B5000B5000GYL2\nB5000B0B5000GXL3\nB0B5000B5000GYL4\n";
+    let text = square.repeat(1500) + "DD\n";
+    let able = json!({
+        "disabledSupport": true,
+        "dataSupport": true,
+        "resolveSupport": { "properties": ["edit"] },
+    });
+    let mut editor = Editor::open_with_actions(able, json!({}), THREE_B, &text);
+    let all = editor.actions(lines(1, 1), json!([]), "refactor");
+    let is_open = |action: &Value| action["edit"].is_null() && action["disabled"].is_null();
+    assert!(all.iter().all(is_open), "{all:?}");
+    let action = |kind| named(&all, kind).clone();
+    let client = &mut editor.client;
+    let mut resolve = |kind| client.request("codeAction/resolve", action(kind));
+    let turned = resolve("rotate.half").unwrap();
+    let message = |error: Value| error["message"].clone();
+    let unchanged = message(resolve("withoutNumbers").unwrap_err());
+    assert_eq!(
+        unchanged,
+        "it would change nothing: the program is like that already"
+    );
+    let refused = message(resolve("correct.opening").unwrap_err());
+    assert!(!refused.as_str().unwrap().is_empty() && refused != unchanged);
+    let turned = editor.with(&turned);
+    assert!(turned.starts_with("B5000B0B5000GXL3\nB0B5000B5000GYL4\n"));
+    editor.close();
+}
+
 #[test]
 fn faults_of_iso_are_repaired() {
     let text = "G92 X0. Y0.\nG90\nG01 X5. Y0.\nG03 X0. Y5. I-5. J0.\nG03 X-5. Y0. I0. J5.\nM02\n";

@@ -1,9 +1,13 @@
 // The language client, without notices of its own about starts and ends of the server: notices.ts shows these, with what can be done.
 
-import { LanguageClient } from "vscode-languageclient/node";
+import { window } from "vscode";
+import { LanguageClient, LSPErrorCodes, ResponseError } from "vscode-languageclient/node";
 
 export class QuietClient extends LanguageClient {
   override error(message: string, data?: unknown, show: boolean | "force" = true): void {
-    super.error(message, data, show === "force" ? false : show);
+    // Why the server refuses is of more use than which request it was.
+    const refusal = show === true && data instanceof ResponseError && data.code === LSPErrorCodes.RequestFailed ? data : undefined;
+    super.error(message, data, show === "force" || refusal ? false : show);
+    if (refusal) void window.showWarningMessage(refusal.message);
   }
 }
