@@ -236,6 +236,22 @@ impl Drawing {
         by_handle.insert(handle, id, |id| Some(&slots.get(id)?.handle))
     }
 
+    /// Gives entities other handles, which no other entity has.
+    pub(crate) fn rename(&mut self, names: &[(EntityId, Handle)]) {
+        for &(id, _) in names {
+            if let Some(entity) = self.slots.get(id) {
+                self.by_handle.remove(&entity.handle, id);
+            }
+        }
+        for (id, handle) in names {
+            if let Some(entity) = self.slots.get_mut(*id) {
+                entity.handle = handle.clone();
+            }
+            self.enter(handle, *id);
+        }
+        self.last_number.clear();
+    }
+
     /// Ranks the newest entity between its neighbours at `position`.
     fn rank_at(&mut self, position: usize) {
         if self.ranks.is_empty() {

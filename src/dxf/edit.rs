@@ -1,8 +1,7 @@
 //! An edit of the text: only what it touched is read again.
 //!
 //! An edit within the vertices of a polyline rereads a few of them; other edits reread the items
-//! around them. An edit with effects further away (sections, duplicate handles, ordinals as names)
-//! rereads everything.
+//! around them. An edit with effects further away (sections, ordinals as names) rereads everything.
 
 use super::Document;
 use super::entities::mirror;

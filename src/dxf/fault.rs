@@ -36,13 +36,17 @@ pub(super) fn push(
     severity: Severity,
     sentence: String,
 ) {
-    findings.push(Finding {
+    findings.push(said(range, severity, sentence));
+}
+
+pub(super) fn said(range: Range<usize>, severity: Severity, sentence: String) -> Finding {
+    Finding {
         rule: Rule::Syntax,
         severity,
         place: Place::Text { range },
         detail: Detail::Said(sentence),
         related: Vec::new(),
-    });
+    }
 }
 
 /// A value as it is quoted: at most 32 characters, without control characters.

@@ -1,6 +1,7 @@
 //! Rereads the items around an edit, up to the first that begins where an old one began, and replaces the old ones.
 
 use super::Document;
+use super::doubled::NamesAfter;
 use super::edit::{FEW, ItemZone, shift, shift_place};
 use super::entity::{Outcome, Read};
 use super::frame;
@@ -25,8 +26,10 @@ impl Document {
         bytes: i64,
     ) -> Option<Delta> {
         let first = zone.first;
-        let (read, next, findings) = self.read_until_known(zone, lines)?;
-        let plan = self.plan(first, next, &read)?;
+        let (read, next, mut findings) = self.read_until_known(zone, lines)?;
+        let names = self.names_after(&(first..next), &read)?;
+        let plan = self.plan(first, next, &read, &names)?;
+        self.tell_doubled(&names, &read, &mut findings);
         let old_end = self.table.lines.get(next).map(|&line| {
             // The end of the zone as it was before the edit.
             let new_start = self.text.line_start((i64::from(line) + lines) as usize);
@@ -34,7 +37,8 @@ impl Document {
         });
         self.replace_findings(first, old_end.map(|end| end as usize), bytes, findings);
         self.read_last = first..first + read.len();
-        let delta = self.replace_items(first..next, read, plan, lines);
+        let delta = self.replace_items(first..next, read, (plan, &names), lines);
+        self.tell_renamed(&names);
         self.name_unsupported();
         Some(delta)
     }
@@ -91,7 +95,13 @@ impl Document {
 
     /// Which earlier entity each entity that was read continues. `None` where the edit reaches
     /// beyond the zone.
-    fn plan(&self, first: usize, next: usize, read: &[ReadItem]) -> Option<Plan> {
+    fn plan(
+        &self,
+        first: usize,
+        next: usize,
+        read: &[ReadItem],
+        names: &NamesAfter,
+    ) -> Option<Plan> {
         let old = self.table.items.get(first..next)?;
         let structure =
             |became: &Became| matches!(became, Became::Structure { .. }).then_some(*became);
@@ -136,9 +146,6 @@ impl Document {
             .iter()
             .any(|item| item.said.entity().is_some_and(|read| read.handle.is_none()));
         if entities_before != entities_after && (unnamed || self.table.by_ordinal > 0) {
-            return None;
-        }
-        if old.iter().any(|item| item.named == Named::Anew) {
             return None;
         }
         // The content of a block, and what a reference draws, reach beyond the zone.
@@ -201,23 +208,25 @@ impl Document {
             let Some(entity) = item.said.entity() else {
                 continue;
             };
-            let handle: Handle = entity.handle.as_ref().map_or_else(
-                || format!("#{ordinal}").into(),
-                |(handle, _)| handle.clone(),
-            );
+            let anew = names.read.get(&entities.len());
+            let (handle, named): (Handle, Named) = match (&entity.handle, anew) {
+                (_, Some(name)) => (name.clone(), Named::Anew),
+                (Some((handle, _)), None) => (handle.clone(), Named::ByText),
+                (None, None) => (format!("#{ordinal}").into(), Named::ByOrdinal),
+            };
             let at = position.get(&*handle).copied();
-            // The handle is taken by an entity elsewhere, doubled here, or moved past another one.
-            let taken = at.is_none() && self.drawing.find(&handle).is_some();
+            // An ordinal is taken by an entity elsewhere, or a handle moved past another one.
+            let taken =
+                named == Named::ByOrdinal && at.is_none() && self.drawing.find(&handle).is_some();
             if taken || !handles.insert(handle.clone()) || (at.is_some() && at < last) {
                 return None;
             }
             last = at.or(last);
             matched += usize::from(at.is_some());
-            entities.push((handle, at.and_then(|at| ids.get(at).copied())));
+            entities.push((handle, named, at.and_then(|at| ids.get(at).copied())));
         }
         let (gone, come) = (ids.len() - matched, entities.len() - matched);
-        // An entity that was renamed may get its own handle back, or another one may lose it.
-        if gone + come > FEW || (self.table.named_anew > 0 && gone + come > 0) {
+        if gone + come > FEW {
             return None;
         }
         Some(Plan {
@@ -266,7 +275,7 @@ impl Document {
         &mut self,
         old: Range<usize>,
         read: Vec<ReadItem>,
-        plan: Plan,
+        (plan, names): (Plan, &NamesAfter),
         lines: i64,
     ) -> Delta {
         let drawing = Arc::make_mut(&mut self.drawing);
@@ -275,7 +284,7 @@ impl Document {
         table.curve_arcs = plan.curve_arcs;
         if plan.gone {
             let kept: FxHashSet<EntityId> =
-                plan.entities.iter().filter_map(|&(_, id)| id).collect();
+                plan.entities.iter().filter_map(|entity| entity.2).collect();
             let gone: Vec<EntityId> = items_in(&table.items, &old)
                 .filter_map(Item::entity)
                 .filter(|id| !kept.contains(id))
@@ -287,9 +296,17 @@ impl Document {
                 delta.touched.push(Touched::Removed { entity });
             }
         }
-        table.by_ordinal -= items_in(&table.items, &old)
-            .filter(|item| item.entity().is_some() && item.named == Named::ByOrdinal)
-            .count();
+        let were_named = |named: Named| {
+            items_in(&table.items, &old)
+                .filter(|item| item.entity().is_some() && item.named == named)
+                .count()
+        };
+        let (by_ordinal, anew) = (were_named(Named::ByOrdinal), were_named(Named::Anew));
+        table.by_ordinal -= by_ordinal;
+        table.named_anew -= anew;
+        self.rename(names, &mut delta);
+        let drawing = Arc::make_mut(&mut self.drawing);
+        let table = &mut self.table;
         let mut position = if plan.come {
             items_in(&table.items, &(0..old.start))
                 .map(|item| item.entities().count())
@@ -321,15 +338,12 @@ impl Document {
             };
             match said {
                 Said::Entity(Outcome::Entity(read)) => {
-                    let Some((handle, id)) = planned.next() else {
+                    let Some((handle, named, id)) = planned.next() else {
                         continue;
                     };
-                    item.named = if read.handle.is_some() {
-                        Named::ByText
-                    } else {
-                        Named::ByOrdinal
-                    };
-                    table.by_ordinal += usize::from(item.named == Named::ByOrdinal);
+                    item.named = named;
+                    table.by_ordinal += usize::from(named == Named::ByOrdinal);
+                    table.named_anew += usize::from(named == Named::Anew);
                     let Read {
                         layer,
                         appearance,
@@ -393,9 +407,9 @@ impl Document {
     }
 }
 
-/// The entities read, by handle, with the id of the same entity before.
+/// The entities read, by name, with the id of the same entity before.
 struct Plan {
-    entities: Vec<(Handle, Option<EntityId>)>,
+    entities: Vec<(Handle, Named, Option<EntityId>)>,
     gone: bool,
     come: bool,
     /// Of the whole table.

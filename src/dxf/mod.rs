@@ -12,6 +12,7 @@ mod blocks;
 mod change;
 mod code_page;
 mod curve;
+mod doubled;
 mod dxb;
 mod edit;
 mod entities;

@@ -12,7 +12,7 @@ use super::reader::{ReadItem, Said, read_item};
 use super::shape::{self, Shape};
 use super::table::{Became, Context, Item, Named, Table};
 use super::unit::{fit_tolerance, unit_of};
-use super::{Document, fault, frame};
+use super::{Document, doubled, fault, frame};
 use crate::drawing::{Drawing, Entity, EntityId, Handle, Kind, Visibility};
 use crate::finding::NotJudged;
 use rayon::prelude::*;
@@ -313,12 +313,9 @@ impl Pass<'_> {
         });
         let given = self.reading.drawing.get(id).map(|entity| &entity.handle);
         if let Some(given) = given.filter(|given| ***given != *asked) {
-            let sentence = say!(
-                the_handle_is_taken_by_an_entity_before_this_one,
-                asked,
-                given
-            );
-            self.lexer.oddity(handle_line, sentence);
+            let range = self.lexer.lines.trimmed_range(handle_line);
+            let finding = doubled::finding(range, &asked, given);
+            self.lexer.findings.push(finding);
             item.named = Named::Anew;
         }
         self.table.by_ordinal += usize::from(item.named == Named::ByOrdinal);

@@ -151,6 +151,31 @@ proptest! {
     }
 }
 
+proptest! {
+    /// Few handles for many entities: an edit of one names others anew, far before and behind it.
+    #[test]
+    fn handles_that_several_entities_state_are_read_as_if_afresh(
+        stated in prop::collection::vec(prop::sample::select(vec!["A", "B", "C", "D1"]), 30),
+        edits in prop::collection::vec((0..30usize, prop::sample::select(vec!["A", "B", "C", "D1", "E", "0", "Z", ""])), 1..16),
+    ) {
+        let line = |(at, handle): (usize, &&str)| format!("0 LINE 5 {handle} 8 X 10 {at}00 20 2 11 3 21 4 ");
+        let text = dxf(&stated.iter().enumerate().map(line).collect::<String>());
+        let mut document = Document::read(text.into_bytes());
+        for (at, handle) in edits {
+            let text = document.text().as_str_lossy().into_owned();
+            let place = text.find(&format!("\n{at}00\n")).unwrap();
+            let start = text[..place].rfind("\n5\n").unwrap() + 3;
+            let length = text[start..].find('\n').unwrap();
+            let is_stated = |handle: &str| handle.bytes().any(|digit| digit != b'0');
+            let was_stated = is_stated(&text[start..start + length]);
+            let touched = edit(&mut document, start..start + length, handle);
+            // Without a handle it is named by its place in the text, and so may others be.
+            let is_stated = was_stated && is_stated(handle) && !text.contains("\n5\n0\n") && !text.contains("\n5\n\n");
+            prop_assert!(!is_stated || !touched.contains(&Touched::All), "{} of {}", handle, text);
+        }
+    }
+}
+
 /// Replaces the first `what` after the first `after`.
 fn replace(document: &mut Document, after: &str, what: &str, by: &str) -> Vec<Touched> {
     let text = document.text().as_str_lossy().into_owned();

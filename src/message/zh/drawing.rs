@@ -92,7 +92,7 @@ translate! {
     the_text_has_no_dxf_records => "文本中没有 DXF 记录：应为组码和值相间的行，如 0 和 SECTION";
     a_block_of_this_name_stands_before_this_one => "前面已有同名的块：画前面那个";
     a_second_section_entities_begins_here => "第二个 ENTITIES 段由此开始；两个都读";
-    the_handle_is_taken_by_an_entity_before_this_one(asked, given) => "句柄 {asked} 已被前面的图元占用，前面那个在此称为 {given}";
+    the_handle_is_taken_by_an_entity_before_this_one(asked, given) => "句柄 {asked} 已被前面的图元占用，本图元在此称为 {given}";
     the_drawing_does_not_say_its_unit => "图形没有说明单位（缺 $INSUNITS）：按设置中的单位";
     the_drawing_says_that_it_has_no_unit => "图形说明无单位（$INSUNITS 为 0）：按设置中的单位";
     insunits_is_no_unit_that_is_known(value) => "$INSUNITS 是 {value}，不是已知的长度单位：按设置中的单位";
