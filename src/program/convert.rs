@@ -403,15 +403,8 @@ impl Cuts {
                 })
                 .collect();
             Some(WirePath {
-                outline: 0,
-                pass: 1,
-                counter_clockwise: None,
-                cut_off: false,
-                is_way_back: false,
-                correction: 0.0,
-                thread_hole,
                 side: cut.side,
-                segments,
+                ..WirePath::along(thread_hole, segments)
             })
         });
         paths.collect()

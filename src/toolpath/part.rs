@@ -4,7 +4,7 @@
 //! turns in a point the wire leaves its own radius: such an edge remembers the point.
 
 use super::clearance::Walls;
-use super::contour_path::{Along, Known, Laid};
+use super::contour_path::{Along, Fault, Known, Laid};
 use super::corners::{Element, elements};
 use super::job::Job;
 use super::offset::{Wall, walls};
@@ -206,15 +206,11 @@ pub(crate) fn part(
         ..Known::default()
     };
     let outline = match job.laid_within(&beside, &near_path, back, known)? {
-        Ok(Laid::Path(outline)) => outline,
-        Ok(Laid::Point(_)) => {
-            let fault = super::contour_path::Fault::Nothing;
-            return Err(Refusal::Findings(vec![job.no_path(&fault, &beside, half)]));
-        }
-        Err(fault) => {
-            return Err(Refusal::Findings(vec![job.no_path(&fault, &beside, half)]));
-        }
+        Ok(Laid::Path(outline)) => Ok(outline),
+        Ok(Laid::Point(_)) => Err(Fault::Nothing),
+        Err(fault) => Err(fault),
     };
+    let outline = outline.map_err(|fault| job.no_path(&fault, &beside, half))?;
     let is_by_neighbours = [is_path_by_neighbours, !job.searched.load(Relaxed)];
     let rounding = job.units(super::job::ROUNDING);
     let edge = |element: &Element| {
@@ -269,7 +265,7 @@ impl<'a> Cut<'a> {
         let job = Job {
             a_loop_will_do: true,
             goes_on,
-            ..Job::of(drawing, settings)
+            ..Job::of(drawing, &[], settings)
         };
         let passes = settings.each_correction();
         let half = settings.half_kerf(passes.len() - 1);
@@ -388,10 +384,7 @@ impl Cut<'_> {
                     swing: 0.0,
                 })
             }
-            Err(fault) => {
-                let finding = job.no_path(&fault, &walls, first.correction);
-                Err(Refusal::Findings(vec![finding]))
-            }
+            Err(fault) => Err(job.no_path(&fault, &walls, first.correction).into()),
         }
     }
 }
