@@ -302,6 +302,19 @@ struct Last {
     swing: f64,
 }
 
+impl Last {
+    /// One that has not been proved, and turns where the first pass does.
+    fn of(walls: Vec<Wall>, own: Option<Walls>, path: Vec<Element>) -> Last {
+        Last {
+            walls,
+            own,
+            path,
+            is_proved: false,
+            swing: 0.0,
+        }
+    }
+}
+
 /// The segments of a closed contour in the direction of travel.
 #[derive(Clone, Copy)]
 struct Segments<'a> {
@@ -322,13 +335,7 @@ impl Cut<'_> {
         if last.correction.abs() <= rounding && !is_beside_rough {
             let walls = job.closed_walls(contour);
             let path = elements(&walls);
-            return Ok(Last {
-                walls,
-                own: None,
-                path,
-                is_proved: false,
-                swing: 0.0,
-            });
+            return Ok(Last::of(walls, None, path));
         }
         let is_plain = !is_beside_rough && last.corner == Corner::Arc;
         if let Some(before) = before.filter(|_| is_plain)
@@ -364,11 +371,9 @@ impl Cut<'_> {
         let own = Some(own);
         match laid {
             Ok(Laid::Path(path)) => Ok(Last {
-                walls,
-                own,
-                path,
                 is_proved: is_plain,
                 swing: if is_beside_rough { swing } else { 0.0 },
+                ..Last::of(walls, own, path)
             }),
             Ok(Laid::Point(stand)) => {
                 let element = Element {
@@ -376,13 +381,7 @@ impl Cut<'_> {
                     source: Source::Tab,
                     wall: 0,
                 };
-                Ok(Last {
-                    walls,
-                    own,
-                    path: vec![element],
-                    is_proved: false,
-                    swing: 0.0,
-                })
+                Ok(Last::of(walls, own, vec![element]))
             }
             Err(fault) => Err(job.no_path(&fault, &walls, first.correction).into()),
         }
@@ -421,11 +420,8 @@ impl Job<'_> {
         };
         Ok(match self.laid_within(&walls, &own, along, known)? {
             Ok(Laid::Path(path)) => Some(Last {
-                walls,
-                own: Some(own),
-                path,
                 is_proved: true,
-                swing: 0.0,
+                ..Last::of(walls, Some(own), path)
             }),
             _ => None,
         })

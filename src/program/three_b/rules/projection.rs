@@ -54,7 +54,7 @@ fn length_of(block: &Block) -> Length {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::program::three_b::block::Quadrant;
+    use crate::program::three_b::block::{CountingAxis, Quadrant};
 
     #[test]
     fn the_length_in_j_is_told_by_x_and_y() {
