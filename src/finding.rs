@@ -96,6 +96,16 @@ pub enum Place {
     Document,
 }
 
+impl Place {
+    /// Its bytes, where it is one of the text.
+    pub(crate) fn in_text(&self) -> Option<&Range<usize>> {
+        match self {
+            Place::Text { range } => Some(range),
+            _ => None,
+        }
+    }
+}
+
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
     pub rule: Rule,

@@ -375,11 +375,12 @@ fn written(
     });
     let any_errors = findings.iter().any(is_error);
     let chosen = wanted.chosen(snapshot)?;
-    let entities = entities_of(&snapshot.drawing, &snapshot.outlines, chosen.as_deref());
+    let (drawing, outlines) = (&*snapshot.drawing, &*snapshot.outlines);
+    let entities = entities_of(drawing, outlines, settings, chosen.as_deref());
     findings.retain(|finding| finding.concerns(entities.as_ref()));
     if chosen.is_some() {
         // What stands against all contours at once may not stand against these; else the path says it.
-        let of_all = toolpath::stated_faults(&snapshot.drawing, &snapshot.outlines, settings);
+        let of_all = toolpath::stated_faults(drawing, outlines, settings);
         let is_of_all = |found: &Finding| {
             found.place == Place::Document && of_all.iter().any(|one| one.detail == found.detail)
         };

@@ -1,7 +1,7 @@
 //! `wedm contours`: the chained contours.
 
 use super::options::{Common, Form};
-use super::output::{self, styled};
+use super::output::{self, push_line, styled};
 use super::{Failure, Verdict, files};
 use crate::drawing::Role;
 use crate::message::readable;
@@ -38,14 +38,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
 fn list(contours: &Contours) -> String {
     let mut text = String::new();
     for (index, contour) in contours.contours.iter().enumerate() {
-        let _ = writeln!(
-            text,
-            "{}",
-            styled(
-                output::STRONG,
-                heading(index, contour, contours.units_to_mm)
-            )
-        );
+        let heading = heading(index, contour, contours.units_to_mm);
+        push_line(&mut text, styled(output::STRONG, heading));
         for run in contour.segments.chunk_by(|a, b| a.handle == b.handle) {
             let (Some(first), Some(last)) = (run.first(), run.last()) else {
                 continue;
@@ -64,19 +58,12 @@ fn list(contours: &Contours) -> String {
         }
         for gap in &contour.gaps {
             let distance = gap.distance * contours.units_to_mm * 1000.0;
-            let _ = writeln!(
-                text,
-                "  {}",
-                styled(
-                    output::WARNING,
-                    say!(gap_of_um_closed_after_segment, distance, gap.after)
-                )
-            );
+            let gap = say!(gap_of_um_closed_after_segment, distance, gap.after);
+            push_line(&mut text, format!("  {}", styled(output::WARNING, gap)));
         }
         text.push('\n');
     }
-    let _ = writeln!(text, "{}", say!(contours, contours.contours.len()));
-    text
+    text + &say!(contours, contours.contours.len()) + "\n"
 }
 
 /// The kind of a contour, or the wire's side.

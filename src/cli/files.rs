@@ -42,25 +42,10 @@ impl From<FileLanguage> for FileKind {
 
 /// Reads one file with its settings: `wedm.toml` upwards from it, `--config`, then the options.
 pub(crate) fn open(path: &Path, common: &Common, last: &Settings) -> Result<Opened, Failure> {
-    if path == Path::new(output::STDIN) {
-        return stdin(None, shown(path), common, last);
+    match path == Path::new(output::STDIN) {
+        true => open_stdin(None, shown(path), common, last),
+        false => open_file(path, common, last, false),
     }
-    let (kind, settings, settings_rows) = kind_and_settings(path, common, last)?;
-    let read = || {
-        let (file, is_regular) = regular(path)?;
-        let bytes = read(&file, is_regular)?;
-        let seen = Seen::of(&file, &bytes)?;
-        Ok((bytes, seen))
-    };
-    let (bytes, seen) = read().map_err(|reason: String| Failure::of(path, reason))?;
-    let (document, writing) = document(kind, bytes, settings, None);
-    Ok(Opened {
-        path: path.to_path_buf(),
-        document,
-        seen: Some(seen),
-        writing,
-        settings_rows,
-    })
 }
 
 /// The name of an input for people.
@@ -76,17 +61,38 @@ pub(crate) fn open_to_check(
     path: &Path,
     common: &Common,
     last: &Settings,
-) -> Result<(Document, Vec<Row>), Failure> {
-    let (kind, settings, rows) = kind_and_settings(path, common, last)?;
+) -> Result<Opened, Failure> {
+    open_file(path, common, last, true)
+}
+
+fn open_file(
+    path: &Path,
+    common: &Common,
+    last: &Settings,
+    is_only_checked: bool,
+) -> Result<Opened, Failure> {
+    let (kind, settings, settings_rows) = kind_and_settings(path, common, last)?;
     let read = || {
-        let (file, is_regular) = regular(path)?;
-        let as_it_is = Unchanged::of(&file).filter(|_| is_regular);
-        Ok((read(&file, is_regular)?, as_it_is))
+        let file = File::open(path).map_err(|error| plain(&error))?;
+        let is_regular = file.metadata().map_err(|error| plain(&error))?.is_file();
+        let may_change = is_only_checked && is_regular;
+        let as_it_is = may_change.then(|| Unchanged::of(&file)).flatten();
+        let most = if is_regular { LARGEST } else { LARGEST_STREAM };
+        let bytes = disk::read_at_most(&file, most)?;
+        let seen = (!is_only_checked).then(|| Seen::of(&file, &bytes));
+        Ok((bytes, seen.transpose()?, as_it_is))
     };
-    let (bytes, as_it_is) = read().map_err(|reason: String| Failure::of(path, reason))?;
+    let (bytes, seen, as_it_is) = read().map_err(|reason: String| Failure::of(path, reason))?;
     let again = as_it_is.filter(|_| bytes.len() >= LARGE);
     let again = again.map(|file| -> Again { Arc::new(move |range| file.read(range)) });
-    Ok((document(kind, bytes, settings, again).0, rows))
+    let (document, writing) = document(kind, bytes, settings, again);
+    Ok(Opened {
+        path: path.to_path_buf(),
+        document,
+        seen,
+        writing,
+        settings_rows,
+    })
 }
 
 /// What decides how a file is read: its kind, the settings, and the faults in these.
@@ -110,7 +116,7 @@ fn kind_and_settings(
 
 /// The text from stdin, read as a file of the given name, and the faults in its settings. Without a name it is a
 /// drawing unless it reads as a program.
-fn stdin(
+pub(crate) fn open_stdin(
     given: Option<&Path>,
     name: &Path,
     common: &Common,
@@ -133,17 +139,6 @@ fn stdin(
     })
 }
 
-/// The same for `wedm check`.
-pub(crate) fn open_stdin(
-    given: Option<&Path>,
-    name: &Path,
-    common: &Common,
-    last: &Settings,
-) -> Result<(Document, Vec<Row>), Failure> {
-    let opened = stdin(given, name, common, last)?;
-    Ok((opened.document, opened.settings_rows))
-}
-
 /// Refuses a text that is too large to hold: anything written from it would lack its end.
 const LARGEST: u64 = u32::MAX as u64 - 1;
 /// The same for a device or a pipe, which may have no end.
@@ -155,17 +150,6 @@ const LARGE: usize = if cfg!(debug_assertions) {
 } else {
     16 * 1024 * 1024
 };
-
-/// A file, and whether it is a regular one.
-fn regular(path: &Path) -> Result<(File, bool), String> {
-    let file = File::open(path).map_err(|error| plain(&error))?;
-    let is_regular = file.metadata().map_err(|error| plain(&error))?.is_file();
-    Ok((file, is_regular))
-}
-
-fn read(file: &File, is_regular: bool) -> Result<Vec<u8>, String> {
-    disk::read_at_most(file, if is_regular { LARGEST } else { LARGEST_STREAM })
-}
 
 /// The same for a command that makes something else from the file. It refuses faulty settings.
 pub(crate) fn open_to_use(

@@ -1,7 +1,7 @@
 //! `wedm fit`: whether a punch goes into its plate.
 
 use super::options::{Common, Form, Pairing, Program};
-use super::output::{self, styled};
+use super::output::{self, push_line, styled};
 use super::{Failure, Verdict, files, report};
 use crate::geometry::Xy;
 use crate::job;
@@ -76,7 +76,7 @@ fn form_of(target: &Path) -> Option<Image> {
 fn table(fit: &Fit) -> String {
     let mut text = String::new();
     if !fit.places.is_empty() {
-        let _ = writeln!(text, "{}", styled(output::STRONG, say!(heading_of_the_fit)));
+        push_line(&mut text, styled(output::STRONG, say!(heading_of_the_fit)));
     }
     for place in &fit.places {
         let Xy(x, y) = place.at;
@@ -95,14 +95,13 @@ fn table(fit: &Fit) -> String {
     }
     for alone in &fit.alone {
         let line = say!(a_contour_has_no_partner, alone.handle, alone.of);
-        let _ = writeln!(text, "{}", readable(&line));
+        push_line(&mut text, readable(&line));
     }
     let verdict = match fit.fits {
         true => styled(output::GOOD, say!(fits)),
         false => styled(output::ERROR, say!(do_not_fit)),
     };
-    let _ = writeln!(text, "{}", of_least(fit, &verdict));
-    text
+    text + &of_least(fit, &verdict) + "\n"
 }
 
 /// The remaining clearance, and whether it is enough.

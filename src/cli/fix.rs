@@ -272,7 +272,7 @@ fn summarise(path: &Path, repair: &Repair) {
         let gone = count(&repair.before).saturating_sub(count(&repair.after));
         // Where a repair has brought hidden faults to light, those are reported below.
         let is_gone = |row: &&Row| {
-            let same = |other: &Row| (other.rule, other.line) == (row.rule, row.line);
+            let same = |other: &Row| (other.rule, other.span.line) == (row.rule, row.span.line);
             row.severity <= Severity::Warning && !repair.after.iter().any(same)
         };
         let gone = match gone {
@@ -286,16 +286,17 @@ fn summarise(path: &Path, repair: &Repair) {
     } else {
         output::say(&say!(nothing_could_be_repaired_safely, name));
     }
+    let place = |row: &Row| format!("{name}:{}:{}", row.span.line, row.span.column);
     for (row, reason) in &repair.refused {
-        let place = format!("{name}:{}:{}", row.line, row.column);
         let reason = readable(reason);
-        let why = say!(says, place, say!(says, row.message, reason));
+        let why = say!(says, place(row), say!(says, row.message, reason));
         let heading = styled(output::WARNING, say!(not_repaired));
         output::say(&say!(says, heading, why));
     }
     let is_refused = |row: &Row| {
         repair.refused.iter().any(|(other, _)| {
-            (other.rule, other.line, other.column) == (row.rule, row.line, row.column)
+            let begin = |row: &Row| (row.rule, row.span.line, row.span.column);
+            begin(other) == begin(row)
         })
     };
     let is_left = |row: &&Row| row.severity <= Severity::Warning && !is_refused(row);
@@ -320,8 +321,7 @@ fn summarise(path: &Path, repair: &Repair) {
             }
             _ => "",
         };
-        let place = format!("{name}:{}:{}", row.line, row.column);
-        let what = say!(says, place, format!("{}{reason}", row.message));
+        let what = say!(says, place(row), format!("{}{reason}", row.message));
         output::say(&say!(says, styled(output::WARNING, say!(left)), what));
     }
     for (line, titles) in &repair.choices {

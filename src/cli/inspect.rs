@@ -3,7 +3,7 @@
 use super::contours;
 use super::files::{self, Opened};
 use super::options::{Common, Form};
-use super::output::{self, flush_left, flush_right, styled};
+use super::output::{self, flush_left, flush_right, push_line, styled};
 use super::report::{self, Row};
 use super::{Failure, Verdict};
 use crate::document::Snapshot;
@@ -17,7 +17,6 @@ use crate::protocol::{
 use clap::Args;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
-use std::fmt::Write;
 use std::path::PathBuf;
 
 #[derive(Args, Debug)]
@@ -217,28 +216,26 @@ fn table(printed: &Printed) -> String {
             continue;
         }
         let heading = contours::heading(index, &contour.listed, unit);
-        let _ = writeln!(text, "{}", styled(output::STRONG, heading));
-        let _ = writeln!(text, "{}", contour.measures(unit));
-        let _ = writeln!(text, "{}", styled(output::FAINT, columns()));
-        lines.iter().for_each(|line| {
-            let _ = writeln!(text, "{line}");
-        });
+        push_line(&mut text, styled(output::STRONG, heading));
+        push_line(&mut text, contour.measures(unit));
+        push_line(&mut text, styled(output::FAINT, columns()));
+        lines.iter().for_each(|line| push_line(&mut text, line));
         text.push('\n');
     }
     for entity in printed.inspection.entities.iter().filter(|it| !it.cut) {
-        let _ = writeln!(text, "{}", styled(output::STRONG, heading(entity)));
-        let _ = writeln!(text, "{}", styled(output::FAINT, columns()));
+        push_line(&mut text, styled(output::STRONG, heading(entity)));
+        push_line(&mut text, styled(output::FAINT, columns()));
         for segment in &entity.segments {
-            let _ = writeln!(text, "{}", line(&entity.handle, segment, unit));
+            push_line(&mut text, line(&entity.handle, segment, unit));
         }
         text.push('\n');
     }
     let apart = |row: &&Row| row.data.segment.is_none();
     for row in printed.diagnostics.iter().filter(apart) {
-        let _ = writeln!(text, "{}\n", row.rendered());
+        push_line(&mut text, row.rendered() + "\n");
     }
     if let Some(wire) = &printed.wire {
-        let _ = writeln!(text, "{wire}");
+        push_line(&mut text, wire);
     }
     let segments: usize = printed
         .inspection
@@ -269,12 +266,7 @@ fn table(printed: &Printed) -> String {
     } else {
         say!(units_of_the_drawing_and_of_the_radius, unit)
     };
-    let _ = writeln!(
-        text,
-        "{}",
-        say!(all_in_units, entities, segments, units, result)
-    );
-    text
+    text + &say!(all_in_units, entities, segments, units, result) + "\n"
 }
 
 fn heading(entity: &InspectedEntity) -> String {

@@ -296,6 +296,12 @@ pub(crate) fn refuse_foreign(target: &Path, mark: &str) -> Result<(), Failure> {
     }
 }
 
+/// Adds a line to a text of several.
+pub(crate) fn push_line(text: &mut String, line: impl AsRef<str>) {
+    text.push_str(line.as_ref());
+    text.push('\n');
+}
+
 /// The text, left-aligned in this many columns of a terminal, where a Chinese character takes two.
 pub(crate) fn flush_left(text: &str, width: usize) -> String {
     format!("{text}{}", " ".repeat(width.saturating_sub(columns(text))))

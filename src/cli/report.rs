@@ -20,15 +20,38 @@ use std::path::Path;
 /// The most other places shown in the text of one finding: a duplicated outline has many.
 const MOST_OTHERS: usize = 5;
 
-/// One finding of one file. Lines and columns count from 1, columns in characters.
-#[derive(Clone, Debug, Serialize)]
+/// A place in a file. Lines and columns count from 1, columns in characters.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "camelCase")]
-pub(crate) struct Row {
-    pub(crate) path: String,
+pub(crate) struct Span {
     pub(crate) line: usize,
     pub(crate) column: usize,
     pub(crate) end_line: usize,
     pub(crate) end_column: usize,
+}
+
+impl Span {
+    /// Bytes of a text; without one its beginning.
+    fn of(text: Option<&SourceText>, range: &Range<usize>) -> Span {
+        let place = |offset: usize| text.map_or((1, 1), |text| place(text, offset));
+        let ((line, column), (end_line, end_column)) =
+            (place(range.start), place(range.end.max(range.start)));
+        Span {
+            line,
+            column,
+            end_line,
+            end_column,
+        }
+    }
+}
+
+/// One finding of one file.
+#[derive(Clone, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(crate) struct Row {
+    pub(crate) path: String,
+    #[serde(flatten)]
+    pub(crate) span: Span,
     #[serde(serialize_with = "rule_name")]
     pub(crate) rule: Rule,
     pub(crate) severity: Severity,
@@ -54,10 +77,8 @@ pub(crate) struct Row {
 #[derive(Clone, Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub(crate) struct RelatedRow {
-    pub(crate) line: usize,
-    pub(crate) column: usize,
-    pub(crate) end_line: usize,
-    pub(crate) end_column: usize,
+    #[serde(flatten)]
+    pub(crate) span: Span,
     pub(crate) message: String,
 }
 
@@ -214,13 +235,8 @@ fn related(document: &Document, finding: &Finding, other: &Place) -> Option<Rela
     let (entity, segment) = other.entity()?;
     let handle = &document.drawing()?.get(entity)?.handle;
     let message = finding::related(finding, handle, segment, document.telling());
-    let ((line, column), (end_line, end_column)) =
-        (place(text, range.start), place(text, range.end));
     Some(RelatedRow {
-        line,
-        column,
-        end_line,
-        end_column,
+        span: Span::of(Some(text), &range),
         message,
     })
 }
@@ -235,19 +251,9 @@ impl Row {
         message: String,
         data: FindingData,
     ) -> Row {
-        let (start, end) = match text {
-            Some(text) => (
-                place(text, range.start),
-                place(text, range.end.max(range.start)),
-            ),
-            None => ((1, 1), (1, 1)),
-        };
         Row {
             path: path.display().to_string(),
-            line: start.0,
-            column: start.1,
-            end_line: end.0,
-            end_column: end.1,
+            span: Span::of(text, &range),
             rule,
             severity,
             message,
@@ -285,7 +291,7 @@ impl Row {
                             .label(self.whereabouts()),
                     );
                 let others = self
-                    .others(|related| say!(in_line, related.message, related.line))
+                    .others(|related| say!(in_line, related.message, related.span.line))
                     .map(|other| Level::NOTE.message(other));
                 let keeps = self.keeps.iter().map(|(title, lines)| {
                     let lines = lines.trim_end().replace('\n', "  ");
@@ -300,8 +306,8 @@ impl Row {
             }
             None => {
                 let place = annotate_snippets::Origin::path(path.as_ref())
-                    .line(self.line)
-                    .char_column(self.column);
+                    .line(self.span.line)
+                    .char_column(self.span.column);
                 renderer.render(&[title.element(place)])
             }
         }

@@ -1,7 +1,7 @@
 //! `wedm simulate`: the path of the machine, block by block.
 
 use super::options::{Common, Form};
-use super::output::{self, FAINT, WARNING, flush_left, flush_right, styled};
+use super::output::{self, FAINT, WARNING, flush_left, flush_right, push_line, styled};
 use super::{Failure, Verdict, files};
 use crate::message::lengths;
 use crate::protocol::{SimulatedBlock, Simulation, StepKind};
@@ -48,22 +48,15 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
 const SHOWN: f64 = 0.01;
 
 fn table(simulation: &Simulation) -> String {
-    let mut text = String::new();
-    let _ = writeln!(
-        text,
-        "{}",
-        styled(
-            FAINT,
-            format!(
-                "{} {:>6}  {:<6} {} {}",
-                flush_right(say!(column_of_lines), 6),
-                "N",
-                "",
-                flush_right(say!(column_of_end_x), 12),
-                flush_right(say!(column_of_end_y), 12)
-            )
-        )
+    let columns = format!(
+        "{} {:>6}  {:<6} {} {}",
+        flush_right(say!(column_of_lines), 6),
+        "N",
+        "",
+        flush_right(say!(column_of_end_x), 12),
+        flush_right(say!(column_of_end_y), 12)
     );
+    let mut text = styled(FAINT, columns) + "\n";
     simulation
         .blocks
         .iter()
@@ -79,25 +72,19 @@ fn table(simulation: &Simulation) -> String {
     if let Some(minutes) = simulation.minutes {
         text += &say!(takes_minutes, minutes);
     }
-    let _ = writeln!(
-        text,
-        "{}",
-        say!(
-            where_it_ends_and_how_far_beside,
-            closure.x,
-            closure.y,
-            simulation.deviation
-        )
+    let end = say!(
+        where_it_ends_and_how_far_beside,
+        closure.x,
+        closure.y,
+        simulation.deviation
     );
+    push_line(&mut text, end);
     if let Some(bounds) = &simulation.bounds {
         let [width, height] =
             [bounds.max.0 - bounds.min.0, bounds.max.1 - bounds.min.1].map(|um| um / 1000.0);
         let corner = [bounds.min.0, bounds.min.1].map(|um| um / 1000.0);
-        let _ = writeln!(
-            text,
-            "{}",
-            say!(size_and_corner_in_mm, width, height, corner[0], corner[1])
-        );
+        let size = say!(size_and_corner_in_mm, width, height, corner[0], corner[1]);
+        push_line(&mut text, size);
     }
     text
 }
@@ -126,24 +113,18 @@ fn row(text: &mut String, block: &SimulatedBlock) {
         let _ = write!(text, "  R {:.3} mm, {sweep:+.3}°", mm(radius));
     }
     if let Some(upper) = block.upper_end {
-        text.push_str("  ");
-        text.push_str(&say!(upper_end_at, mm(upper.0), mm(upper.1)));
+        text.push_str(&format!(
+            "  {}",
+            say!(upper_end_at, mm(upper.0), mm(upper.1))
+        ));
     }
     if let Some(ideal) = block.ideal_end.filter(|_| block.deviation > SHOWN) {
         let meant = say!(meant_elsewhere, mm(ideal.0), mm(ideal.1), block.deviation);
-        let meant = format!("  {meant}");
-        let _ = write!(
-            text,
-            "{}",
-            styled(
-                if block.deviation > 2.0 {
-                    WARNING
-                } else {
-                    FAINT
-                },
-                meant
-            )
-        );
+        let style = match block.deviation > 2.0 {
+            true => WARNING,
+            false => FAINT,
+        };
+        text.push_str(&styled(style, format!("  {meant}")));
     }
     text.push('\n');
 }

@@ -25,6 +25,14 @@ impl Axis {
             Axis::Y => Axis::X,
         }
     }
+
+    /// The coordinate along it.
+    pub(crate) fn of<T: Copy>(self, [x, y]: [T; 2]) -> T {
+        match self {
+            Axis::X => x,
+            Axis::Y => y,
+        }
+    }
 }
 
 /// The rows of faults: as [`told`], with the rule of each.

@@ -146,15 +146,8 @@ fn plate() -> (Drawing, Vec<Outline>, Vec<Finding>, Vec<WirePath>) {
         .collect();
     segments[0].source = Source::LeadIn;
     let path = WirePath {
-        outline: 0,
-        pass: 1,
-        counter_clockwise: None,
-        cut_off: false,
-        is_way_back: false,
         correction: 0.1,
-        thread_hole: at(20.0, 15.0),
-        side: None,
-        segments,
+        ..WirePath::along(at(20.0, 15.0), segments)
     };
     (
         drawing,

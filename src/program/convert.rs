@@ -24,6 +24,7 @@ use crate::settings::Effective;
 use crate::toolpath::{PathSegment, Source, WirePath};
 use rustc_hash::FxHashMap;
 use std::f64::consts::{PI, TAU};
+use std::ops::Range;
 
 /// A bulge does not hold arcs well that turn by more than this, nearly full circles, rad.
 const MOST_BY_BULGE: f64 = TAU * 0.75;
@@ -61,9 +62,12 @@ pub struct CutPath {
 impl CutPath {
     /// The segments of the contour, without the ways in and out.
     pub fn contour(&self) -> &[Segment] {
-        self.segments
-            .get(self.lead_in..self.segments.len().saturating_sub(self.lead_out))
-            .unwrap_or_default()
+        self.segments.get(self.span()).unwrap_or_default()
+    }
+
+    /// The place of these among all.
+    fn span(&self) -> Range<usize> {
+        self.lead_in..self.segments.len().saturating_sub(self.lead_out)
     }
 
     fn insert(&mut self, at: usize, segment: Segment) {
@@ -296,7 +300,7 @@ impl Cuts {
             return;
         }
         for cut in &mut self.cuts {
-            let contour = cut.lead_in..cut.segments.len().saturating_sub(cut.lead_out);
+            let contour = cut.span();
             let Some(segments) = cut.segments.get_mut(contour) else {
                 continue;
             };
@@ -403,15 +407,8 @@ impl Cuts {
                 })
                 .collect();
             Some(WirePath {
-                outline: 0,
-                pass: 1,
-                counter_clockwise: None,
-                cut_off: false,
-                is_way_back: false,
-                correction: 0.0,
-                thread_hole,
                 side: cut.side,
-                segments,
+                ..WirePath::along(thread_hole, segments)
             })
         });
         paths.collect()

@@ -1,7 +1,7 @@
 //! A program as an open document, in any language. A new language adds its variant here and is complete when this
 //! compiles.
 
-use super::numbering;
+use super::numbering::{self, Renumbering};
 use super::path::{Cut, CutSteps, Step, Trace, cut_of};
 use super::repair::gate;
 use super::report::Report;
@@ -173,7 +173,7 @@ impl Document {
         if self.is_no_text().is_some() {
             return Vec::new();
         }
-        let offered = self.offered(finding);
+        let offered = self.offered(finding, Renumbering::Offered);
         match self {
             Document::ThreeB(document) => gate::gated(document, finding, offered),
             Document::Iso(document) => gate::gated(&**document, finding, offered),
@@ -196,10 +196,10 @@ impl Document {
     }
 
     /// The fixes that the language offers.
-    fn offered(&self, finding: &Finding) -> Vec<TextFix> {
+    fn offered(&self, finding: &Finding, renumbering: Renumbering) -> Vec<TextFix> {
         match self {
-            Document::ThreeB(document) => document.fixes(finding),
-            Document::Iso(document) => document.fixes(finding),
+            Document::ThreeB(document) => document.offered(finding, renumbering),
+            Document::Iso(document) => document.offered(finding, renumbering),
         }
     }
 
@@ -229,13 +229,9 @@ impl Document {
 
     /// The fix of a finding that is safe to make with others.
     fn safe_fix(&self, finding: &Finding) -> Option<(Rule, TextFix)> {
-        let offered = || match self {
-            Document::ThreeB(document) => document.local_fixes(finding),
-            Document::Iso(document) => document.local_fixes(finding),
-        };
-        let mut fixes = (finding.severity <= Severity::Information)
-            .then(offered)?
-            .into_iter();
+        let is_said = finding.severity <= Severity::Information;
+        let offered = is_said.then(|| self.offered(finding, Renumbering::LeftOut))?;
+        let mut fixes = offered.into_iter();
         let fix = fixes.find(|fix| fix.preferred && fix.in_fix_all)?;
         Some((finding.rule, fix))
     }
@@ -315,28 +311,14 @@ impl Document {
         }
     }
 
-    /// The moves between two stops of which one touches a byte, by their ends, and the number of that one among them.
-    /// Of two that touch it, the one that begins there.
-    pub(crate) fn ends_of_cut_at(&self, offset: usize) -> Option<(CutSteps<'static>, usize)> {
-        steps::cut_at(self.program(), offset, CutSteps::ENDS)
-    }
-
-    /// The same with every step of it.
-    pub(crate) fn whole_cut_at(&self, offset: usize) -> Option<(CutSteps<'static>, usize)> {
-        steps::cut_at(self.program(), offset, usize::MAX)
-    }
-
-    /// The steps of the cut that touches a byte, its division, and the number of the touching one.
+    /// The steps of the cut that touches a byte, its division, and the number of the touching one: by the ends of the
+    /// cut, where these divide it. Of two steps that touch the byte, the one that begins there.
     pub(crate) fn cut_at(&self, offset: usize) -> Option<(CutSteps<'static>, Cut, usize)> {
-        let (mut held, mut nth) = self.ends_of_cut_at(offset)?;
-        let cut = match cut_of(&held) {
-            Some(cut) => cut,
-            None => {
-                (held, nth) = self.whole_cut_at(offset)?;
-                cut_of(&held)?
-            }
+        let divided = |most: usize| {
+            let (held, nth) = steps::cut_at(self.program(), offset, most)?;
+            cut_of(&held).map(|cut| (held, cut, nth))
         };
-        Some((held, cut, nth))
+        divided(CutSteps::ENDS).or_else(|| divided(usize::MAX))
     }
 
     /// The first stop after a byte.

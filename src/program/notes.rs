@@ -39,15 +39,7 @@ impl Notes {
     pub(crate) fn stop(&mut self, range: Range<usize>, at: Point, is_end: bool) {
         self.note(Step {
             range,
-            line: 0,
-            number: None,
-            kind: if is_end { Kind::End } else { Kind::Pause },
-            start: at,
-            end: at,
-            ideal: None,
-            contour: 0,
-            side: None,
-            is_relative: false,
+            ..Step::stop(if is_end { Kind::End } else { Kind::Pause }, at)
         });
     }
 

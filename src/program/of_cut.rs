@@ -18,9 +18,7 @@ struct Local {
 
 impl Local {
     fn of<C>(chunks: &Chunks<C>, place: &Place) -> Option<Local> {
-        let Place::Text { range } = place else {
-            return None;
-        };
+        let range = place.in_text()?;
         let chunk = chunks.at(range.start);
         let byte = chunks.byte(chunk);
         Some(Local {

@@ -1,7 +1,7 @@
 //! The findings of a program: those of its reader, under the settings' severities, errors first, then in the order of
 //! the text.
 
-use crate::finding::{Finding, Place, Rule, Severity};
+use crate::finding::{Finding, Rule, Severity};
 use crate::settings::Effective;
 
 /// A finding before it is worded.
@@ -156,8 +156,6 @@ impl<K> First<K> {
 
 /// First and last byte of a finding's place.
 pub(super) fn place_of(finding: &Finding) -> (usize, usize) {
-    match &finding.place {
-        Place::Text { range } => (range.start, range.end),
-        _ => (0, 0),
-    }
+    let range = finding.place.in_text();
+    range.map_or((0, 0), |range| (range.start, range.end))
 }

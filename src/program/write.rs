@@ -144,9 +144,8 @@ pub(crate) trait Writer {
     fn begin(&mut self, from: Option<Node>, first: Node, path: &WirePath) -> Proved;
     /// Pieces of the path, one after the other.
     fn pieces(&mut self, pieces: &[Piece]) -> Proved;
-    /// The path ends at `last`; it is closed where both its ends coincide. `goes_on`: after a stop the next one
-    /// continues it from here.
-    fn end(&mut self, closed: bool, first: Node, last: Node, goes_on: bool) -> Proved;
+    /// The path ends at `last`. `goes_on`: after a stop the next one continues it from here.
+    fn end(&mut self, last: Node, goes_on: bool) -> Proved;
     /// A path along an open contour ended at `last`. `for_good`: the contour is complete, and the wire does not return
     /// to the thread hole. `stops` more stops, two with those before the next path, show that this is meant.
     fn end_open(&mut self, last: Node, for_good: bool, stops: usize) -> Proved;
@@ -250,7 +249,11 @@ pub(crate) fn walk(
                 && (next.pass, next.side) == (path.pass, path.side)
                 && next.begin() == path.end()
         });
-        writer.end(closed, first_node, from, goes_on)?;
+        if closed && first_node != from {
+            let sentence = say!(the_cut_begins_at_and_ends_at, first_node, from);
+            return Err(ProofError::Mismatch(sentence));
+        }
+        writer.end(from, goes_on)?;
         if path.is_open() {
             let next = paths.get(index + 1);
             let is_last = next.is_none_or(|next| next.outline != path.outline);

@@ -6,7 +6,7 @@
 
 use super::cores::each;
 use super::offset::{Offset, Wall, offset};
-use super::path::Source;
+use super::path::{PathSegment, Source};
 use crate::geometry::{
     Arc, Few, Locus, Point, Segment, Vector, cross, left_normal, positive_angle,
 };
@@ -26,6 +26,14 @@ pub(super) struct Element {
 }
 
 impl Element {
+    /// Without its wall.
+    pub(super) fn piece(&self) -> PathSegment {
+        PathSegment {
+            geometry: self.geometry,
+            source: self.source,
+        }
+    }
+
     /// True for the way round a corner.
     pub(super) fn is_roll(&self) -> bool {
         matches!(self.source, Source::Corner { .. })

@@ -1,7 +1,8 @@
 //! A drawing that is the wire's own path, leads included: entities that lead one from the end of the other.
 
+use super::job::Job;
 use super::path::{PathSegment, Source, WirePath};
-use crate::drawing::{Drawing, EntityId, Geometry, Outline};
+use crate::drawing::{EntityId, Geometry, Outline};
 use crate::geometry::{Arc, Point, Segment};
 use crate::settings::{Direction, PointSetting};
 use rustc_hash::FxHashSet;
@@ -10,22 +11,17 @@ use rustc_hash::FxHashSet;
 /// circle starts where the wire meets it; of doubles each is a way of its own. `None` where there is a single contour,
 /// where the entities do not lead on from each other, and where a thread hole or an entry other than the path's start
 /// is requested.
-pub(super) fn one_path(
-    drawing: &Drawing,
-    outlines: &[Outline],
-    chosen: &[usize],
-    wanted: [Option<&PointSetting>; 2],
-    direction: Direction,
-    join: f64,
-) -> Option<WirePath> {
+pub(super) fn one_path(job: &Job, chosen: &[usize]) -> Option<WirePath> {
+    let (drawing, settings) = (job.drawing, job.settings);
+    let join = job.units(settings.tolerances.join);
     let mut asked = Vec::new();
-    for setting in wanted.into_iter().flatten() {
+    for setting in settings.thread.iter().chain(&settings.entry) {
         match setting {
             PointSetting::One([x, y]) => asked.push(Point::new(*x, *y)),
             PointSetting::ByHandle(_) => return None,
         }
     }
-    let entities = with_doubles(outlines, chosen)?;
+    let entities = with_doubles(job.outlines, chosen)?;
     let mut segments: Vec<PathSegment> = Vec::new();
     let mut here = asked.first().copied();
     for (entity, geometry) in drawing
@@ -58,7 +54,7 @@ pub(super) fn one_path(
                         circle.center,
                         begin,
                         begin,
-                        direction != Direction::Cw,
+                        settings.direction != Direction::Cw,
                     )),
                 )])
             }
@@ -76,14 +72,7 @@ pub(super) fn one_path(
     }
     Some(WirePath {
         outline: *chosen.first()?,
-        pass: 1,
-        counter_clockwise: None,
-        cut_off: false,
-        is_way_back: false,
-        correction: 0.0,
-        thread_hole: begin,
-        side: None,
-        segments,
+        ..WirePath::along(begin, segments)
     })
 }
 

@@ -3,10 +3,8 @@
 use super::corners::Element;
 use super::job::{Job, ROUNDING};
 use super::offset::{Wall, normal};
-use super::order::name;
 use super::path::{Refusal, Source};
 use super::requested::Requested;
-use crate::drawing::{Drawing, Outline};
 use crate::geometry::{Arc, Point, Segment};
 use crate::settings::Lead;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
@@ -175,7 +173,6 @@ impl Job<'_> {
         walls: &[Wall],
         wanted: &Requested,
     ) -> Result<Option<Entry>, Refusal> {
-        let outline = &self.outlines[index];
         let tie = self.units(ROUNDING);
         if let Some(point) = wanted.entry {
             return match nearest(walls, point, tie) {
@@ -187,7 +184,13 @@ impl Job<'_> {
                 found => {
                     let distance_mm =
                         found.map_or(f64::INFINITY, |(_, distance)| distance * self.unit_mm);
-                    Err(off_contour(self.drawing, outline, point, distance_mm))
+                    Err(Refusal::Sentence(say!(
+                        the_entry_lies_from_contour,
+                        point.x,
+                        point.y,
+                        distance_mm,
+                        self.name(index)
+                    )))
                 }
             };
         }
@@ -217,16 +220,4 @@ impl Job<'_> {
             .or_else(|| near(wanted.thread))
             .or_else(|| near_within(proposed, self.units(DEEPEST))))
     }
-}
-
-/// The refusal of an entry that does not lie on the contour.
-fn off_contour(drawing: &Drawing, outline: &Outline, entry: Point, distance_mm: f64) -> Refusal {
-    let handle = name(drawing, outline);
-    Refusal::Sentence(say!(
-        the_entry_lies_from_contour,
-        entry.x,
-        entry.y,
-        distance_mm,
-        handle
-    ))
 }

@@ -4,8 +4,7 @@ use super::clearance::Walls;
 use super::containment::Places;
 use super::job::Job;
 use super::leads::{Contours, HOLE_CLEAR, finding};
-use super::order::{self, name};
-use super::requested::{Requested, wanted};
+use super::requested::Requested;
 use crate::drawing::{Drawing, Outline, are_twins, winding};
 use crate::finding::{Finding, Place, Rule, Severity};
 use crate::geometry::{Bounds, Grid, Point, Vector};
@@ -63,38 +62,20 @@ pub(crate) fn hole_faults(
     outlines: &[Outline],
     settings: &Effective,
 ) -> Vec<Finding> {
-    let job = Job {
-        outlines,
-        ..Job::of(drawing, settings)
-    };
+    let job = Job::of(drawing, outlines, settings);
     job.hole_faults().unwrap_or_default()
 }
 
 impl Job<'_> {
     fn hole_faults(&self) -> Option<Vec<Finding>> {
-        let Job {
-            drawing,
-            outlines,
-            settings,
-            ..
-        } = *self;
         let reach = self.hole_reach()?;
-        let zero_length = self.units(settings.tolerances.zero_length);
-        let chosen = order::chosen(
-            drawing,
-            outlines,
-            None,
-            Order::AsDrawn,
-            &Places::default(),
-            zero_length,
-        )
-        .ok()?;
-        let wanted = wanted(drawing, outlines, &chosen.outlines, settings).ok()?;
-        let contours = Contours::new(drawing, outlines);
+        let chosen = self.chosen(None, Order::AsDrawn, &Places::default()).ok()?;
+        let wanted = self.wanted(&chosen.outlines).ok()?;
+        let contours = Contours::new(self.drawing, self.outlines);
         let mut faults = Vec::new();
         let mut given: Vec<(Point, usize)> = Vec::new();
         for (&index, Requested { thread, .. }) in chosen.outlines.iter().zip(wanted) {
-            let outline = &outlines[index];
+            let outline = &self.outlines[index];
             if !outline.contour.closed && outline.wire_side().is_none() {
                 continue;
             }
@@ -102,7 +83,7 @@ impl Job<'_> {
                 faults.extend(self.hole_fault(at, reach, &contours));
                 given.push((at, index));
             } else if self.has_waste_inside(index)
-                && let Some((at, depth)) = self.deepest(index, &contours, reach)
+                && let Some((at, depth)) = self.deepest(index, &contours, reach, &Holes::default())
                 && depth < reach - self.units(1e-6)
             {
                 // One that is only too near is proposed all the same.
@@ -144,7 +125,7 @@ impl Job<'_> {
         let wall = contours.walls().nearer(at, distance + rounding)?;
         let diameter = self.settings.start_hole?;
         let left = distance * self.unit_mm - diameter / 2.0;
-        let handle = name(self.drawing, &self.outlines[contours.outline_of(wall)]);
+        let handle = self.name(contours.outline_of(wall));
         let cuts = left < -1e-6;
         let sentence = match cuts {
             true => say!(
@@ -174,7 +155,7 @@ impl Job<'_> {
         let outline = &self.outlines[index];
         let (diameter, depth) = (self.settings.start_hole?, depth * self.unit_mm);
         let most = 2.0 * (depth - self.settings.correction - HOLE_CLEAR);
-        let handle = name(self.drawing, outline);
+        let handle = self.name(index);
         let sentence = match most > 0.0 {
             true => say!(no_start_hole_fits_in, diameter, handle, depth, most),
             false => say!(no_start_hole_at_all_fits_in, diameter, handle, depth),
@@ -222,7 +203,7 @@ impl Job<'_> {
                         self.settings.start_hole.unwrap_or_default(),
                         at.x,
                         at.y,
-                        name(self.drawing, &self.outlines[*of]),
+                        self.name(*of),
                         other.x,
                         other.y
                     );
@@ -261,20 +242,10 @@ impl Job<'_> {
         })
     }
 
-    /// The point of an opening that is furthest from every contour, and its distance; `enough` will do. `None` where it
-    /// has no inside.
+    /// The point of an opening that is furthest from every contour, and its distance; `enough` will do. A start hole is to
+    /// keep apart from others: where one has no room beside these, the distance is below what a hole needs. `None` where
+    /// the opening has no inside.
     pub(super) fn deepest(
-        &self,
-        index: usize,
-        contours: &Contours,
-        enough: f64,
-    ) -> Option<(Point, f64)> {
-        self.deepest_beside(index, contours, enough, &Holes::default())
-    }
-
-    /// The same for a start hole that is to keep apart from others: where one has no room beside these, the distance is below what a
-    /// hole needs.
-    pub(super) fn deepest_beside(
         &self,
         index: usize,
         contours: &Contours,

@@ -1,15 +1,23 @@
 //! The common data of all contours of one request.
 
 use super::offset::{Wall, walls};
-use super::order::Pick;
 use super::path::Refusal;
-use crate::drawing::{Contour, Drawing, Outline};
+use crate::drawing::{Contour, Drawing, EntityId, Outline};
 use crate::settings::Effective;
 use rustc_hash::FxHashMap;
 use std::sync::atomic::AtomicBool;
 
 /// How much nearer than the correction a path may come by rounding, mm.
 pub(super) const ROUNDING: f64 = 1e-6;
+
+/// What the selection says of one contour.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Pick {
+    /// The entity that the cut begins with.
+    pub(crate) first: EntityId,
+    /// Whether the cut goes against the contour's own direction; `None` where the selection does not say.
+    pub(crate) turned: Option<bool>,
+}
 
 /// The common data of all contours of one request.
 pub(super) struct Job<'a> {
@@ -33,10 +41,14 @@ pub(super) struct Job<'a> {
 
 impl<'a> Job<'a> {
     /// A request for contours of a drawing, none of which is picked, that is answered to its end.
-    pub(super) fn of(drawing: &'a Drawing, settings: &'a Effective) -> Job<'a> {
+    pub(super) fn of(
+        drawing: &'a Drawing,
+        outlines: &'a [Outline],
+        settings: &'a Effective,
+    ) -> Job<'a> {
         Job {
             drawing,
-            outlines: &[],
+            outlines,
             settings,
             picks: FxHashMap::default(),
             unit_mm: settings.unit_of(drawing).mm,
@@ -56,6 +68,12 @@ impl Job<'_> {
         } else {
             Err(Refusal::Cancelled)
         }
+    }
+
+    /// The handle of a contour's first entity, which names the contour to the user.
+    pub(super) fn name(&self, outline: usize) -> &str {
+        let outline = self.outlines.get(outline);
+        outline.map_or("?", |outline| outline.name(self.drawing))
     }
 
     /// The walls of a contour.

@@ -5,16 +5,15 @@
 use super::clearance::Walls;
 use super::corners::Element;
 use super::entry::Entry;
-use super::job::ROUNDING;
+use super::job::{Job, ROUNDING};
 use super::lead_form::{Landing, Way};
 use super::offset::Wall;
-use super::order::name;
-use super::path::Source;
+use super::path::{Refusal, Source};
 use super::requested::Requested;
 use crate::drawing::{Drawing, EntityId, Outline};
 use crate::finding::{Detail, Finding, Place, Rule, Severity};
 use crate::geometry::{Bounds, Grid, Point, Segment};
-use crate::settings::{Effective, Lead};
+use crate::settings::Lead;
 use std::sync::OnceLock;
 
 /// mm that a start hole keeps from what the wire cuts.
@@ -127,8 +126,7 @@ impl Kerfs {
 
 /// What a lead is checked against.
 pub(super) struct Surroundings<'a> {
-    pub(crate) drawing: &'a Drawing,
-    pub(crate) outlines: &'a [Outline],
+    pub(crate) job: &'a Job<'a>,
     /// The outline that the lead leads to, and its walls.
     pub(crate) outline: usize,
     pub(crate) own: &'a Walls,
@@ -138,13 +136,9 @@ pub(super) struct Surroundings<'a> {
     pub(crate) clearance: f64,
     /// The lead comes across the contour, where it comes to the path and nowhere else.
     pub(crate) comes_across: bool,
-    pub(crate) unit_mm: f64,
-    pub(crate) severity: Severity,
     pub(crate) lead: Lead,
     /// It is no lead but the way back from the far end of an open contour.
     pub(crate) goes_back: bool,
-    /// How far beside the path a corner of a lead lies at most, drawing units.
-    pub(crate) length: f64,
 }
 
 /// What a lead would cut.
@@ -181,7 +175,7 @@ impl<'a> Surroundings<'a> {
             Err(obstacle) => obstacle,
         };
         let (begin, source) = (landing.at, walls.get(entry.wall).map(|wall| wall.source));
-        let correction = correction * self.unit_mm;
+        let correction = correction * self.job.unit_mm;
         let (place, does) = obstacle
             .map(|obstacle| self.told(&obstacle, walls, correction))
             .unwrap_or_default();
@@ -207,7 +201,7 @@ impl<'a> Surroundings<'a> {
             }
             _ => say!(the_lead_in_does, thread.x, thread.y, begin.x, begin.y, does),
         };
-        Err(fault(self.severity, source, sentence, place))
+        Err(fault(self.job.severity(), source, sentence, place))
     }
 
     /// The same; otherwise what is in the way of the shortest one, or nothing where the thread hole
@@ -219,12 +213,14 @@ impl<'a> Surroundings<'a> {
         correction: f64,
     ) -> Result<Way, Option<Obstacle>> {
         let mut last = None;
-        for way in Way::all(self.lead, thread, landing, self.length, correction) {
+        // How far beside the path a corner lies at most.
+        let length = self.job.units(self.job.settings.lead_in);
+        for way in Way::all(self.lead, thread, landing, length, correction) {
             let pieces = way.pieces(thread, landing, false);
             // A way round a corner that runs beside another wall of the contour would cut along it.
             let beside = match (way, pieces.first()) {
                 (Way::Corner(_), Some(to_corner)) => {
-                    let apart = 2.0 * correction - ROUNDING / self.unit_mm;
+                    let apart = 2.0 * correction - self.job.units(ROUNDING);
                     self.own.nearer(to_corner.end(), apart).map(Obstacle::Own)
                 }
                 _ => None,
@@ -252,7 +248,7 @@ impl<'a> Surroundings<'a> {
             return Some(Obstacle::Own(wall));
         }
         let is_other = |wall: usize| self.contours.outline_of(wall) != self.outline;
-        if self.outlines.len() > 1
+        if self.job.outlines.len() > 1
             && let Some(wall) = self
                 .contours
                 .walls()
@@ -261,7 +257,7 @@ impl<'a> Surroundings<'a> {
             return Some(Obstacle::Contour(wall));
         }
         // Two cuts are as wide as two corrections each. Where the paths themselves run nearer to each other, the lead may as well.
-        let rounding = ROUNDING / self.unit_mm;
+        let rounding = self.job.units(ROUNDING);
         let Kerfs { paths, of } = self.kerfs;
         let counts = |piece: usize, distance: f64| {
             of[piece].0 != self.outline
@@ -274,7 +270,7 @@ impl<'a> Surroundings<'a> {
 
     /// A wall of its own contour that a lead crosses, but those beside which it begins to cut.
     fn crossed_elsewhere(&self, lead: &Segment, begin: Point) -> Option<usize> {
-        let rounding = ROUNDING / self.unit_mm;
+        let rounding = self.job.units(ROUNDING);
         let beside = self.clearance + 4.0 * rounding;
         let is_elsewhere = |wall: usize| self.own.segment(wall).distance_to(begin) > beside;
         self.own
@@ -298,11 +294,7 @@ impl<'a> Surroundings<'a> {
         walls: &[Wall],
         correction: f64,
     ) -> (Option<Place>, String) {
-        let named = |outline: usize| {
-            self.outlines
-                .get(outline)
-                .map_or("?", |outline| name(self.drawing, outline))
-        };
+        let named = |outline: usize| self.job.name(outline);
         match *obstacle {
             Obstacle::Own(wall) => {
                 let place = walls.get(wall).and_then(|wall| wall.source.place());
@@ -324,6 +316,13 @@ impl<'a> Surroundings<'a> {
                 )
             }
         }
+    }
+}
+
+impl Job<'_> {
+    /// No path: what stands against it at a place of the contour.
+    pub(super) fn refused(&self, source: Option<Source>, sentence: String) -> Refusal {
+        fault(self.severity(), source, sentence, None).into()
     }
 }
 
@@ -389,12 +388,10 @@ pub(super) fn thread_hole(
     entry: &Entry,
     landing: &Landing,
     walls: &[Wall],
-    settings: &Effective,
     surroundings: &Surroundings<'_>,
 ) -> Result<Point, Finding> {
-    let Surroundings {
-        unit_mm, severity, ..
-    } = *surroundings;
+    let job = surroundings.job;
+    let (settings, unit_mm) = (job.settings, job.unit_mm);
     let source = walls.get(entry.wall).map(|wall| wall.source);
     let (correction, begin) = (settings.correction, landing.at);
     if let Some(thread) = wanted.thread {
@@ -472,6 +469,7 @@ pub(super) fn thread_hole(
             because(does)
         );
         let at = source.and_then(Source::place);
+        let severity = job.severity();
         return Err(finding(Rule::StartHole, severity, at, sentence, place));
     }
     let sentence = match surroundings.lead {
@@ -492,5 +490,5 @@ pub(super) fn thread_hole(
             because(does)
         ),
     };
-    Err(fault(severity, source, sentence, place))
+    Err(fault(job.severity(), source, sentence, place))
 }

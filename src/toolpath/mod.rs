@@ -126,7 +126,7 @@ pub(crate) fn cuts(
     if outlines.len() > MOST_CONTOURS {
         return None;
     }
-    let tolerances = settings.tolerances.in_units(settings.unit_of(drawing).mm);
+    let job = Job::of(drawing, outlines, settings);
     let segments: usize = outlines.iter().map(|outline| outline.contour.len()).sum();
     let chosen = match settings.order {
         Order::Nearest if segments > MOST_LAID => return None,
@@ -137,14 +137,11 @@ pub(crate) fn cuts(
             .map(|path| path.outline)
             .collect(),
         order => {
-            let places = requested::places(drawing, outlines, settings);
-            let zero_length = tolerances.zero_length;
-            order::chosen(drawing, outlines, None, order, &places, zero_length)
-                .unwrap_or_default()
-                .outlines
+            let chosen = job.chosen(None, order, &job.places());
+            chosen.unwrap_or_default().outlines
         }
     };
-    let marks = requested::marks(drawing, outlines, MOST_COMPARED / segments.max(1))?;
+    let marks = job.marks(MOST_COMPARED / segments.max(1))?;
     Some(
         chosen
             .into_iter()
@@ -165,28 +162,14 @@ pub(crate) fn plan_while(
     finishes: bool,
     goes_on: &(dyn Fn() -> bool + Sync),
 ) -> Result<Planned, Refusal> {
-    let tolerances = settings.tolerances.in_units(settings.unit_of(drawing).mm);
-    let places = requested::places(drawing, outlines, settings);
+    let job = Job::of(drawing, outlines, settings);
+    let places = job.places();
     let Chosen {
         outlines: chosen,
         picks,
-    } = order::chosen(
-        drawing,
-        outlines,
-        handles,
-        settings.order,
-        &places,
-        tolerances.zero_length,
-    )?;
+    } = job.chosen(handles, settings.order, &places)?;
     if settings.compensation == Compensation::None
-        && let Some(path) = drawn_path::one_path(
-            drawing,
-            outlines,
-            &chosen,
-            [settings.thread.as_ref(), settings.entry.as_ref()],
-            settings.direction,
-            tolerances.join,
-        )
+        && let Some(path) = drawn_path::one_path(&job, &chosen)
     {
         let hole = StartHole {
             outline: path.outline,
@@ -200,10 +183,10 @@ pub(crate) fn plan_while(
             finished: None,
         });
     }
-    let wanted = requested::wanted(drawing, outlines, &chosen, settings)?;
+    let wanted = job.wanted(&chosen)?;
     if let LengthSetting::ByHandle(tabs) = &settings.tab {
         for handle in tabs.keys() {
-            order::outline_of(drawing, outlines, handle)?;
+            job.outline_of(handle)?;
         }
     }
     let cut_out = match settings.job.slug_limit {
@@ -211,12 +194,11 @@ pub(crate) fn plan_while(
         None => FxHashMap::default(),
     };
     let job = Job {
-        outlines,
         picks,
         cut_out,
         finishes,
         goes_on,
-        ..Job::of(drawing, settings)
+        ..job
     };
     job.go_on()?;
     let contours = Contours::new(drawing, outlines);
@@ -232,7 +214,7 @@ pub(crate) fn plan_while(
         }
     };
     let paths = if settings.order == Order::Nearest {
-        order::by_nearest(drawing, outlines, paths, &places)
+        job.by_nearest(paths, &places)
     } else {
         paths
     };
@@ -271,22 +253,15 @@ pub(crate) fn plan_while(
 pub(crate) fn entities_of(
     drawing: &Drawing,
     outlines: &[Outline],
+    settings: &Effective,
     handles: Option<&[String]>,
 ) -> Option<FxHashSet<EntityId>> {
+    let job = Job::of(drawing, outlines, settings);
     let holders = handles?
         .iter()
-        .filter_map(|handle| order::outline_of(drawing, outlines, handle).ok());
-    Some(
-        holders
-            .flat_map(|outline| {
-                outlines[outline]
-                    .contour
-                    .pieces
-                    .iter()
-                    .map(|piece| piece.entity)
-            })
-            .collect(),
-    )
+        .filter_map(|handle| job.outline_of(handle).ok());
+    let pieces = holders.flat_map(|outline| &outlines[outline].contour.pieces);
+    Some(pieces.map(|piece| piece.entity).collect())
 }
 
 /// What stands against a path along one contour under the settings' correction, as a finding: an error where there is none, a
@@ -297,7 +272,7 @@ pub(crate) fn misfit(
     settings: &Effective,
 ) -> Option<Finding> {
     let side = outline.wire_side()?.sign();
-    let job = Job::of(drawing, settings);
+    let job = Job::of(drawing, &[], settings);
     let correction = job.units(settings.correction);
     let contour = &outline.contour;
     let segment = |at: usize| contour.segment(drawing, at);

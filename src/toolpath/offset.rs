@@ -1,17 +1,13 @@
 //! The offset of one segment, with its source. Corners join them, see `corners`.
 
 use super::cores::{any, each};
-use super::path::Source;
+use super::path::{PathSegment, Source};
 use crate::drawing::ContourSegment;
 use crate::geometry::{Arc, Line, Point, Segment, Vector, left_normal};
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 /// A segment of a contour as it is cut: without gaps to its neighbours, in the direction of the cut.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Wall {
-    pub(crate) geometry: Segment,
-    pub(crate) source: Source,
-}
+pub(super) type Wall = PathSegment;
 
 /// Walls that one core takes at a time.
 const AT_A_TIME: usize = 2048;

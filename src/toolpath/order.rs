@@ -1,54 +1,15 @@
 //! Which contours are cut, in which direction, and where on them the cut begins.
 
 use super::containment::{Nesting, Places};
+use super::job::{Job, Pick};
 use super::path::{Refusal, WirePath};
-use crate::drawing::{Contour, Drawing, EntityId, Outline};
+use crate::drawing::{Contour, EntityId, Outline};
 use crate::geometry::Point;
 use crate::settings::{Direction, Order};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
 use std::collections::hash_map::Entry;
-
-/// The handle of a contour's first entity, which names the contour to the user.
-pub(super) fn name<'a>(drawing: &'a Drawing, outline: &Outline) -> &'a str {
-    outline.name(drawing)
-}
-
-/// The outline that is cut where the entity with `handle` lies: of a double, that of the entity in the same place.
-pub(super) fn outline_of(
-    drawing: &Drawing,
-    outlines: &[Outline],
-    handle: &str,
-) -> Result<usize, Refusal> {
-    let Some(id) = drawing.find(handle) else {
-        return Err(Refusal::Sentence(say!(
-            there_is_no_entity_with_the_handle,
-            handle
-        )));
-    };
-    let holds = |outline: &Outline, id: EntityId| {
-        let mut pieces = outline.contour.pieces.iter();
-        pieces.any(|piece| piece.entity == id)
-    };
-    let kept = outlines
-        .iter()
-        .find(|outline| holds(outline, id))
-        .map(|outline| outline.contour.double_of.unwrap_or(id));
-    let found = outlines
-        .iter()
-        .position(|outline| kept.is_some_and(|kept| holds(outline, kept)));
-    found.ok_or_else(|| Refusal::Sentence(say!(entity_belongs_to_no_contour_that_is_cut, handle)))
-}
-
-/// What the selection says of one contour.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Pick {
-    /// The entity that the cut begins with.
-    pub(crate) first: EntityId,
-    /// Whether the cut goes against the contour's own direction; `None` where the selection does not say.
-    pub(crate) turned: Option<bool>,
-}
 
 /// The outlines to cut, in machining order, and what the selection says of each.
 #[derive(Debug, Default, PartialEq)]
@@ -57,202 +18,221 @@ pub(super) struct Chosen {
     pub(crate) picks: FxHashMap<usize, Pick>,
 }
 
-/// Indices of the outlines to cut, in machining order: all as they are drawn, or those that hold one of `handles` as these select
-/// them, brought into the order that is asked for; `nearest` is for [`by_nearest`]. Those that are given `places` come first. What lies within a contour comes before it, because
-/// the part drops when the contour round it is cut. Doubles are no contours to cut. What is nowhere longer than `zero_length` (drawing units) is left out.
-pub(super) fn chosen(
-    drawing: &Drawing,
-    outlines: &[Outline],
-    handles: Option<&[String]>,
-    order: Order,
-    places: &Places,
-    zero_length: f64,
-) -> Result<Chosen, Refusal> {
-    let mut chosen: Vec<usize> = match handles {
-        None => (0..outlines.len())
-            .filter(|&index| outlines[index].contour.double_of.is_none())
-            .collect(),
-        Some(handles) => handles
-            .iter()
-            .map(|handle| outline_of(drawing, outlines, handle))
-            .collect::<Result<_, _>>()?,
-    };
-    let mut known = FxHashSet::default();
-    chosen.retain(|&index| known.insert(index));
-    chosen.retain(|&index| outlines[index].contour.has_length(drawing, zero_length));
-    if chosen.is_empty() {
-        return Err(Refusal::Sentence(say!(there_is_no_contour_to_cut).into()));
+impl Job<'_> {
+    /// The outline that is cut where the entity with `handle` lies: of a double, that of the entity in the same place.
+    pub(super) fn outline_of(&self, handle: &str) -> Result<usize, Refusal> {
+        let Some(id) = self.drawing.find(handle) else {
+            return Err(Refusal::Sentence(say!(
+                there_is_no_entity_with_the_handle,
+                handle
+            )));
+        };
+        let holds = |outline: &Outline, id: EntityId| {
+            let mut pieces = outline.contour.pieces.iter();
+            pieces.any(|piece| piece.entity == id)
+        };
+        let mut outlines = self.outlines.iter();
+        let kept = outlines
+            .find(|outline| holds(outline, id))
+            .map(|outline| outline.contour.double_of.unwrap_or(id));
+        let mut outlines = self.outlines.iter();
+        let found = outlines.position(|outline| kept.is_some_and(|kept| holds(outline, kept)));
+        found.ok_or_else(|| {
+            Refusal::Sentence(say!(entity_belongs_to_no_contour_that_is_cut, handle))
+        })
     }
-    let nested = Nesting::new(drawing, outlines, &chosen);
-    let mut in_order = match order {
-        Order::AsDrawn | Order::AsPicked | Order::Nearest => nested.just_before(),
-        Order::InsideFirst => nested.inside_first(),
-    };
-    if order != Order::AsPicked && !places.is_empty() {
-        let turns = nested.turns(&chosen, places);
-        in_order.sort_by_key(|&place| turns[place]);
-    }
-    let outlines_in_order = in_order.into_iter().map(|place| chosen[place]).collect();
-    let picks = if order == Order::AsPicked {
-        picks(drawing, outlines, handles.unwrap_or_default())
-    } else {
-        FxHashMap::default()
-    };
-    Ok(Chosen {
-        outlines: outlines_in_order,
-        picks,
-    })
-}
 
-/// What the handles say of contours of more than one entity: the cut begins with the first, and goes on to the second the shorter way.
-fn picks(drawing: &Drawing, outlines: &[Outline], handles: &[String]) -> FxHashMap<usize, Pick> {
-    let mut picks: FxHashMap<usize, Pick> = FxHashMap::default();
-    let mut first_places: FxHashMap<usize, usize> = FxHashMap::default();
-    for handle in handles {
-        let (Some(id), Ok(index)) = (drawing.find(handle), outline_of(drawing, outlines, handle))
-        else {
-            continue;
+    /// Indices of the outlines to cut, in machining order: all as they are drawn, or those that hold one of `handles` as these select
+    /// them, brought into the `order`; the nearest is for [`Job::by_nearest`]. Those that are given `places` come first. What lies within a contour comes before it, because
+    /// the part drops when the contour round it is cut. Doubles are no contours to cut, and neither is what has no length.
+    pub(super) fn chosen(
+        &self,
+        handles: Option<&[String]>,
+        order: Order,
+        places: &Places,
+    ) -> Result<Chosen, Refusal> {
+        let (drawing, outlines) = (self.drawing, self.outlines);
+        let mut chosen: Vec<usize> = match handles {
+            None => (0..outlines.len())
+                .filter(|&index| outlines[index].contour.double_of.is_none())
+                .collect(),
+            Some(handles) => handles
+                .iter()
+                .map(|handle| self.outline_of(handle))
+                .collect::<Result<_, _>>()?,
         };
-        let contour = &outlines[index].contour;
-        let count = contour.pieces.len();
-        let Some(place) = contour
-            .pieces
-            .iter()
-            .position(|piece| piece.entity == id)
-            .filter(|_| count > 1)
-        else {
-            continue;
-        };
-        match first_places.entry(index) {
-            Entry::Vacant(entry) => {
-                entry.insert(place);
-                picks.insert(
-                    index,
-                    Pick {
-                        first: id,
-                        turned: None,
-                    },
-                );
-            }
-            Entry::Occupied(entry) => {
-                let Some(pick) = picks
-                    .get_mut(&index)
-                    .filter(|pick| pick.turned.is_none() && pick.first != id)
-                else {
-                    continue;
-                };
-                let first = *entry.get();
-                let (onward, back) = (
-                    (place + count - first) % count,
-                    (first + count - place) % count,
-                );
-                pick.turned = match (contour.closed, onward.cmp(&back)) {
-                    (false, _) => Some(place < first),
-                    (true, Ordering::Less) => Some(false),
-                    (true, Ordering::Greater) => Some(true),
-                    (true, Ordering::Equal) => None,
-                };
-            }
+        let zero_length = self.units(self.settings.tolerances.zero_length);
+        let mut known = FxHashSet::default();
+        chosen.retain(|&index| known.insert(index));
+        chosen.retain(|&index| outlines[index].contour.has_length(drawing, zero_length));
+        if chosen.is_empty() {
+            return Err(Refusal::Sentence(say!(there_is_no_contour_to_cut).into()));
         }
-    }
-    picks
-}
-
-/// Brings paths into an order in which each is followed by the one that begins nearest to where it
-/// ends, among those within which nothing is left to cut. The first one that may be cut begins.
-pub(super) fn by_nearest(
-    drawing: &Drawing,
-    outlines: &[Outline],
-    paths: Vec<WirePath>,
-    places: &Places,
-) -> Vec<WirePath> {
-    // The paths of a contour stay together.
-    let (mut firsts, mut lasts): (Vec<usize>, Vec<usize>) = (Vec::new(), Vec::new());
-    for (index, path) in paths.iter().enumerate() {
-        if index > 0 && paths[index - 1].outline == path.outline {
-            lasts.pop();
+        let nested = Nesting::new(drawing, outlines, &chosen);
+        let mut in_order = match order {
+            Order::AsDrawn | Order::AsPicked | Order::Nearest => nested.just_before(),
+            Order::InsideFirst => nested.inside_first(),
+        };
+        if order != Order::AsPicked && !places.is_empty() {
+            let turns = nested.turns(&chosen, places);
+            in_order.sort_by_key(|&place| turns[place]);
+        }
+        let outlines_in_order = in_order.into_iter().map(|place| chosen[place]).collect();
+        let picks = if order == Order::AsPicked {
+            self.picked(handles.unwrap_or_default())
         } else {
-            firsts.push(index);
-        }
-        lasts.push(index);
+            FxHashMap::default()
+        };
+        Ok(Chosen {
+            outlines: outlines_in_order,
+            picks,
+        })
     }
-    let chosen: Vec<usize> = firsts.iter().map(|&index| paths[index].outline).collect();
-    let nesting = Nesting::new(drawing, outlines, &chosen);
-    let turns = nesting.turns(&chosen, places);
-    let mut within = vec![0_usize; chosen.len()];
-    nesting
-        .around
-        .iter()
-        .flatten()
-        .for_each(|&outer| within[outer] += 1);
-    let begins: Vec<Point> = firsts.iter().map(|&index| paths[index].begin()).collect();
-    // What may be cut, from left to right.
-    let key = |place: usize| (OrderedX(begins[place].x), place);
-    let mut free: BTreeSet<(OrderedX, usize)> = (0..chosen.len())
-        .filter(|&place| within[place] == 0)
-        .map(key)
-        .collect();
-    let mut order = Vec::with_capacity(chosen.len());
-    let first_of = |free: &BTreeSet<(OrderedX, usize)>| {
-        let places = free.iter().map(|(_, place)| *place);
-        places.min_by_key(|&place| (turns[place], place))
-    };
-    let mut next = first_of(&free);
-    while let Some(place) = next {
-        free.remove(&key(place));
-        order.push(place);
-        for &outer in &nesting.around[place] {
-            within[outer] -= 1;
-            if within[outer] == 0 {
-                free.insert(key(outer));
+
+    /// What the handles say of contours of more than one entity: the cut begins with the first, and goes on to the second the shorter way.
+    fn picked(&self, handles: &[String]) -> FxHashMap<usize, Pick> {
+        let mut picks: FxHashMap<usize, Pick> = FxHashMap::default();
+        let mut first_places: FxHashMap<usize, usize> = FxHashMap::default();
+        for handle in handles {
+            let (Some(id), Ok(index)) = (self.drawing.find(handle), self.outline_of(handle)) else {
+                continue;
+            };
+            let contour = &self.outlines[index].contour;
+            let count = contour.pieces.len();
+            let Some(place) = contour
+                .pieces
+                .iter()
+                .position(|piece| piece.entity == id)
+                .filter(|_| count > 1)
+            else {
+                continue;
+            };
+            match first_places.entry(index) {
+                Entry::Vacant(entry) => {
+                    entry.insert(place);
+                    picks.insert(
+                        index,
+                        Pick {
+                            first: id,
+                            turned: None,
+                        },
+                    );
+                }
+                Entry::Occupied(entry) => {
+                    let Some(pick) = picks
+                        .get_mut(&index)
+                        .filter(|pick| pick.turned.is_none() && pick.first != id)
+                    else {
+                        continue;
+                    };
+                    let first = *entry.get();
+                    let (onward, back) = (
+                        (place + count - first) % count,
+                        (first + count - place) % count,
+                    );
+                    pick.turned = match (contour.closed, onward.cmp(&back)) {
+                        (false, _) => Some(place < first),
+                        (true, Ordering::Less) => Some(false),
+                        (true, Ordering::Greater) => Some(true),
+                        (true, Ordering::Equal) => None,
+                    };
+                }
             }
         }
-        if !places.is_empty()
-            && let Some(given) = first_of(&free).filter(|&next| turns[next] != u32::MAX)
-        {
-            next = Some(given);
-            continue;
-        }
-        let here = paths[lasts[place]].end();
-        let mut best: Option<(f64, usize)> = None;
-        let middle = (OrderedX(here.x), 0);
-        let (mut left, mut right) = (
-            free.range(..middle).rev().peekable(),
-            free.range(middle..).peekable(),
-        );
-        // Both ways from here, until what comes is further off by its x alone.
-        loop {
-            let reach = best.map_or(f64::INFINITY, |(distance, _)| distance);
-            let nearer = |at: Option<&&(OrderedX, usize)>| {
-                at.map(|(x, _)| (x.0 - here.x).abs())
-                    .filter(|away| *away <= reach)
-            };
-            let found = match (nearer(left.peek()), nearer(right.peek())) {
-                (None, None) => break,
-                (Some(a), Some(b)) if a <= b => left.next(),
-                (Some(_), None) => left.next(),
-                (_, Some(_)) => right.next(),
-            };
-            let Some(&(_, other)) = found else { break };
-            let candidate = ((begins[other] - here).norm(), other);
-            if best.is_none_or(|best| {
-                candidate
-                    .0
-                    .total_cmp(&best.0)
-                    .then(candidate.1.cmp(&best.1))
-                    .is_lt()
-            }) {
-                best = Some(candidate);
-            }
-        }
-        next = best.map(|(_, other)| other);
+        picks
     }
-    let mut paths: Vec<Option<WirePath>> = paths.into_iter().map(Some).collect();
-    order
-        .into_iter()
-        .flat_map(|place| firsts[place]..=lasts[place])
-        .filter_map(|index| paths[index].take())
-        .collect()
+
+    /// Brings paths into an order in which each is followed by the one that begins nearest to where it
+    /// ends, among those within which nothing is left to cut. The first one that may be cut begins.
+    pub(super) fn by_nearest(&self, paths: Vec<WirePath>, places: &Places) -> Vec<WirePath> {
+        // The paths of a contour stay together.
+        let (mut firsts, mut lasts): (Vec<usize>, Vec<usize>) = (Vec::new(), Vec::new());
+        for (index, path) in paths.iter().enumerate() {
+            if index > 0 && paths[index - 1].outline == path.outline {
+                lasts.pop();
+            } else {
+                firsts.push(index);
+            }
+            lasts.push(index);
+        }
+        let chosen: Vec<usize> = firsts.iter().map(|&index| paths[index].outline).collect();
+        let nesting = Nesting::new(self.drawing, self.outlines, &chosen);
+        let turns = nesting.turns(&chosen, places);
+        let mut within = vec![0_usize; chosen.len()];
+        nesting
+            .around
+            .iter()
+            .flatten()
+            .for_each(|&outer| within[outer] += 1);
+        let begins: Vec<Point> = firsts.iter().map(|&index| paths[index].begin()).collect();
+        // What may be cut, from left to right.
+        let key = |place: usize| (OrderedX(begins[place].x), place);
+        let mut free: BTreeSet<(OrderedX, usize)> = (0..chosen.len())
+            .filter(|&place| within[place] == 0)
+            .map(key)
+            .collect();
+        let mut order = Vec::with_capacity(chosen.len());
+        let first_of = |free: &BTreeSet<(OrderedX, usize)>| {
+            let places = free.iter().map(|(_, place)| *place);
+            places.min_by_key(|&place| (turns[place], place))
+        };
+        let mut next = first_of(&free);
+        while let Some(place) = next {
+            free.remove(&key(place));
+            order.push(place);
+            for &outer in &nesting.around[place] {
+                within[outer] -= 1;
+                if within[outer] == 0 {
+                    free.insert(key(outer));
+                }
+            }
+            if !places.is_empty()
+                && let Some(given) = first_of(&free).filter(|&next| turns[next] != u32::MAX)
+            {
+                next = Some(given);
+                continue;
+            }
+            let here = paths[lasts[place]].end();
+            let mut best: Option<(f64, usize)> = None;
+            let middle = (OrderedX(here.x), 0);
+            let (mut left, mut right) = (
+                free.range(..middle).rev().peekable(),
+                free.range(middle..).peekable(),
+            );
+            // Both ways from here, until what comes is further off by its x alone.
+            loop {
+                let reach = best.map_or(f64::INFINITY, |(distance, _)| distance);
+                let nearer = |at: Option<&&(OrderedX, usize)>| {
+                    at.map(|(x, _)| (x.0 - here.x).abs())
+                        .filter(|away| *away <= reach)
+                };
+                let found = match (nearer(left.peek()), nearer(right.peek())) {
+                    (None, None) => break,
+                    (Some(a), Some(b)) if a <= b => left.next(),
+                    (Some(_), None) => left.next(),
+                    (_, Some(_)) => right.next(),
+                };
+                let Some(&(_, other)) = found else { break };
+                let candidate = ((begins[other] - here).norm(), other);
+                if best.is_none_or(|best| {
+                    candidate
+                        .0
+                        .total_cmp(&best.0)
+                        .then(candidate.1.cmp(&best.1))
+                        .is_lt()
+                }) {
+                    best = Some(candidate);
+                }
+            }
+            next = best.map(|(_, other)| other);
+        }
+        let mut paths: Vec<Option<WirePath>> = paths.into_iter().map(Some).collect();
+        order
+            .into_iter()
+            .flat_map(|place| firsts[place]..=lasts[place])
+            .filter_map(|index| paths[index].take())
+            .collect()
+    }
 }
 
 /// A coordinate that can be sorted by.
@@ -300,7 +280,7 @@ pub(super) fn directed(
 mod tests {
     use super::*;
     use crate::analysis::Analysis;
-    use crate::drawing::{Entity, Geometry};
+    use crate::drawing::{Drawing, Entity, Geometry};
     use crate::settings::Effective;
     use std::sync::Arc as Shared;
 
@@ -329,8 +309,10 @@ mod tests {
     /// Circles by centre on the x axis and radius: the order in which they are cut.
     fn check(circles: &[(f64, f64)], expected: &[usize]) {
         let (drawing, outlines) = drawn(circles);
+        let settings = Effective::default();
+        let job = Job::of(&drawing, &outlines, &settings);
         let ordered = |order| {
-            chosen(&drawing, &outlines, None, order, &Places::default(), 1e-9)
+            job.chosen(None, order, &Places::default())
                 .map(|chosen| chosen.outlines)
         };
         assert_eq!(
@@ -364,8 +346,10 @@ mod tests {
             (20.0, 5.0),
         ];
         let (drawing, outlines) = drawn(&circles);
+        let settings = Effective::default();
+        let job = Job::of(&drawing, &outlines, &settings);
         let ordered = |order| {
-            chosen(&drawing, &outlines, None, order, &Places::default(), 1e-9)
+            job.chosen(None, order, &Places::default())
                 .map(|chosen| chosen.outlines)
         };
         assert_eq!(ordered(Order::AsDrawn), Ok(vec![0, 1, 3, 2, 4]));
@@ -399,6 +383,8 @@ mod tests {
             (-1.0, 0.5),
         ];
         let (drawing, outlines) = drawn(&circles);
+        let settings = Effective::default();
+        let job = Job::of(&drawing, &outlines, &settings);
         for (places, expected) in [
             (vec![], [1, 4, 0, 2, 3]),
             (vec![(3, 1)], [3, 1, 4, 0, 2]),
@@ -409,7 +395,7 @@ mod tests {
         ] {
             let places: Places = places.into_iter().collect();
             for order in [Order::AsDrawn, Order::InsideFirst] {
-                let found = chosen(&drawing, &outlines, None, order, &places, 1e-9).unwrap();
+                let found = job.chosen(None, order, &places).unwrap();
                 assert_eq!(found.outlines, expected, "{order:?} {places:?}");
             }
         }

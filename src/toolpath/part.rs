@@ -4,7 +4,7 @@
 //! turns in a point the wire leaves its own radius: such an edge remembers the point.
 
 use super::clearance::Walls;
-use super::contour_path::{Along, Known, Laid};
+use super::contour_path::{Along, Fault, Known, Laid};
 use super::corners::{Element, elements};
 use super::job::Job;
 use super::offset::{Wall, walls};
@@ -206,15 +206,11 @@ pub(crate) fn part(
         ..Known::default()
     };
     let outline = match job.laid_within(&beside, &near_path, back, known)? {
-        Ok(Laid::Path(outline)) => outline,
-        Ok(Laid::Point(_)) => {
-            let fault = super::contour_path::Fault::Nothing;
-            return Err(Refusal::Findings(vec![job.no_path(&fault, &beside, half)]));
-        }
-        Err(fault) => {
-            return Err(Refusal::Findings(vec![job.no_path(&fault, &beside, half)]));
-        }
+        Ok(Laid::Path(outline)) => Ok(outline),
+        Ok(Laid::Point(_)) => Err(Fault::Nothing),
+        Err(fault) => Err(fault),
     };
+    let outline = outline.map_err(|fault| job.no_path(&fault, &beside, half))?;
     let is_by_neighbours = [is_path_by_neighbours, !job.searched.load(Relaxed)];
     let rounding = job.units(super::job::ROUNDING);
     let edge = |element: &Element| {
@@ -269,7 +265,7 @@ impl<'a> Cut<'a> {
         let job = Job {
             a_loop_will_do: true,
             goes_on,
-            ..Job::of(drawing, settings)
+            ..Job::of(drawing, &[], settings)
         };
         let passes = settings.each_correction();
         let half = settings.half_kerf(passes.len() - 1);
@@ -306,6 +302,19 @@ struct Last {
     swing: f64,
 }
 
+impl Last {
+    /// One that has not been proved, and turns where the first pass does.
+    fn of(walls: Vec<Wall>, own: Option<Walls>, path: Vec<Element>) -> Last {
+        Last {
+            walls,
+            own,
+            path,
+            is_proved: false,
+            swing: 0.0,
+        }
+    }
+}
+
 /// The segments of a closed contour in the direction of travel.
 #[derive(Clone, Copy)]
 struct Segments<'a> {
@@ -326,13 +335,7 @@ impl Cut<'_> {
         if last.correction.abs() <= rounding && !is_beside_rough {
             let walls = job.closed_walls(contour);
             let path = elements(&walls);
-            return Ok(Last {
-                walls,
-                own: None,
-                path,
-                is_proved: false,
-                swing: 0.0,
-            });
+            return Ok(Last::of(walls, None, path));
         }
         let is_plain = !is_beside_rough && last.corner == Corner::Arc;
         if let Some(before) = before.filter(|_| is_plain)
@@ -368,11 +371,9 @@ impl Cut<'_> {
         let own = Some(own);
         match laid {
             Ok(Laid::Path(path)) => Ok(Last {
-                walls,
-                own,
-                path,
                 is_proved: is_plain,
                 swing: if is_beside_rough { swing } else { 0.0 },
+                ..Last::of(walls, own, path)
             }),
             Ok(Laid::Point(stand)) => {
                 let element = Element {
@@ -380,18 +381,9 @@ impl Cut<'_> {
                     source: Source::Tab,
                     wall: 0,
                 };
-                Ok(Last {
-                    walls,
-                    own,
-                    path: vec![element],
-                    is_proved: false,
-                    swing: 0.0,
-                })
+                Ok(Last::of(walls, own, vec![element]))
             }
-            Err(fault) => {
-                let finding = job.no_path(&fault, &walls, first.correction);
-                Err(Refusal::Findings(vec![finding]))
-            }
+            Err(fault) => Err(job.no_path(&fault, &walls, first.correction).into()),
         }
     }
 }
@@ -428,11 +420,8 @@ impl Job<'_> {
         };
         Ok(match self.laid_within(&walls, &own, along, known)? {
             Ok(Laid::Path(path)) => Some(Last {
-                walls,
-                own: Some(own),
-                path,
                 is_proved: true,
-                swing: 0.0,
+                ..Last::of(walls, Some(own), path)
             }),
             _ => None,
         })

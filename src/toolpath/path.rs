@@ -78,6 +78,21 @@ pub struct WirePath {
 }
 
 impl WirePath {
+    /// The first pass along some pieces, which are the wire's own path.
+    pub fn along(thread_hole: Point, segments: Vec<PathSegment>) -> WirePath {
+        WirePath {
+            outline: 0,
+            pass: 1,
+            counter_clockwise: None,
+            cut_off: false,
+            is_way_back: false,
+            correction: 0.0,
+            thread_hole,
+            side: None,
+            segments,
+        }
+    }
+
     /// The distance of the wire's centre from the contour, mm: where the control offsets, by how much it has to.
     pub(crate) fn offset(&self, settings: &Effective, unit_mm: f64) -> f64 {
         let of_passes = settings.each_correction();
@@ -136,4 +151,10 @@ pub enum Refusal {
     Findings(Vec<Finding>),
     /// The caller cancelled.
     Cancelled,
+}
+
+impl From<Finding> for Refusal {
+    fn from(finding: Finding) -> Refusal {
+        Refusal::Findings(vec![finding])
+    }
 }

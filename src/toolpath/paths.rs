@@ -12,7 +12,7 @@ use super::job::{Job, ROUNDING};
 use super::lead_form::Landing;
 use super::leads::{Contours, Kerfs, fault};
 use super::offset::Wall;
-use super::order::{directed, name};
+use super::order::directed;
 use super::path::{Refusal, Source, WirePath};
 use super::requested::Requested;
 use super::rotated::Rotated;
@@ -87,7 +87,7 @@ impl Job<'_> {
             if let Some(lead) = lead
                 && let Some(wall) = self.crossed(&lead, contours, Some(index))
             {
-                let crossed = name(self.drawing, &self.outlines[contours.outline_of(wall)]);
+                let crossed = self.name(contours.outline_of(wall));
                 let (from, to) = (lead.start(), lead.end());
                 let sentence = say!(
                     the_lead_in_cuts_through_contour,
@@ -202,7 +202,8 @@ impl Job<'_> {
             && self.hole_reach().is_some()
             && self.has_waste_inside(index)
             && self.outlines[index].contour.closed;
-        let deepest = || Some(self.deepest(index, contours, f64::INFINITY)?.0);
+        let alone = Holes::default();
+        let deepest = || Some(self.deepest(index, contours, f64::INFINITY, &alone)?.0);
         Requested {
             proposed: if is_proposed { deepest() } else { None },
             ..wanted
@@ -267,7 +268,7 @@ impl Job<'_> {
                 from.y,
                 to.x,
                 to.y,
-                name(self.drawing, &self.outlines[contours.outline_of(wall)])
+                self.name(contours.outline_of(wall))
             );
             let source = next
                 .segments
@@ -309,7 +310,7 @@ impl Job<'_> {
         let (to_first, to_last) = ((begin - first).norm(), (begin - last).norm());
         let join = self.units(self.settings.tolerances.join);
         if wanted.entry.is_some() && to_first.min(to_last) > join {
-            let handle = name(self.drawing, &self.outlines[index]);
+            let handle = self.name(index);
             return Err(Refusal::Sentence(say!(
                 contour_is_open_and_cannot_be_entered_at,
                 handle,
@@ -325,11 +326,9 @@ impl Job<'_> {
 
     /// The contour itself as the wire's path.
     fn as_drawn(&self, index: usize, wanted: &Requested) -> Result<WirePath, Refusal> {
-        let outline = &self.outlines[index];
         let (contour, _) = self.towards(index, wanted)?;
         let walls = self.walls(&contour);
-        let handle = name(self.drawing, outline);
-        let empty = || Refusal::Sentence(say!(contour_has_no_length, handle));
+        let empty = || Refusal::Sentence(say!(contour_has_no_length, self.name(index)));
         let path = if contour.closed {
             let path = elements(&walls);
             match self.entry(index, &walls, wanted)? {
@@ -350,7 +349,7 @@ impl Job<'_> {
     /// The offsets of a contour, one for each pass.
     fn compensated(&self, index: usize, wanted: &Requested) -> Result<Unled, Refusal> {
         let (outline, settings) = (&self.outlines[index], self.settings);
-        let handle = name(self.drawing, outline);
+        let handle = self.name(index);
         let closed = outline.contour.closed;
         let Some(own_side) = outline.wire_side() else {
             return Err(Refusal::Sentence(match closed {
@@ -416,17 +415,14 @@ impl Job<'_> {
                     });
                     continue;
                 }
-                Err(fault) => {
-                    let finding = self.no_path(&fault, &walls, correction.abs());
-                    return Err(Refusal::Findings(vec![finding]));
-                }
+                Err(fault) => return Err(self.no_path(&fault, &walls, correction.abs()).into()),
             };
             let Some(at) = entry else {
                 return Err(Refusal::Sentence(say!(contour_has_no_length, handle)));
             };
             let (element, begin) = begin.ok_or_else(|| {
                 let fault = Fault::Unproved { wall: at.wall };
-                Refusal::Findings(vec![self.no_path(&fault, &walls, correction.abs())])
+                self.no_path(&fault, &walls, correction.abs())
             })?;
             passes.push(Pass {
                 correction,
@@ -471,7 +467,7 @@ impl Job<'_> {
         else {
             return Err(Refusal::Sentence(say!(
                 contour_has_no_length,
-                name(self.drawing, outline)
+                self.name(index)
             )));
         };
         let path = Rotated::at(elements(&walls), entry.wall, entry.point);

@@ -1,11 +1,11 @@
 //! The requested thread hole and entry of a contour: from the settings, and from the marks in the drawing.
 
 use super::containment::Places;
-use super::order::outline_of;
+use super::job::Job;
 use super::path::Refusal;
-use crate::drawing::{Drawing, Geometry, Outline, Role, winding};
+use crate::drawing::{Geometry, Outline, Role, winding};
 use crate::geometry::Point;
-use crate::settings::{Compensation, ContourSettings, Effective, NEAR, PointSetting, point_of};
+use crate::settings::{Compensation, ContourSettings, NEAR, PointSetting, point_of};
 use rustc_hash::FxHashMap;
 
 /// What settings and start marks give for one contour, in drawing units.
@@ -19,106 +19,151 @@ pub(super) struct Requested {
     pub(crate) proposed: Option<Point>,
 }
 
-/// Thread hole and entry of each of the `chosen` outlines, from the settings, then from the marks.
-pub(super) fn wanted(
-    drawing: &Drawing,
-    outlines: &[Outline],
-    chosen: &[usize],
-    settings: &Effective,
-) -> Result<Vec<Requested>, Refusal> {
-    let given = |setting, name| points(drawing, outlines, chosen, setting, name);
-    let threads = given(settings.thread.as_ref(), say!(thread_hole))?;
-    let entries = given(settings.entry.as_ref(), say!(entry))?;
-    let said = own(drawing, outlines, settings);
-    let marks = marks(drawing, outlines, usize::MAX).unwrap_or_default();
-    let wanted =
-        chosen
-            .iter()
-            .zip(threads.into_iter().zip(entries))
-            .map(|(&index, (thread, entry))| {
-                let own = said.get(&index);
-                let thread = own.and_then(|own| own.thread).map(Point::from).or(thread);
-                let entry = own.and_then(|own| own.entry).map(Point::from).or(entry);
-                let mark = own_mark(&marks, index);
-                let is_entry =
-                    |mark: &&Mark| means_entry(drawing, &outlines[index], mark, settings);
-                let beside = mark.filter(is_entry).map(|mark| mark.at);
-                Requested {
-                    thread: thread.or(if beside.is_some() {
-                        None
-                    } else {
-                        mark.map(|mark| mark.at)
-                    }),
-                    entry,
-                    beside,
-                    proposed: None,
+impl<'a> Job<'a> {
+    /// Thread hole and entry of each of the `chosen` outlines, from the settings, then from the marks.
+    pub(super) fn wanted(&self, chosen: &[usize]) -> Result<Vec<Requested>, Refusal> {
+        let settings = self.settings;
+        let threads = self.points(chosen, settings.thread.as_ref(), say!(thread_hole))?;
+        let entries = self.points(chosen, settings.entry.as_ref(), say!(entry))?;
+        let said = self.own();
+        let marks = self.marks(usize::MAX).unwrap_or_default();
+        let points = threads.into_iter().zip(entries);
+        let wanted = chosen.iter().zip(points).map(|(index, (thread, entry))| {
+            let own = said.get(index);
+            let thread = own.and_then(|own| own.thread).map(Point::from).or(thread);
+            let entry = own.and_then(|own| own.entry).map(Point::from).or(entry);
+            let mark = own_mark(&marks, *index);
+            let is_entry = |mark: &&Mark| self.means_entry(mark);
+            let beside = mark.filter(is_entry).map(|mark| mark.at);
+            Requested {
+                thread: thread.or(if beside.is_some() {
+                    None
+                } else {
+                    mark.map(|mark| mark.at)
+                }),
+                entry,
+                beside,
+                proposed: None,
+            }
+        });
+        Ok(wanted.collect())
+    }
+
+    /// The settings of single outlines of this drawing, by their index. One that names no outline has a finding of its own.
+    fn own(&self) -> FxHashMap<usize, &'a ContourSettings> {
+        let said = self.settings.own.iter();
+        said.filter_map(|(key, said)| Some((self.key_outline(key)?, said)))
+            .collect()
+    }
+
+    /// The outline that a key names, by a handle or by a point on it.
+    pub(super) fn key_outline(&self, key: &str) -> Option<usize> {
+        let near = self.units(NEAR);
+        let through = |at: Point| {
+            let runs_there = |outline: &Outline| {
+                outline.contour.double_of.is_none()
+                    && outline
+                        .contour
+                        .segments(self.drawing)
+                        .any(|segment| segment.geometry.distance_to(at) <= near)
+            };
+            self.outlines.iter().position(runs_there)
+        };
+        match point_of(key) {
+            Some(at) => through(at),
+            None => self.outline_of(key).ok(),
+        }
+    }
+
+    /// The places in the order that the settings give to single outlines.
+    pub(super) fn places(&self) -> Places {
+        let said = self.own().into_iter();
+        said.filter_map(|(index, own)| Some((index, own.order?)))
+            .collect()
+    }
+
+    /// A mark within the correction of its contour, or on the part's side of it, is the entry: no wire can be threaded
+    /// there. Where the side is not known, or the contour is the wire's own path, it is the thread hole.
+    pub(super) fn means_entry(&self, mark: &Mark) -> bool {
+        let (settings, outline) = (self.settings, &self.outlines[mark.outline]);
+        if settings.compensation == Compensation::None
+            || !outline.contour.closed
+            || !matches!(outline.role, Role::Opening | Role::Punch)
+        {
+            return false;
+        }
+        let is_inside = winding(self.drawing, &outline.contour, mark.at) != 0;
+        mark.distance * self.unit_mm <= settings.correction
+            || is_inside != settings.has_waste_inside(outline.role)
+    }
+
+    fn points(
+        &self,
+        chosen: &[usize],
+        setting: Option<&PointSetting>,
+        what: &str,
+    ) -> Result<Vec<Option<Point>>, Refusal> {
+        let mut points = vec![None; chosen.len()];
+        match setting {
+            None => {}
+            Some(PointSetting::One(at)) => match &mut points[..] {
+                [only] => *only = Some(Point::from(*at)),
+                several => {
+                    let count = several.len();
+                    return Err(Refusal::Sentence(say!(
+                        one_is_given_for_several_contours,
+                        what,
+                        count
+                    )));
                 }
-            });
-    Ok(wanted.collect())
-}
+            },
+            Some(PointSetting::ByHandle(table)) => {
+                for (handle, at) in table {
+                    let outline = self.outline_of(handle)?;
+                    if let Some(place) = chosen.iter().position(|&index| index == outline) {
+                        points[place] = Some(Point::from(*at));
+                    }
+                }
+            }
+        }
+        Ok(points)
+    }
 
-/// The settings of single outlines of this drawing, by their index. One that names no outline has a finding of its own.
-pub(super) fn own<'a>(
-    drawing: &Drawing,
-    outlines: &[Outline],
-    settings: &'a Effective,
-) -> FxHashMap<usize, &'a ContourSettings> {
-    let said = settings.own.iter();
-    said.filter_map(|(key, said)| Some((key_outline(drawing, outlines, settings, key)?, said)))
-        .collect()
-}
-
-/// The outline that a key names, by a handle or by a point on it.
-pub(super) fn key_outline(
-    drawing: &Drawing,
-    outlines: &[Outline],
-    settings: &Effective,
-    key: &str,
-) -> Option<usize> {
-    let near = NEAR / settings.unit_of(drawing).mm;
-    let through = |at: Point| {
-        let runs_there = |outline: &Outline| {
-            outline.contour.double_of.is_none()
-                && outline
+    /// Every text "O", with the contour that it marks; `None` where there are more than `most`.
+    pub(super) fn marks(&self, most: usize) -> Option<Vec<Mark>> {
+        let drawing = self.drawing;
+        let seen = drawing
+            .entities()
+            .filter(|(id, _)| drawing.visibility(*id).is_seen());
+        let texts = seen.filter_map(|(_, entity)| match &entity.geometry {
+            Geometry::Text { at, text } if text.trim().eq_ignore_ascii_case("o") => Some(*at),
+            _ => None,
+        });
+        let texts: Vec<Point> = texts.collect();
+        if texts.len() > most {
+            return None;
+        }
+        let marks = texts.into_iter().filter_map(|at| {
+            let distance = |outline: &Outline| {
+                outline
                     .contour
                     .segments(drawing)
-                    .any(|segment| segment.geometry.distance_to(at) <= near)
-        };
-        outlines.iter().position(runs_there)
-    };
-    match point_of(key) {
-        Some(at) => through(at),
-        None => outline_of(drawing, outlines, key).ok(),
+                    .map(|s| s.geometry.distance_to(at))
+                    .fold(f64::INFINITY, f64::min)
+            };
+            let outlines = self.outlines.iter().enumerate();
+            let nearest = outlines
+                .filter(|(_, outline)| outline.contour.double_of.is_none())
+                .map(|(index, outline)| (index, distance(outline)))
+                .min_by(|a, b| a.1.total_cmp(&b.1));
+            nearest.map(|(outline, distance)| Mark {
+                at,
+                outline,
+                distance,
+            })
+        });
+        Some(marks.collect())
     }
-}
-
-/// The places in the order that the settings give to single outlines.
-pub(super) fn places(drawing: &Drawing, outlines: &[Outline], settings: &Effective) -> Places {
-    if settings.own.is_empty() {
-        return Places::default();
-    }
-    let said = own(drawing, outlines, settings).into_iter();
-    said.filter_map(|(index, own)| Some((index, own.order?)))
-        .collect()
-}
-
-/// A mark within the correction of its contour, or on the part's side of it, is the entry: no wire can be threaded
-/// there. Where the side is not known, or the contour is the wire's own path, it is the thread hole.
-pub(super) fn means_entry(
-    drawing: &Drawing,
-    outline: &Outline,
-    mark: &Mark,
-    settings: &Effective,
-) -> bool {
-    if settings.compensation == Compensation::None
-        || !outline.contour.closed
-        || !matches!(outline.role, Role::Opening | Role::Punch)
-    {
-        return false;
-    }
-    let is_inside = winding(drawing, &outline.contour, mark.at) != 0;
-    mark.distance * settings.unit_of(drawing).mm <= settings.correction
-        || is_inside != settings.has_waste_inside(outline.role)
 }
 
 /// The mark of one outline: the nearest of several.
@@ -131,78 +176,9 @@ fn own_mark(marks: &[Mark], outline: usize) -> Option<&Mark> {
     own.min_by(|a, b| a.distance.total_cmp(&b.distance))
 }
 
-fn points(
-    drawing: &Drawing,
-    outlines: &[Outline],
-    chosen: &[usize],
-    setting: Option<&PointSetting>,
-    what: &str,
-) -> Result<Vec<Option<Point>>, Refusal> {
-    let mut points = vec![None; chosen.len()];
-    match setting {
-        None => {}
-        Some(PointSetting::One(at)) => match &mut points[..] {
-            [only] => *only = Some(Point::from(*at)),
-            several => {
-                let count = several.len();
-                return Err(Refusal::Sentence(say!(
-                    one_is_given_for_several_contours,
-                    what,
-                    count
-                )));
-            }
-        },
-        Some(PointSetting::ByHandle(table)) => {
-            for (handle, at) in table {
-                let outline = outline_of(drawing, outlines, handle)?;
-                if let Some(place) = chosen.iter().position(|&index| index == outline) {
-                    points[place] = Some(Point::from(*at));
-                }
-            }
-        }
-    }
-    Ok(points)
-}
-
 pub(super) struct Mark {
     pub(super) at: Point,
     /// The outline nearest to it.
     pub(super) outline: usize,
     pub(super) distance: f64,
-}
-
-/// Every text "O", with the contour that it marks; `None` where there are more than `most`.
-pub(super) fn marks(drawing: &Drawing, outlines: &[Outline], most: usize) -> Option<Vec<Mark>> {
-    let seen = drawing
-        .entities()
-        .filter(|(id, _)| drawing.visibility(*id).is_seen());
-    let texts = seen.filter_map(|(_, entity)| match &entity.geometry {
-        Geometry::Text { at, text } if text.trim().eq_ignore_ascii_case("o") => Some(*at),
-        _ => None,
-    });
-    let texts: Vec<Point> = texts.collect();
-    if texts.len() > most {
-        return None;
-    }
-    let marks = texts.into_iter().filter_map(|at| {
-        let distance = |outline: &Outline| {
-            outline
-                .contour
-                .segments(drawing)
-                .map(|s| s.geometry.distance_to(at))
-                .fold(f64::INFINITY, f64::min)
-        };
-        let nearest = outlines
-            .iter()
-            .enumerate()
-            .filter(|(_, outline)| outline.contour.double_of.is_none())
-            .map(|(index, outline)| (index, distance(outline)))
-            .min_by(|a, b| a.1.total_cmp(&b.1));
-        nearest.map(|(outline, distance)| Mark {
-            at,
-            outline,
-            distance,
-        })
-    });
-    Some(marks.collect())
 }

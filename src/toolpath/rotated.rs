@@ -156,14 +156,8 @@ mod tests {
                 let point = path[index].geometry.point_at(share);
                 Rotated::at(path.clone(), index, point)
             };
-            let mut expected: Vec<PathSegment> = begun()
-                .into_path()
-                .iter()
-                .map(|element| PathSegment {
-                    geometry: element.geometry,
-                    source: element.source,
-                })
-                .collect();
+            let path = begun().into_path();
+            let mut expected: Vec<PathSegment> = path.iter().map(Element::piece).collect();
             assert_eq!(expected.len(), if share == 0.3 { 6 } else { 5 });
             if back {
                 expected.reverse();

@@ -1,6 +1,7 @@
 //! The ways round one contour without leads: what a program is compared with.
 
 use super::contour_path::{Along, Laid};
+use super::corners::Element;
 use super::job::Job;
 use super::path::{PathSegment, Refusal};
 use super::skim::Rough;
@@ -20,7 +21,7 @@ pub(crate) fn rounds(
     let (drawing, side) = (Drawing::default(), side.sign());
     let job = Job {
         unit_mm,
-        ..Job::of(&drawing, settings)
+        ..Job::of(&drawing, &[], settings)
     };
     let rough = job.units(corrections.iter().copied().fold(0.0, f64::max));
     let segment = |at: usize| segments.get(at).copied();
@@ -44,11 +45,7 @@ pub(crate) fn rounds(
         let Ok(Laid::Path(path)) = laid else {
             return Ok(None);
         };
-        let pieces = path.iter().map(|element| PathSegment {
-            geometry: element.geometry,
-            source: element.source,
-        });
-        let pieces = pieces.collect();
+        let pieces = path.iter().map(Element::piece).collect();
         before.get_or_insert(Rough { correction, path });
         Ok(Some(pieces))
     };

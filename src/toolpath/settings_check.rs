@@ -1,8 +1,8 @@
 //! The settings of tabs, overlaps, thread holes, entries and steps, checked against the contours while they are drawn.
 
+use super::job::Job;
 use super::leads::finding;
 use super::milling::swept_length;
-use super::order::name;
 use super::standing::weak_tabs;
 use super::{Refusal, StartHole, WirePath, lengths, plan};
 use crate::drawing::{Drawing, Outline};
@@ -42,8 +42,9 @@ pub(crate) fn stated_faults(
     }
     match plan(drawing, outlines, settings, Some(&handles)) {
         Ok(paths) => {
-            let mut found = short_layers(drawing, outlines, settings, &paths);
-            found.extend(worn_layers(drawing, outlines, settings, &paths));
+            let job = Job::of(drawing, outlines, settings);
+            let mut found = job.short_layers(&paths);
+            found.extend(job.worn_layers(&paths));
             found.extend(weak_tabs(drawing, outlines, settings, &paths));
             found
         }
@@ -92,7 +93,7 @@ pub(crate) fn shortened_leads(
     let Some(wanted) = settings.stated_lead_in else {
         return Vec::new();
     };
-    let unit_mm = settings.unit_of(drawing).mm;
+    let job = Job::of(drawing, outlines, settings);
     let firsts = paths.iter().filter(|path| path.is_first());
     let shortened = firsts.zip(holes).filter_map(|(path, hole)| {
         let mut pieces = path.segments.iter();
@@ -103,15 +104,14 @@ pub(crate) fn shortened_leads(
         } else {
             0.0
         };
-        let length = (begin.geometry.start() - hole.at).norm() * unit_mm - beside;
+        let length = (begin.geometry.start() - hole.at).norm() * job.unit_mm - beside;
         // A wire that only stands, or that has no room beside its path, has no lead.
         let is_shortened = !hole.is_given && length > 0.0 && length < 0.9 * wanted;
         let severity = settings.severity_over(Rule::LeadIn, Severity::Warning)?;
-        let outline = outlines.get(path.outline)?;
         let sentence = || {
             say!(
                 the_lead_is_shortened,
-                name(drawing, outline),
+                job.name(path.outline),
                 wanted,
                 length
             )
@@ -122,24 +122,6 @@ pub(crate) fn shortened_leads(
     shortened.collect()
 }
 
-/// The contours along which the electrode loses more than a layer in each layer.
-fn worn_layers(
-    drawing: &Drawing,
-    outlines: &[Outline],
-    settings: &Effective,
-    paths: &[WirePath],
-) -> Vec<Finding> {
-    of_layers(drawing, outlines, settings, paths, &|electrode, path, _| {
-        let pieces: Vec<Segment> = path.segments.iter().map(|it| it.geometry).collect();
-        let is_closed = path.counter_clockwise.is_some();
-        let unit_mm = settings.unit_of(drawing).mm;
-        let swept = swept_length(&pieces, is_closed, electrode.width() / unit_mm) * unit_mm;
-        let wear = electrode.wear_of_layer(swept, is_closed);
-        let severity = settings.severity_over(Rule::Settings, Severity::Warning)?;
-        (wear > 1.0).then(|| (severity, say!(the_electrode_wears_more_than_a_layer, wear)))
-    })
-}
-
 /// The contours with a layer that is shorter than the step of linear compensation.
 pub(crate) fn short_layers(
     drawing: &Drawing,
@@ -147,39 +129,49 @@ pub(crate) fn short_layers(
     settings: &Effective,
     paths: &[WirePath],
 ) -> Vec<Finding> {
-    of_layers(
-        drawing,
-        outlines,
-        settings,
-        paths,
-        &|electrode, _, length| {
-            let sentence = || say!(the_step_is_longer, electrode.step, length);
-            (electrode.step > length).then(|| (Severity::Error, sentence()))
-        },
-    )
+    Job::of(drawing, outlines, settings).short_layers(paths)
 }
 
 /// A finding for a path of this many mm, by the electrode that mills it.
 type Said<'a> = &'a dyn Fn(&Electrode, &WirePath, f64) -> Option<(Severity, String)>;
 
-/// Findings for paths, by the electrode that mills them.
-fn of_layers(
-    drawing: &Drawing,
-    outlines: &[Outline],
-    settings: &Effective,
-    paths: &[WirePath],
-    said: Said,
-) -> Vec<Finding> {
-    let Some(electrode) = settings.electrode().ok().filter(|_| settings.mills) else {
-        return Vec::new();
-    };
-    let unit_mm = settings.unit_of(drawing).mm;
-    let of_path = |path: &WirePath| {
-        let length = lengths(std::slice::from_ref(path)).0 * unit_mm;
-        let (severity, sentence) = said(&electrode, path, length)?;
-        let entity = outlines.get(path.outline)?.contour.pieces.first()?.entity;
-        let place = Some(Place::Entity { entity });
-        Some(finding(Rule::Settings, severity, place, sentence, None))
-    };
-    paths.iter().filter_map(of_path).collect()
+impl Job<'_> {
+    fn short_layers(&self, paths: &[WirePath]) -> Vec<Finding> {
+        self.of_layers(paths, &|electrode, _, length| {
+            let sentence = || say!(the_step_is_longer, electrode.step, length);
+            (electrode.step > length).then(|| (Severity::Error, sentence()))
+        })
+    }
+
+    /// The contours along which the electrode loses more than a layer in each layer.
+    fn worn_layers(&self, paths: &[WirePath]) -> Vec<Finding> {
+        self.of_layers(paths, &|electrode, path, _| {
+            let pieces: Vec<Segment> = path.segments.iter().map(|it| it.geometry).collect();
+            let is_closed = path.counter_clockwise.is_some();
+            let width = self.units(electrode.width());
+            let swept = swept_length(&pieces, is_closed, width) * self.unit_mm;
+            let wear = electrode.wear_of_layer(swept, is_closed);
+            let severity = self
+                .settings
+                .severity_over(Rule::Settings, Severity::Warning)?;
+            (wear > 1.0).then(|| (severity, say!(the_electrode_wears_more_than_a_layer, wear)))
+        })
+    }
+
+    /// Findings for paths, by the electrode that mills them.
+    fn of_layers(&self, paths: &[WirePath], said: Said) -> Vec<Finding> {
+        let electrode = self.settings.electrode().ok();
+        let Some(electrode) = electrode.filter(|_| self.settings.mills) else {
+            return Vec::new();
+        };
+        let of_path = |path: &WirePath| {
+            let length = lengths(std::slice::from_ref(path)).0 * self.unit_mm;
+            let (severity, sentence) = said(&electrode, path, length)?;
+            let outline = self.outlines.get(path.outline)?;
+            let entity = outline.contour.pieces.first()?.entity;
+            let place = Some(Place::Entity { entity });
+            Some(finding(Rule::Settings, severity, place, sentence, None))
+        };
+        paths.iter().filter_map(of_path).collect()
+    }
 }

@@ -80,14 +80,7 @@ impl Job<'_> {
             };
             return self.laid_within(walls, own, along, known);
         }
-        let beside: Vec<Wall> = rough
-            .path
-            .iter()
-            .map(|element| Wall {
-                geometry: element.geometry,
-                source: element.source,
-            })
-            .collect();
+        let beside: Vec<Wall> = rough.path.iter().map(Element::piece).collect();
         let near = Walls::of(&beside);
         let back = Along {
             side: -along.side,

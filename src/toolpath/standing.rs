@@ -6,7 +6,6 @@
 
 use super::job::Job;
 use super::leads::{fault, finding};
-use super::order::name;
 use super::path::{PathSegment, Source, WirePath};
 use crate::drawing::{Drawing, Outline};
 use crate::finding::{Finding, Rule, Severity};
@@ -40,18 +39,16 @@ impl Job<'_> {
     pub(super) fn cut_through(&self, paths: &[WirePath]) -> Vec<Finding> {
         let found = necks(self.settings, self.unit_mm, paths);
         let gone = found.filter(|(_, neck)| neck.width <= 0.0);
-        let said = gone.map(
-            |(
-                path,
-                Neck {
-                    tab, cut, source, ..
-                },
-            )| {
-                let handle = name(self.drawing, &self.outlines[path.outline]);
-                let sentence = say!(nothing_of_the_tab_is_left_standing, tab, handle, cut);
-                fault(self.severity(), source, sentence, None)
-            },
-        );
+        let said = gone.map(|(path, neck)| {
+            let handle = self.name(path.outline);
+            let sentence = say!(
+                nothing_of_the_tab_is_left_standing,
+                neck.tab,
+                handle,
+                neck.cut
+            );
+            fault(self.severity(), neck.source, sentence, None)
+        });
         said.collect()
     }
 }
@@ -66,16 +63,13 @@ pub(crate) fn weak_tabs(
     let Some(severity) = settings.severity_over(Rule::LeadIn, Severity::Warning) else {
         return Vec::new();
     };
-    let unit_mm = settings.unit_of(drawing).mm;
+    let job = Job::of(drawing, outlines, settings);
+    let unit_mm = job.unit_mm;
     let said = |source: Option<Source>, sentence: String| {
         let place = source.and_then(Source::place);
         finding(Rule::LeadIn, severity, place, sentence, None)
     };
-    let handle = |path: &WirePath| {
-        outlines
-            .get(path.outline)
-            .map_or("?", |own| name(drawing, own))
-    };
+    let handle = |path: &WirePath| job.name(path.outline);
     let is_thin = |neck: &Neck| neck.width > 0.0 && neck.width < THIN * neck.tab;
     let thin = necks(settings, unit_mm, paths).filter(|(_, neck)| is_thin(neck));
     let mut found: Vec<Finding> = thin

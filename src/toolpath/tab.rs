@@ -9,9 +9,8 @@ use super::corners::Element;
 use super::entry::{Entry, path_point};
 use super::job::{Job, ROUNDING};
 use super::lead_form::{Landing, lead_in, lead_out};
-use super::leads::{Contours, Kerfs, fault};
+use super::leads::{Contours, Kerfs};
 use super::offset::normal;
-use super::order::name;
 use super::path::{PathSegment, Refusal, Source, WirePath};
 use super::paths::{Pass, Unled};
 use super::requested::Requested;
@@ -134,7 +133,6 @@ impl Job<'_> {
             let hold = |landing: &Landing| {
                 let way = surroundings.hold(thread, landing, &entry, &unled.walls, wire);
                 way.map(|way| way.pieces(thread, landing, true))
-                    .map_err(|finding| Refusal::Findings(vec![finding]))
             };
             let to_begin: Vec<PathSegment> = match (from_tab && !returns, round.aside) {
                 (false, _) if begin == thread || is_led => Vec::new(),
@@ -172,8 +170,7 @@ impl Job<'_> {
                     } else if !closed && to_tab {
                         let back = surroundings.straight_back();
                         let way = back.hold(thread, &landing, &entry, &unled.walls, wire);
-                        let way = way.map_err(|finding| Refusal::Findings(vec![finding]))?;
-                        segments.extend(lead_out(way.pieces(thread, &landing, true)));
+                        segments.extend(lead_out(way?.pieces(thread, &landing, true)));
                     } else if is_straight {
                         // The control moves the way out as it moves the contour.
                         let is_held = control == 0.0;
@@ -271,8 +268,7 @@ impl Job<'_> {
         let wall = &unled.walls[tab.wall];
         if before.is_empty() || held.is_empty() {
             let sentence = say!(no_tab_fits_at, tab.point.x, tab.point.y);
-            let finding = fault(self.severity(), Some(wall.source), sentence, None);
-            return Err(Refusal::Findings(vec![finding]));
+            return Err(self.refused(Some(wall.source), sentence));
         }
         let (is_led, main) = main(Rotated::whole(before));
         let round = Round {
@@ -304,10 +300,9 @@ impl Job<'_> {
         let of = entities.filter_map(|piece| Some(&*self.drawing.get(piece.entity)?.handle));
         let length_mm = settings.tab_of(of);
         if length_mm > 0.0 && !outline.contour.closed {
-            let sentence = say!(an_open_contour_keeps_no_tab, name(self.drawing, outline));
+            let sentence = say!(an_open_contour_keeps_no_tab, self.name(unled.outline));
             let source = unled.walls.first().map(|wall| wall.source);
-            let finding = fault(self.severity(), source, sentence, None);
-            return Err(Refusal::Findings(vec![finding]));
+            return Err(self.refused(source, sentence));
         }
         // One that is named keeps its tab, whatever drops.
         let is_named = matches!(settings.tab, LengthSetting::ByHandle(_));
@@ -361,15 +356,9 @@ impl Job<'_> {
         if self.units(mm) < length {
             return Ok(length);
         }
-        let handle = name(self.drawing, &self.outlines[unled.outline]);
         let source = unled.walls.first().map(|wall| wall.source);
-        let sentence = sentence(mm, handle, length * self.unit_mm);
-        Err(Refusal::Findings(vec![fault(
-            self.severity(),
-            source,
-            sentence,
-            None,
-        )]))
+        let sentence = sentence(mm, self.name(unled.outline), length * self.unit_mm);
+        Err(self.refused(source, sentence))
     }
 }
 

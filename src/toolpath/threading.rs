@@ -5,7 +5,7 @@ use super::corners::Element;
 use super::entry::{circle_center, nearest};
 use super::hole::Holes;
 use super::job::{Job, ROUNDING};
-use super::leads::{Contours, Kerfs, Surroundings, Threading, fault, thread_hole};
+use super::leads::{Contours, Kerfs, Surroundings, Threading, thread_hole};
 use super::offset::Wall;
 use super::path::{PathSegment, Refusal, Source, WirePath};
 use super::paths::{Pass, Unled};
@@ -55,19 +55,15 @@ impl Job<'_> {
         correction: f64,
     ) -> Surroundings<'a> {
         Surroundings {
-            drawing: self.drawing,
-            outlines: self.outlines,
+            job: self,
             outline: unled.outline,
             own: &unled.own,
             contours,
             kerfs,
             clearance: self.clearance(correction.abs()),
             comes_across: self.settings.comes_across || correction <= 0.0,
-            unit_mm: self.unit_mm,
-            severity: self.severity(),
             lead,
             goes_back: false,
-            length: self.units(self.settings.lead_in),
         }
     }
 
@@ -102,12 +98,13 @@ impl Job<'_> {
         let first: Vec<Point> = center.into_iter().chain(wanted.proposed).collect();
         let is_apart = |at: Point| self.is_apart(at, holes);
         let deepest = || {
-            let (at, _) = self.deepest(unled.outline, contours, f64::INFINITY)?;
+            let alone = Holes::default();
+            let (at, _) = self.deepest(unled.outline, contours, f64::INFINITY, &alone)?;
             let at = match is_apart(at) {
                 true => at,
                 false => {
                     let reach = self.hole_reach()?;
-                    let beside = self.deepest_beside(unled.outline, contours, reach, holes);
+                    let beside = self.deepest(unled.outline, contours, reach, holes);
                     beside.filter(|(_, depth)| *depth >= reach)?.0
                 }
             };
@@ -136,7 +133,6 @@ impl Job<'_> {
                 entry,
                 &rough.landing(unled.side * self.across()),
                 &unled.walls,
-                self.settings,
                 &surroundings(rough.correction),
             )?
         };
@@ -176,9 +172,7 @@ impl Job<'_> {
             point.x,
             point.y
         );
-        let source = walls.get(wall).map(|wall| wall.source);
-        let finding = fault(self.severity(), source, sentence, None);
-        Err(Refusal::Findings(vec![finding]))
+        Err(self.refused(walls.get(wall).map(|wall| wall.source), sentence))
     }
 
     /// The path with the way from and back to the thread hole, where that is another point than its
@@ -197,25 +191,17 @@ impl Job<'_> {
         };
         let mut segments: Vec<PathSegment> = Vec::with_capacity(path.len() + 2);
         segments.extend(lead(thread_hole, begin, Source::LeadIn));
-        segments.extend(path.iter().map(|element| PathSegment {
-            geometry: element.geometry,
-            source: element.source,
-        }));
+        segments.extend(path.iter().map(Element::piece));
         if closed {
             segments.extend(lead(end, thread_hole, Source::LeadOut));
         }
         let turned = || self.directed(outline).1;
         WirePath {
             outline,
-            pass: 1,
             counter_clockwise: closed
                 .then(|| (self.outlines[outline].twice_area > 0.0) != turned()),
-            cut_off: false,
-            is_way_back: false,
             correction,
-            thread_hole,
-            side: None,
-            segments,
+            ..WirePath::along(thread_hole, segments)
         }
     }
 }

@@ -41,17 +41,7 @@ fn path_of(segments: &[Segment]) -> WirePath {
         .iter()
         .map(|&geometry| PathSegment { geometry, source })
         .collect();
-    WirePath {
-        outline: 0,
-        pass: 1,
-        counter_clockwise: None,
-        cut_off: false,
-        is_way_back: false,
-        correction: 0.0,
-        thread_hole,
-        side: None,
-        segments,
-    }
+    WirePath::along(thread_hole, segments)
 }
 
 /// Points in mm that a drawing's segments join.

@@ -167,15 +167,8 @@ fn path(nth: usize, is_offset_by_control: bool, chance: &mut Chance) -> WirePath
     }
     let side = is_offset_by_control.then_some(wedm::finding::Side::Left);
     WirePath {
-        outline: 0,
-        pass: 1,
-        counter_clockwise: None,
-        cut_off: false,
-        is_way_back: false,
-        correction: 0.0,
-        thread_hole,
         side,
-        segments,
+        ..WirePath::along(thread_hole, segments)
     }
 }
 

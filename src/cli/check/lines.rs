@@ -1,8 +1,8 @@
 //! The findings, a line each: for people who want an overview, and for tools that read such lines.
 
 use super::Survey;
-use crate::cli::output::{self, styled};
-use crate::cli::report::Row;
+use crate::cli::output::{self, push_line, styled};
+use crate::cli::report::{Row, Span};
 use crate::finding::{Rule, Severity};
 use crate::message::readable;
 use crate::picture;
@@ -20,7 +20,7 @@ pub(super) fn grouped(survey: &Survey) -> String {
     let mut text = String::new();
     for rows in survey.rows.chunk_by(|one, other| one.path == other.path) {
         let path = readable(&rows[0].path);
-        let _ = writeln!(text, "{}", styled(output::STRONG, path));
+        push_line(&mut text, styled(output::STRONG, path));
         rows.iter()
             .for_each(|row| text.push_str(&format!("  {}", told(row))));
         text.push('\n');
@@ -38,7 +38,8 @@ fn told(row: &Row) -> String {
         style,
         format!("{}[{}]", name(row.severity), row.rule.name()),
     );
-    format!("{}:{}: {head}: {}\n", row.line, row.column, said(row))
+    let Span { line, column, .. } = row.span;
+    format!("{line}:{column}: {head}: {}\n", said(row))
 }
 
 /// The sentence, its place, the other places, and the reason of a suppression.
@@ -94,13 +95,15 @@ pub(super) fn github(survey: &Survey) -> String {
             Severity::Warning => "warning",
             Severity::Information | Severity::Hint => "notice",
         };
+        let Span {
+            line,
+            column,
+            end_line,
+            end_column,
+        } = row.span;
         format!(
-            "::{level} file={},line={},endLine={},col={},endColumn={},title={}::{}\n",
+            "::{level} file={},line={line},endLine={end_line},col={column},endColumn={end_column},title={}::{}\n",
             escaped(&row.path, true),
-            row.line,
-            row.end_line,
-            row.column,
-            row.end_column,
             row.rule.name(),
             escaped(&said(row), false)
         )
@@ -136,15 +139,14 @@ pub(super) fn junit(survey: &Survey, limit: Severity) -> String {
         );
         for row in rows {
             let (rule, severity) = (row.rule.name(), name(row.severity));
-            let said = xml(&said(row));
+            let (said, Span { line, column, .. }) = (xml(&said(row)), row.span);
             let result = match row.severity <= limit {
                 true => format!("<failure type=\"{severity}\" message=\"{said}\"/>"),
                 false => format!("<system-out>{severity}: {said}</system-out>"),
             };
             let _ = writeln!(
                 text,
-                "    <testcase classname=\"{path}\" name=\"{rule}\" line=\"{}\" column=\"{}\">{result}</testcase>",
-                row.line, row.column
+                "    <testcase classname=\"{path}\" name=\"{rule}\" line=\"{line}\" column=\"{column}\">{result}</testcase>"
             );
         }
         text.push_str("  </testsuite>\n");

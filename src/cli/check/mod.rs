@@ -7,11 +7,11 @@ mod watch;
 
 use super::beside::Folders;
 use super::explain::rule_name;
-use super::files;
+use super::files::{self, Opened};
 use super::options::Common;
 use super::report::{MOST, Row};
 use super::{Failure, Verdict, output, output::styled};
-use crate::document::{Document, FileKind};
+use crate::document::FileKind;
 use crate::finding::{Rule, Severity};
 use crate::job;
 use crate::message::help;
@@ -233,15 +233,12 @@ fn survey(arguments: &Arguments) -> Survey {
     }
     // Several drawings may share one faulty settings file: it is reported once.
     let mut said = std::collections::HashSet::new();
-    let of_settings = [
-        crate::finding::Rule::Settings,
-        crate::finding::Rule::PassOrder,
-    ];
+    let of_settings = [Rule::Settings, Rule::PassOrder];
     survey.rows.retain(|row| arguments.wants(row.rule));
     survey.suppressed.retain(|row| arguments.wants(row.rule));
     survey.rows.retain(|row| {
         !of_settings.contains(&row.rule)
-            || said.insert((row.path.clone(), row.line, row.message.clone()))
+            || said.insert((row.path.clone(), row.span.line, row.message.clone()))
     });
     survey
 }
@@ -274,11 +271,8 @@ fn check(
     } else {
         path
     };
-    let kept = || {
-        let opened = files::open(name, common, settings)?;
-        Ok((opened.document, opened.settings_rows))
-    };
-    let checked = |(mut document, mut rows): (Document, Vec<Row>)| {
+    let checked = |opened: Opened| {
+        let (mut document, mut rows) = (opened.document, opened.settings_rows);
         document.set_beside(folders.beside(name, &document, common, settings));
         let (findings, count) = job::check(&mut document, MOST);
         rows.extend(super::report::rows_of(name, &document, &findings));
@@ -307,7 +301,7 @@ fn check(
         match checked(opened) {
             Some(checked) => Ok(checked),
             // The file has been written to meanwhile.
-            None => Ok(checked(kept()?).unwrap_or_default()),
+            None => Ok(checked(files::open(name, common, settings)?).unwrap_or_default()),
         }
     };
     once().unwrap_or_else(|failure| Checked {

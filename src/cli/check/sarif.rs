@@ -2,7 +2,7 @@
 
 use super::Survey;
 use crate::cli::Failure;
-use crate::cli::report::{RelatedRow, Row};
+use crate::cli::report::{RelatedRow, Row, Span};
 use crate::finding::{Rule, Severity};
 use serde_json::{Value, json};
 
@@ -51,33 +51,17 @@ fn result(row: &Row) -> Value {
         "ruleIndex": Rule::ALL.iter().position(|&rule| rule == row.rule),
         "level": level(row.severity),
         "message": { "text": row.message },
-        "locations": [{ "physicalLocation": {
-            "artifactLocation": { "uri": uri(&row.path) },
-            "region": {
-                "startLine": row.line,
-                "startColumn": row.column,
-                "endLine": row.end_line,
-                "endColumn": row.end_column,
-            },
-        } }],
+        "locations": [{ "physicalLocation": location(row, row.span) }],
         "properties": row.data,
     });
     if !row.related.is_empty() {
-        let location = |related: &RelatedRow| {
+        let related = |other: &RelatedRow| {
             json!({
-                "physicalLocation": {
-                    "artifactLocation": { "uri": uri(&row.path) },
-                    "region": {
-                        "startLine": related.line,
-                        "startColumn": related.column,
-                        "endLine": related.end_line,
-                        "endColumn": related.end_column,
-                    },
-                },
-                "message": { "text": related.message },
+                "physicalLocation": location(row, other.span),
+                "message": { "text": other.message },
             })
         };
-        result["relatedLocations"] = row.related.iter().map(location).collect();
+        result["relatedLocations"] = row.related.iter().map(related).collect();
     }
     if let Some(reason) = &row.suppressed {
         let kind = if row.is_marked {
@@ -88,6 +72,19 @@ fn result(row: &Row) -> Value {
         result["suppressions"] = json!([{ "kind": kind, "justification": reason }]);
     }
     result
+}
+
+/// A place in the file of a row.
+fn location(row: &Row, span: Span) -> Value {
+    json!({
+        "artifactLocation": { "uri": uri(&row.path) },
+        "region": {
+            "startLine": span.line,
+            "startColumn": span.column,
+            "endLine": span.end_line,
+            "endColumn": span.end_column,
+        },
+    })
 }
 
 /// SARIF has no level below `note`.

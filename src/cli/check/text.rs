@@ -1,11 +1,10 @@
 //! The findings for a person, and their totals.
 
 use super::Survey;
-use crate::cli::output::{self, styled};
+use crate::cli::output::{self, push_line, styled};
 use crate::cli::report::{Row, SHARE};
 use crate::finding::Severity;
 use rayon::prelude::*;
-use std::fmt::Write;
 
 pub(super) fn render(survey: &Survey) -> String {
     let mut text = String::new();
@@ -17,7 +16,7 @@ pub(super) fn render(survey: &Survey) -> String {
         let rows = rows.par_iter().with_min_len(SHARE);
         let rendered: Vec<String> = rows.map(Row::rendered).collect();
         for row in rendered {
-            let _ = writeln!(text, "{row}\n");
+            push_line(&mut text, row + "\n");
         }
     }
     text + &summary(survey)
@@ -61,7 +60,7 @@ pub(super) fn summary(survey: &Survey) -> String {
         0 if survey.rows.is_empty() => say!(nothing_to_check, files),
         _ => say!(checked, files, result),
     };
-    let _ = writeln!(text, "{checked}");
+    push_line(&mut text, checked);
     if let Some(first) = survey.fixable.first() {
         let heading = match survey.fixable.len() {
             1 => say!(repair_what_can_be_repaired).to_owned(),
@@ -69,7 +68,7 @@ pub(super) fn summary(survey: &Survey) -> String {
         };
         let heading = styled(output::NOTE, heading);
         let command = say!(the_command_that_fixes, output::word(first));
-        let _ = writeln!(text, "{}", say!(says, heading, command));
+        push_line(&mut text, say!(says, heading, command));
     }
     text
 }

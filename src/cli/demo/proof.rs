@@ -4,8 +4,11 @@ use super::super::Failure;
 use super::holds;
 use crate::document::{Document, Source};
 use crate::drawing::Role;
+use crate::finding::sentence;
 use crate::geometry::{Arc, Point, Segment};
-use crate::program::three_b::{self, Item, Word, Words};
+use crate::program::path::{Kind, Step};
+use crate::program::three_b;
+use crate::program::write::scaled;
 use crate::protocol::{PathPiece, PathSource, SegmentShape, Toolpath};
 use crate::settings::{Effective, Settings};
 use crate::{dxf, picture, toolpath};
@@ -133,60 +136,29 @@ fn document(text: &str, settings: &Shared<Effective>) -> Document {
     )
 }
 
-/// One decoded block in mm, and whether it is on the way between two contours.
+/// A block that moves, decoded, in mm.
 struct Motion {
     segment: Segment,
+    /// It leads from one contour to the next.
     jump: bool,
 }
 
 /// Every block decoded from where the one before it ended.
 fn decoded(program: &str, start: Point) -> Result<Vec<Motion>, Failure> {
-    let (items, faults) = three_b::read(program.as_bytes(), &Words::default());
-    holds(faults.is_empty(), || {
-        faults
-            .first()
-            .map_or_else(String::new, three_b::SyntaxFault::sentence)
+    let read = three_b::Document::read(program.as_bytes().to_vec());
+    holds(read.findings().is_empty(), || {
+        let first = read.findings().into_iter().next();
+        first.map_or_else(String::new, |finding| sentence(&finding, 1.0))
     })?;
-    let mut motions = Vec::new();
-    let mut at = start * 1e3;
-    let (mut jump, mut ended) = (false, false);
-    for item in items {
-        match item {
-            Item::Word {
-                word: Word::Pause, ..
-            } => jump = !jump,
-            Item::Word {
-                word: Word::End, ..
-            } => ended = true,
-            Item::Text { .. } | Item::CommentedBlock { .. } | Item::Fault(_) => {}
-            Item::StartPoint { .. } => {}
-            Item::Block { block, .. } => {
-                let segment = three_b::decode(&block, at)
-                    .map_err(|_| Failure(say!(block_leads_nowhere, motions.len() + 1, block)))?;
-                at = segment.end();
-                motions.push(Motion {
-                    segment: in_mm(&segment),
-                    jump,
-                });
-            }
-        }
-    }
-    holds(ended, || say!(the_program_has_no_end).into())?;
-    Ok(motions)
-}
-
-fn in_mm(segment: &Segment) -> Segment {
-    let mm = |point: Point| point * 1e-3;
-    match segment {
-        Segment::Line(line) => Segment::line(mm(line.start), mm(line.end)),
-        Segment::Arc(arc) => Segment::Arc(Arc {
-            center: mm(arc.center),
-            radius: arc.radius * 1e-3,
-            start: mm(arc.start),
-            end: mm(arc.end),
-            ..*arc
-        }),
-    }
+    let trace = read.trace().into_meant();
+    let by = start * 1e3 - trace.start;
+    let steps = trace.steps.iter();
+    let motion = |step: &Step| {
+        let segment = scaled(&step.ideal?.moved(by), 1e-3);
+        let jump = step.kind == Kind::Rapid;
+        Some(Motion { segment, jump })
+    };
+    Ok(steps.filter_map(motion).collect())
 }
 
 fn geometry(piece: &PathPiece) -> Option<Segment> {

@@ -155,8 +155,6 @@ declare! {
     there_is_no_path_to_hold_the_program_against => "there is no path to hold the program against";
     the_program_lies_um_from_the_path(from_path_um) => "the program lies {from_path_um:.2} µm from the path";
     the_wire_leaves_its_distance_by_um(distances) => "the wire is off its distance by {distances:.2} µm";
-    block_leads_nowhere(number, block) => "block {number} leads nowhere: {block}";
-    the_program_has_no_end => "the program has no end";
     the_same_from_a_cad_program => "The same from a CAD program: a punch, no text behind it (wedm/didOpenDrawing)";
     one_contour_for_punch_and_plate => "One contour, cut once as the punch and once as the plate: does one go into the other? (wedm/fit)";
     the_pair_that_binds_gets_no_diagnostic => "the pair that binds gets no diagnostic";

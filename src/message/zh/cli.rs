@@ -155,8 +155,6 @@ translate! {
     there_is_no_path_to_hold_the_program_against => "没有可与程序核对的切割路线";
     the_program_lies_um_from_the_path(from_path_um) => "程序偏离切割路线 {from_path_um:.2} µm";
     the_wire_leaves_its_distance_by_um(distances) => "电极丝偏离应有距离 {distances:.2} µm";
-    block_leads_nowhere(number, block) => "程序段 {number} 没有去向：{block}";
-    the_program_has_no_end => "程序没有结束码";
     the_same_from_a_cad_program => "同样的事，来自 CAD 程序：一个凸模，背后没有文本（wedm/didOpenDrawing）";
     one_contour_for_punch_and_plate => "同一轮廓切两次，一次作凸模，一次作凹模：能装进去吗？（wedm/fit）";
     the_pair_that_binds_gets_no_diagnostic => "卡住的一对没有得到诊断";

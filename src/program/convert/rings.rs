@@ -97,7 +97,7 @@ fn runs(cut: &CutPath) -> impl Iterator<Item = &[Segment]> {
 /// A cut that closes by itself, without a stop.
 fn whole(cut: &CutPath) -> Option<Ring> {
     let all = &cut.segments[..];
-    let contour = cut.lead_in..all.len().saturating_sub(cut.lead_out);
+    let contour = cut.span();
     let segments = all.get(contour.clone())?;
     let leads = all[..contour.start].iter().chain(&all[contour.end..]);
     (cut.closed && cut.stops.is_empty() && !segments.is_empty()).then(|| Ring {

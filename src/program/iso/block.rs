@@ -10,9 +10,10 @@ use std::hash::{Hash, Hasher};
 use std::ops::Range;
 
 /// G00 to G03.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Motion {
     Rapid,
+    #[default]
     Line,
     Clockwise,
     CounterClockwise,
@@ -467,5 +468,21 @@ impl Block {
     /// True where the line has a coordinate of its own.
     pub fn has_coordinates(&self) -> bool {
         self.x.is_some() || self.y.is_some()
+    }
+
+    /// True where it has an arc's centre.
+    pub(crate) fn has_center(&self) -> bool {
+        self.i.is_some() || self.j.is_some()
+    }
+
+    /// It leads somewhere, if only all round a circle.
+    pub(super) fn leads(&self) -> bool {
+        self.has_coordinates() || self.has_center()
+    }
+
+    /// Its centre is that of no arc, under the motion that is in force.
+    pub(super) fn has_stray_center(&self, motion: Motion) -> bool {
+        let is_of_way = !self.takes_coordinates && !self.sets_position;
+        self.has_center() && !motion.is_arc() && is_of_way
     }
 }

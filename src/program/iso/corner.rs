@@ -3,7 +3,7 @@
 
 use super::block::{Block, Corner, Motion};
 use super::machine::Machine;
-use super::moves::{Bend, Course, Move, Reading, added, apart, bend_about, micrometres};
+use super::moves::{Bend, Move, Reading, added, apart, bend_about};
 use crate::geometry::{Locus, Point, Segment, cross, turn};
 
 /// The next move is searched for in this many lines after a corner's.
@@ -161,13 +161,8 @@ fn cut_off(
 }
 
 fn way(made: &Move, reading: &Reading) -> Option<Segment> {
-    match made.course(reading) {
-        Course::Arc(arc) => Some(Segment::Arc(arc)),
-        Course::Line if made.from != made.to => {
-            Some(Segment::line(micrometres(made.from), micrometres(made.to)))
-        }
-        _ => None,
-    }
+    let curve = made.curve(reading)?;
+    (made.from != made.to || curve.as_arc().is_some()).then_some(curve)
 }
 
 /// Where a chamfer between two straight cuts begins and ends.

@@ -9,7 +9,7 @@ use super::moves::{Place, apart, distance, meet};
 use super::plain::{plain, word_at};
 use super::repair::{is_trouble, line_of};
 use super::style::Style;
-use crate::finding::{Detail, Fault, Finding, FixKind, Place as Where, Rule, TextFix};
+use crate::finding::{Detail, Fault, Finding, FixKind, Rule, TextFix};
 use crate::program::numbering::{self, Numbers, Renumbering};
 use crate::program::path::tolerance;
 use crate::program::repair::{merged, offered, without_spur};
@@ -19,18 +19,13 @@ use std::ops::Range;
 
 impl Document {
     /// The fixes of one finding, the preferred one first: those of its own place, and the slip that may explain it.
-    pub fn fixes(&self, finding: &Finding) -> Vec<TextFix> {
-        self.fixes_and(finding, Renumbering::Offered)
-    }
-
-    /// Those that are about the finding alone: all but the numbering of all blocks, which is never made with others.
-    pub(crate) fn local_fixes(&self, finding: &Finding) -> Vec<TextFix> {
-        self.fixes_and(finding, Renumbering::LeftOut)
-    }
-
-    fn fixes_and(&self, finding: &Finding, renumbering: Renumbering) -> Vec<TextFix> {
-        let own = of_place(self, finding, renumbering);
-        let searched = searched(self, finding);
+    pub(in crate::program) fn offered(
+        &self,
+        finding: &Finding,
+        renumbering: Renumbering,
+    ) -> Vec<TextFix> {
+        let own = of_place(self, finding, renumbering).unwrap_or_default();
+        let searched = searched(self, finding).unwrap_or_default();
         let speaks_for_itself = matches!(finding.rule, Rule::Syntax | Rule::DoubledBlock);
         match speaks_for_itself && !own.is_empty() {
             true => merged(own, searched, false),
@@ -41,44 +36,38 @@ impl Document {
 }
 
 /// The slips that make the finding's cut sound.
-fn searched(document: &Document, finding: &Finding) -> Vec<TextFix> {
+fn searched(document: &Document, finding: &Finding) -> Option<Vec<TextFix>> {
     if finding.rule != Rule::SuspectBlock && !is_trouble(finding) {
-        return Vec::new();
+        return None;
     }
-    let Some(line) = line_of(document, finding) else {
-        return Vec::new();
-    };
-    let Some((_, repairs)) = document
-        .repairs()
-        .of_cuts
-        .iter()
-        .find(|(lines, _)| lines.contains(&line))
-    else {
-        return Vec::new();
-    };
+    let line = line_of(document, finding)?;
+    let mut of_cuts = document.repairs().of_cuts.iter();
+    let (_, repairs) = of_cuts.find(|(lines, _)| lines.contains(&line))?;
     let found = repairs
         .iter()
         .map(|repair| Some((repair.kind.clone(), repair.edits.clone(), repair.is_sure)));
-    offered(found)
+    Some(offered(found))
 }
 
 /// The fixes of the finding's own place.
-fn of_place(document: &Document, finding: &Finding, renumbering: Renumbering) -> Vec<TextFix> {
-    let Where::Text { range } = &finding.place else {
-        return Vec::new();
-    };
+fn of_place(
+    document: &Document,
+    finding: &Finding,
+    renumbering: Renumbering,
+) -> Option<Vec<TextFix>> {
+    let range = finding.place.in_text()?;
     let fault = match &finding.detail {
         Detail::Program(fault) => &**fault,
         Detail::Said(_) => return character_fixes(document, range),
-        _ => return Vec::new(),
+        _ => return None,
     };
     match fault {
         Fault::Bare { .. } => bare_fixes(document, range),
         Fault::OffRadius { .. } => center_fixes(document, range),
         Fault::DoubledNumber { .. } | Fault::Unnumbered { .. } => {
-            number_fixes(document, fault, range, renumbering)
+            Some(number_fixes(document, fault, range, renumbering))
         }
-        fault => plain_fix(document, fault, range).into_iter().collect(),
+        fault => Some(vec![plain_fix(document, fault, range)?]),
     }
 }
 
@@ -169,7 +158,7 @@ fn end_before_subprograms(document: &Document, last: usize, word: &str) -> Optio
 }
 
 /// Characters that only look like those of a control.
-fn character_fixes(document: &Document, range: &Range<usize>) -> Vec<TextFix> {
+fn character_fixes(document: &Document, range: &Range<usize>) -> Option<Vec<TextFix>> {
     let text = document.text();
     let (kind, edit) = match text.bytes().get(range.clone()) {
         Some([b'O' | b'o', rest @ ..]) => {
@@ -180,15 +169,12 @@ fn character_fixes(document: &Document, range: &Range<usize>) -> Vec<TextFix> {
         Some(b",") => (FixKind::DecimalPoints, TextEdit::new(range.clone(), ".")),
         _ => {
             let line = text.line_of(range.start);
-            let plain = plain(text.line(line)).and_then(|plain| String::from_utf8(plain).ok());
-            let Some(plain) = plain else {
-                return Vec::new();
-            };
+            let plain = String::from_utf8(plain(text.line(line))?).ok()?;
             let edit = TextEdit::new(text.line_range(line), plain);
             (FixKind::PlainLetters, edit)
         }
     };
-    vec![TextFix::text(kind, true, edit)]
+    Some(vec![TextFix::text(kind, true, edit)])
 }
 
 /// G02 for G03 of a line, or the other way round: the present word, the intended one, and the edit.
@@ -219,10 +205,7 @@ fn whole_line(document: &Document, line: usize) -> TextEdit {
 
 /// A spur is removed where it returns to its start.
 fn spur_fix(document: &Document, back: usize) -> Option<TextFix> {
-    let moves = |line: usize| {
-        let block = document.block(line);
-        block.has_coordinates() || block.i.is_some() || block.j.is_some()
-    };
+    let moves = |line: usize| document.block(line).leads();
     let out = (0..back).rev().take(SPUR_REACH).find(|line| moves(*line))?;
     let (before, behind) = (
         document.machine_before(out)?,
@@ -266,24 +249,20 @@ fn way_out(document: &Document, end: usize) -> Option<usize> {
 }
 
 /// A number without its point, read in whole units and in the finest steps.
-fn bare_fixes(document: &Document, range: &Range<usize>) -> Vec<TextFix> {
-    let bytes = document.text().bytes().get(range.clone());
-    let found = String::from_utf8_lossy(bytes.unwrap_or_default()).into_owned();
-    let Some(at) = found.find(|character: char| character.is_ascii_digit()) else {
-        return Vec::new();
-    };
+fn bare_fixes(document: &Document, range: &Range<usize>) -> Option<Vec<TextFix>> {
+    let bytes = document.text().slice(range.clone())?;
+    let found = String::from_utf8_lossy(bytes).into_owned();
+    let at = found.find(|character: char| character.is_ascii_digit())?;
     let (letters, digits) = found.split_at(at);
     let padded = format!("{digits:0>4}");
-    let Some((whole, thousandths)) = padded.split_at_checked(padded.len() - 3) else {
-        return Vec::new();
-    };
+    let (whole, thousandths) = padded.split_at_checked(padded.len() - 3)?;
     let fine = format!("{letters}{whole}.{thousandths}");
     let fix = |meant: String| {
         let edit = TextEdit::new(range.clone(), meant.clone());
         let found = found.clone();
         TextFix::text(FixKind::Rewrite { found, meant }, false, edit).preferred_if(false)
     };
-    vec![fix(fine), fix(format!("{found}."))]
+    Some(vec![fix(fine), fix(format!("{found}."))])
 }
 
 /// A straight cut after the last one that leads back to where the cut began, or to where its way in ended.
@@ -331,13 +310,8 @@ fn closing_fix(document: &Document, range: &Range<usize>) -> Option<TextFix> {
 /// True where the next moving line after `line` has its own G word, or would cut straight anyway.
 fn goes_on_by_itself(document: &Document, line: usize, motion: Motion) -> bool {
     let mut behind = (line + 1..document.text().line_count()).map(|line| document.block(line));
-    let next = behind.find(|block| {
-        block.motion.is_some()
-            || block.stop == Some(Stop::End)
-            || block.has_coordinates()
-            || block.i.is_some()
-            || block.j.is_some()
-    });
+    let next = behind
+        .find(|block| block.motion.is_some() || block.stop == Some(Stop::End) || block.leads());
     motion == Motion::Line
         || next.is_none_or(|block| block.motion.is_some() || block.stop == Some(Stop::End))
 }

@@ -23,9 +23,7 @@ pub(super) fn leader(text: &SourceText) -> usize {
     let block = |line: usize| Block::of(text.line(line));
     // In a remark something always cannot be read: `PLATE 10 X 20 MM`.
     let runs = |block: &Block| {
-        let acts = block.has_coordinates()
-            || block.i.is_some()
-            || block.j.is_some()
+        let acts = block.leads()
             || block.motion.is_some()
             || block.stop.is_some()
             || block.call.is_some()

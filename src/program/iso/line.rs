@@ -138,7 +138,7 @@ pub(super) fn prove(
     if made.to != target.to || made.motion != target.motion {
         return fault(say!(the_new_line_leads_elsewhere));
     }
-    if !matches!(made.course(reading), Course::Line | Course::Arc(_)) {
+    if made.curve(reading).is_none() {
         return fault(say!(its_arc_cannot_be_written_with_the_program_s_decimals));
     }
     Ok(())

@@ -8,7 +8,7 @@ use crate::program::path::mixed;
 use super::moves::{Bend, Course, Move, Place, Reading, added, apart, bend_about};
 
 /// The modal state, and the wire's position.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Machine {
     /// The wire's position, nm.
     pub(crate) at: Place,
@@ -104,30 +104,6 @@ impl Steered {
         }
         made.from = added(made.from, by);
         made
-    }
-}
-
-impl Default for Machine {
-    fn default() -> Self {
-        Machine {
-            at: [0, 0],
-            zero: [0, 0],
-            lost: [false, false],
-            torn: false,
-            motion: Motion::Line,
-            incremental: false,
-            inch: false,
-            side: None,
-            offset: None,
-            switches: None,
-            moved: false,
-            behind: Behind::Rest,
-            stated: false,
-            ended: false,
-            mills: false,
-            cut_short: None,
-            trail: Trail::default(),
-        }
     }
 }
 
@@ -247,7 +223,7 @@ impl Machine {
             self.lost = [true, true];
         }
         let is_arc = self.motion.is_arc();
-        let full_circle = is_arc && (block.i.is_some() || block.j.is_some());
+        let full_circle = is_arc && block.has_center();
         if !block.has_coordinates() && !full_circle {
             return None;
         }

@@ -7,7 +7,7 @@ use super::block::{Corner, Motion, Offset};
 use super::word::Number;
 use crate::finding::Side;
 use crate::geometry::{Arc, Point, Segment};
-use crate::program::path::Writing;
+use crate::program::path::{Kind, Step, Writing};
 pub(crate) use crate::settings::CenterRule;
 
 /// Nanometres in a micrometre.
@@ -236,11 +236,37 @@ impl Move {
         ))
     }
 
-    /// The line or arc in µm; the chord where an arc does not run.
-    pub(crate) fn segment(&self, reading: &Reading) -> Segment {
+    /// The line or arc in µm; `None` where an arc leads nowhere.
+    pub(crate) fn curve(&self, reading: &Reading) -> Option<Segment> {
         match self.course(reading) {
-            Course::Arc(arc) => Segment::Arc(arc),
-            _ => Segment::line(micrometres(self.from), micrometres(self.to)),
+            Course::Line => Some(self.chord()),
+            Course::Arc(arc) => Some(Segment::Arc(arc)),
+            Course::OffRadius { .. } | Course::NoRadius => None,
+        }
+    }
+
+    /// The same; the chord where an arc leads nowhere.
+    pub(crate) fn segment(&self, reading: &Reading) -> Segment {
+        self.curve(reading).unwrap_or_else(|| self.chord())
+    }
+
+    pub(super) fn chord(&self) -> Segment {
+        Segment::line(micrometres(self.from), micrometres(self.to))
+    }
+
+    /// What the machine does; its text and its contour are still to be said.
+    pub(super) fn step(&self, ideal: Option<Segment>) -> Step {
+        Step {
+            kind: match self.motion {
+                Motion::Rapid => Kind::Rapid,
+                Motion::Line => Kind::Line,
+                Motion::Clockwise | Motion::CounterClockwise => Kind::Arc,
+            },
+            end: micrometres(self.to),
+            ideal,
+            side: self.side,
+            is_relative: self.incremental,
+            ..Step::stop(Kind::Pause, micrometres(self.from))
         }
     }
 

@@ -185,7 +185,7 @@ impl Stretch {
         // position before it is unknown.
         self.fixed |= !self.after.incremental && block.has_coordinates();
         let is_free = self.faults.len() == known_faults;
-        if is_free && self.has_stray_center(&block) {
+        if is_free && !block.broken && block.has_stray_center(self.after.motion) {
             let sentence = say!(i_and_j_stand_beside_a_straight_cut);
             self.fault(Fault::said(Rule::CenterOnLine, sentence), range);
         }
@@ -263,15 +263,6 @@ impl Stretch {
     fn fault(&mut self, fault: Fault, range: (u32, u32)) {
         let range = range.0 as usize..range.1 as usize;
         self.faults.push(Finding::of(fault, range));
-    }
-
-    /// I or J in a line without an arc.
-    fn has_stray_center(&self, block: &Block) -> bool {
-        (block.i.is_some() || block.j.is_some())
-            && !self.after.motion.is_arc()
-            && !block.takes_coordinates
-            && !block.sets_position
-            && !block.broken
     }
 
     /// Makes the corner at the end of a move.

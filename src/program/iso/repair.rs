@@ -200,8 +200,7 @@ impl Contour for Suspect<'_> {
 
     fn exchanged(&self, index: usize) -> Option<f64> {
         let next = &self.way.lines.get(index + 1)?.block;
-        let is_other = next.has_coordinates() || next.i.is_some() || next.j.is_some();
-        let is_other = is_other && self.bytes(index) != self.line(index + 1);
+        let is_other = next.leads() && self.bytes(index) != self.line(index + 1);
         (self.moves(index) && is_other).then_some(prior::BLOCKS)
     }
 
@@ -375,13 +374,14 @@ impl<'a> Suspect<'a> {
     /// The lines after a change.
     fn texts_with(&self, change: &Change) -> Vec<Vec<u8>> {
         match change {
-            Change::Replace { meant, .. } | Change::Insert { meant, .. } => {
-                vec![meant.line.clone()]
-            }
-            Change::Delete { .. } => Vec::new(),
             Change::Exchange { index } => {
                 with_numbers_kept(&self.bytes(*index), self.line(index + 1))
             }
+            other => other
+                .meant()
+                .map(|meant| meant.line.clone())
+                .into_iter()
+                .collect(),
         }
     }
 

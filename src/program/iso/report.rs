@@ -245,7 +245,7 @@ impl<'a> Report<'a> {
 
     fn line_faults(&mut self, stretch: &Stretch, offset: usize) {
         for found in &stretch.faults {
-            let Place::Text { range } = &found.place else {
+            let Some(range) = found.place.in_text() else {
                 continue;
             };
             let mut range = range.start + offset..range.end + offset;

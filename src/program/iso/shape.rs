@@ -2,7 +2,7 @@
 
 use super::block::Motion;
 use super::moves::{Bend, Course, Move, Reading, micrometres};
-use crate::geometry::{Segment, Vector};
+use crate::geometry::Vector;
 use crate::program::path::Heading;
 
 /// A move and the reading of its numbers. It is moved to the zero of the plane, so that the result is the same
@@ -70,11 +70,6 @@ pub(crate) fn directions(made: &Move, reading: &Reading) -> Option<(Vector, Vect
         let (start, end) = (across(made.from), across(made.to));
         return (start.norm() > 0.0 && end.norm() > 0.0).then_some((start, end));
     }
-    match made.course(reading) {
-        Course::Arc(arc) => Some((
-            Segment::Arc(arc).start_tangent(),
-            Segment::Arc(arc).end_tangent(),
-        )),
-        _ => None,
-    }
+    let arc = made.curve(reading)?;
+    Some((arc.start_tangent(), arc.end_tangent()))
 }

@@ -1,16 +1,16 @@
 //! A running ISO program: the moves of its lines, the state at a line, and the cut in progress there.
 
-use super::block::{Block, Motion, Stop, read_line};
+use super::block::{Block, Stop, read_line};
 use super::control::lines_from;
 use super::corner::turned;
 use super::document::Document;
 use super::machine::Machine;
-use super::moves::{Course, Move, Place, micrometres};
+use super::moves::{Move, Place, micrometres};
 use super::part::Part;
 use super::read::words_of;
 use super::stretch::{Placed, Stretch};
 use crate::finding::{Rule, Severity};
-use crate::geometry::{Point, Segment};
+use crate::geometry::Point;
 use crate::program::chunks::ChunkReader;
 use crate::program::path::{Kind, Step, Trace, Writing};
 use crate::program::report::place_of;
@@ -252,40 +252,25 @@ impl Program for Document {
     fn walk(&self, stretch: usize, contour: &mut usize, each: &mut dyn FnMut(Step)) {
         let offset = self.placed_at(stretch).map_or(0, |placed| placed.offset);
         self.run_lines(stretch, &mut |ran| {
-            let mut step = |kind, [start, end]: [Point; 2], ideal, side| {
+            let mut said = |step| {
                 each(Step {
                     range: ran.words.clone(),
                     line: ran.line,
                     number: ran.block.number,
-                    kind,
-                    start,
-                    end,
-                    ideal,
                     contour: *contour,
-                    side,
                     is_relative: ran.machine.incremental,
+                    ..step
                 });
             };
             for made in ran.moves() {
-                let kind = match made.motion {
-                    Motion::Rapid => Kind::Rapid,
-                    Motion::Line => Kind::Line,
-                    Motion::Clockwise | Motion::CounterClockwise => Kind::Arc,
-                };
-                let ends = [micrometres(made.from), micrometres(made.to)];
-                let ideal = match made.course(self.reading()) {
-                    Course::Line => Some(Segment::line(ends[0], ends[1])),
-                    Course::Arc(arc) => Some(Segment::Arc(arc)),
-                    Course::OffRadius { .. } | Course::NoRadius => None,
-                };
-                step(kind, ends, ideal, made.side);
+                said(made.step(made.curve(self.reading())));
             }
             let Some(stop) = ran.block.stop else { return };
             let kind = match stop {
                 Stop::End => Kind::End,
                 Stop::Pause => Kind::Pause,
             };
-            step(kind, [micrometres(ran.machine.at); 2], None, None);
+            said(Step::stop(kind, micrometres(ran.machine.at)));
             let is_tab = self.is_tab((stretch, ran.words.start.saturating_sub(offset)));
             *contour += usize::from(stop == Stop::Pause && !is_tab);
         });

@@ -11,6 +11,7 @@ use super::moves::CenterRule;
 use super::plain::words;
 use super::word::{Number, Token, WordFault};
 use crate::finding;
+use crate::program::numbering::Renumbering;
 use crate::program::path::Kind;
 use crate::program::steps::Program;
 use crate::settings::{Effective, SideSetting};
@@ -203,7 +204,7 @@ fn the_wire_runs_where_the_role_and_its_way_in_say() {
         finding::sentence(finding, 1.0),
         "G42 lets the wire run on the right, which is outside this contour: the settings say opening, so the wire cuts into the part"
     );
-    let fix = &document.fixes(finding)[0];
+    let fix = &document.offered(finding, Renumbering::Offered)[0];
     let mut fixed = document.clone();
     fixed.edit(fix.edit[0].range.clone(), &fix.edit[0].text);
     assert_eq!(fixed.findings(), []);

@@ -15,7 +15,7 @@ use crate::finding::Side;
 use crate::program::encode::encode_all;
 use crate::program::grid::Node;
 use crate::program::notes::Notes;
-use crate::program::path::{Kind, Step};
+use crate::program::path::Step;
 use crate::program::write::{
     MOST_BLOCKS, Piece, ProofError, Proved, ProvedProgram, Writer, cuts, does_not_stop,
     nothing_to_write, push_number, push_places, room, walk, way,
@@ -184,14 +184,7 @@ impl Writer for Lines<'_> {
         self.put(&steps)
     }
 
-    fn end(&mut self, closed: bool, first: Node, last: Node, goes_on: bool) -> Proved {
-        if closed && first != last {
-            return Err(ProofError::Mismatch(say!(
-                the_cut_begins_at_and_ends_at,
-                first,
-                last
-            )));
-        }
+    fn end(&mut self, last: Node, goes_on: bool) -> Proved {
         self.goes_on = goes_on;
         match goes_on {
             true => Ok(()),
@@ -365,19 +358,8 @@ impl<'a> Lines<'a> {
             notes.start.get_or_insert(micrometres(made.from));
             notes.note(Step {
                 range: start as usize..end as usize,
-                line: 0,
                 number: block.number,
-                kind: match made.motion {
-                    Motion::Rapid => Kind::Rapid,
-                    Motion::Line => Kind::Line,
-                    Motion::Clockwise | Motion::CounterClockwise => Kind::Arc,
-                },
-                start: micrometres(made.from),
-                end: micrometres(made.to),
-                ideal: Some(decoded),
-                contour: 0,
-                side: made.side,
-                is_relative: made.incremental,
+                ..made.step(Some(decoded))
             });
         }
         Ok(())

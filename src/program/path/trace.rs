@@ -48,6 +48,22 @@ pub struct Step {
 }
 
 impl Step {
+    /// The machine stands still at a place; the text of it is still to be said.
+    pub(in crate::program) fn stop(kind: Kind, at: Point) -> Step {
+        Step {
+            range: 0..0,
+            line: 0,
+            number: None,
+            kind,
+            start: at,
+            end: at,
+            ideal: None,
+            contour: 0,
+            side: None,
+            is_relative: false,
+        }
+    }
+
     /// From the ideal end to where the machine stops, µm.
     pub(crate) fn miss(&self) -> Vector {
         self.ideal

@@ -53,6 +53,14 @@ impl<M> Change<M> {
         }
     }
 
+    /// The block that it writes.
+    pub(crate) fn meant(&self) -> Option<&M> {
+        match self {
+            Change::Replace { meant, .. } | Change::Insert { meant, .. } => Some(meant),
+            Change::Delete { .. } | Change::Exchange { .. } => None,
+        }
+    }
+
     /// The number of blocks that it replaces.
     pub(crate) fn replaced(&self) -> usize {
         match self {

@@ -1,6 +1,6 @@
 //! Answers about a part of a program equal those of the whole trace, for programs of both languages under edits.
 
-use super::cut_before;
+use super::{cut_at, cut_before};
 use crate::program::path::{Cut, CutSteps, Kind, Step, Trace, cuts};
 use crate::program::whereabouts::Stand;
 use crate::program::{Document, Language};
@@ -106,14 +106,14 @@ fn assert_parts_are_of_the_whole(document: &Document) -> Result<(), TestCaseErro
             stop.map(|step| step.range.clone())
         );
         let whole = cut_by_trace(&trace, offset);
-        let found = document.whole_cut_at(offset);
+        let found = cut_at(document.program(), offset, usize::MAX);
         prop_assert_eq!(
             &found,
             &whole
                 .clone()
                 .map(|(steps, nth, stop)| { (CutSteps::of(steps, writing).stopping(stop), nth) })
         );
-        let by_ends = document.ends_of_cut_at(offset);
+        let by_ends = cut_at(document.program(), offset, CutSteps::ENDS);
         prop_assert_eq!(by_ends.is_some(), whole.is_some());
         if let (Some((held, nth)), Some((steps, index, _))) = (by_ends, whole) {
             prop_assert_eq!((held.count(), nth), (steps.len(), index));

@@ -44,6 +44,14 @@ impl Quadrant {
         }
     }
 
+    /// The axis that a line at 45° in it counts on: the last step counts.
+    pub(crate) fn counts_at_45_degrees(self) -> CountingAxis {
+        match self {
+            Quadrant::First | Quadrant::Third => CountingAxis::Y,
+            Quadrant::Second | Quadrant::Fourth => CountingAxis::X,
+        }
+    }
+
     /// The quadrant of a direction, or of a point that is left counter-clockwise: each axis belongs to the quadrant after it.
     pub(crate) fn counter_clockwise(x: i64, y: i64) -> Quadrant {
         match (x, y) {
@@ -81,6 +89,14 @@ impl Motion {
         let kinds: [fn(Quadrant) -> Motion; 3] =
             [Motion::Line, Motion::CounterClockwise, Motion::Clockwise];
         kinds.into_iter().flat_map(|kind| Quadrant::ALL.map(kind))
+    }
+
+    /// An arc from a point, seen from its centre.
+    pub(crate) fn arc(counter_clockwise: bool, x: i64, y: i64) -> Motion {
+        match counter_clockwise {
+            true => Motion::CounterClockwise(Quadrant::counter_clockwise(x, y)),
+            false => Motion::Clockwise(Quadrant::clockwise(x, y)),
+        }
     }
 
     /// Z as it is written.
@@ -121,6 +137,17 @@ pub struct Block {
     pub j: i64,
     pub axis: CountingAxis,
     pub motion: Motion,
+}
+
+impl Block {
+    /// X and Y of a line, which leaves both out where it runs along its counting axis.
+    pub(crate) fn extent(&self) -> [i64; 2] {
+        match (self.x, self.y, self.axis) {
+            (0, 0, CountingAxis::X) => [self.j, 0],
+            (0, 0, CountingAxis::Y) => [0, self.j],
+            (x, y, _) => [x, y],
+        }
+    }
 }
 
 /// How far the radius of a 4B block may lie from √(X² + Y²), µm: its centre and it are rounded.

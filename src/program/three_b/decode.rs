@@ -45,11 +45,7 @@ pub(super) fn meant(block: &Block, start: Point) -> Option<Segment> {
         Err(DecodeFault::WrongLength) => {
             let larger = block.x.max(block.y);
             let scaled = |value: i64| value as f64 * block.j as f64;
-            let counted = if block.axis == CountingAxis::X {
-                block.x
-            } else {
-                block.y
-            };
+            let counted = block.axis.of([block.x, block.y]);
             let Motion::Line(quadrant) = block.motion else {
                 return None;
             };
@@ -72,16 +68,9 @@ fn line(block: &Block, quadrant: Quadrant, start: Point) -> Result<Segment, Deco
     if block.j == 0 {
         return Err(DecodeFault::NoLength);
     }
-    let counted = match block.axis {
-        CountingAxis::X => x,
-        CountingAxis::Y => y,
-    };
+    let counted = block.axis.of([x, y]);
     let (along_x, along_y) = if x == 0.0 && y == 0.0 {
-        // An axis-parallel line may leave both numbers out.
-        match block.axis {
-            CountingAxis::X => (j, 0.0),
-            CountingAxis::Y => (0.0, j),
-        }
+        block.extent().map(|um| um as f64).into()
     } else if counted == 0.0 {
         return Err(DecodeFault::WrongAxis);
     } else if x.max(y) < j || (j - counted).abs() <= J_TOLERANCE {

@@ -292,8 +292,8 @@ impl ChunkReader for Reader<'_> {
 mod tests {
     use super::*;
     use crate::finding::Rule;
-    use crate::program::path::Step;
-    use crate::program::path::{Cut, cuts};
+    use crate::program::numbering::Renumbering;
+    use crate::program::path::{Cut, Step, cuts};
     use proptest::prelude::*;
 
     /// Findings in one order, whatever stretches the lines lie in.
@@ -489,7 +489,7 @@ mod tests {
         fn fixes_of_damaged_programs_never_panic(text in PROGRAM) {
             let document = Document::read(text.into_bytes());
             for finding in document.findings() {
-                for fix in document.fixes(&finding) {
+                for fix in document.offered(&finding, Renumbering::Offered) {
                     for edit in fix.edit {
                         prop_assert!(edit.range.start <= edit.range.end && edit.range.end <= document.text().len());
                     }

@@ -113,10 +113,7 @@ pub(crate) fn line_block(from: Node, to: Node) -> Block {
     let axis = match x.cmp(&y) {
         std::cmp::Ordering::Greater => CountingAxis::X,
         std::cmp::Ordering::Less => CountingAxis::Y,
-        std::cmp::Ordering::Equal if matches!(quadrant, Quadrant::First | Quadrant::Third) => {
-            CountingAxis::Y
-        }
-        std::cmp::Ordering::Equal => CountingAxis::X,
+        std::cmp::Ordering::Equal => quadrant.counts_at_45_degrees(),
     };
     Block {
         x,
@@ -208,39 +205,27 @@ fn block_about(
         if sweep * arc.sweep <= 0.0 || sweep.abs() > TAU {
             return None;
         }
-        let (first, last) = match axis {
-            CountingAxis::X => (start_x, end_x),
-            CountingAxis::Y => (start_y, end_y),
-        };
         projections(
-            first as f64,
-            last as f64,
+            axis.of([start_x, start_y]) as f64,
+            axis.of([end_x, end_y]) as f64,
             radius,
             phase(axis, start_angle, counter_clockwise),
             sweep.abs(),
         )
-    };
-    let motion = if counter_clockwise {
-        Motion::CounterClockwise(Quadrant::counter_clockwise(start_x, start_y))
-    } else {
-        Motion::Clockwise(Quadrant::clockwise(start_x, start_y))
     };
     let block = Block {
         x: start_x.abs(),
         y: start_y.abs(),
         j: j.round() as i64,
         axis,
-        motion,
+        motion: Motion::arc(counter_clockwise, start_x, start_y),
     };
     Some((block, standing_for(&block, arc, from, to, full_turn)?))
 }
 
 /// How far a controller counts on an axis along an arc.
 pub(crate) fn counted(arc: &Arc, axis: CountingAxis) -> f64 {
-    let (first, last) = match axis {
-        CountingAxis::X => (arc.start.x - arc.center.x, arc.end.x - arc.center.x),
-        CountingAxis::Y => (arc.start.y - arc.center.y, arc.end.y - arc.center.y),
-    };
+    let [first, last] = [arc.start, arc.end].map(|at| axis.of((at - arc.center).into()));
     if arc.is_full_turn() {
         return 4.0 * arc.radius;
     }

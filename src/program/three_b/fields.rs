@@ -223,7 +223,7 @@ fn split_numbers(
             let [Some(x), Some(y), Some(j)] = values[..] else {
                 continue;
             };
-            let counted = if axis == CountingAxis::X { x } else { y };
+            let counted = axis.of([x, y]);
             if matches!(motion, Motion::Line(_)) && counted == j && counted >= x.max(y) && j > 0 {
                 ways.push(all);
             }

@@ -7,7 +7,7 @@
 //! and away from the axis that it comes from when it is inside. (Point-by-point comparison is in every textbook on
 //! these controllers; makers differ in the step exactly on the curve, which makes a difference of at most one µm.)
 //!
-//! [`travel`] gives the end in closed form. [`interpolate`] takes every step; tests compare the two.
+//! [`travel`] gives the end in closed form. Tests compare it with a controller that takes every step.
 
 use super::block::{Block, CountingAxis, Motion, Node, Quadrant};
 
@@ -55,14 +55,8 @@ struct Ramp {
 
 /// `None` where the counted axis does not move.
 fn ramp(block: &Block, quadrant: Quadrant) -> Option<Ramp> {
-    // An axis-parallel line may leave both numbers out.
-    let (x, y) = match (block.x, block.y, block.axis) {
-        (0, 0, CountingAxis::X) => (block.j, 0),
-        (0, 0, CountingAxis::Y) => (0, block.j),
-        (x, y, _) => (x, y),
-    };
-    let counted = if block.axis == CountingAxis::X { x } else { y };
-    if counted == 0 {
+    let [x, y] = block.extent();
+    if block.axis.of([x, y]) == 0 {
         return None;
     }
     let turned = is_turned(quadrant);
@@ -246,73 +240,7 @@ fn root_up(square: i64) -> i64 {
     root
 }
 
-/// The same as [`travel`], step by step: `each` gets the position after every step, relative to the block's start.
-///
-/// Takes a step for each µm of the way. Ends after `most` steps.
-pub fn interpolate(block: &Block, most: usize, mut each: impl FnMut(Node)) -> Option<Node> {
-    let mut left_to_count = block.j;
-    let mut at = Node { x: 0, y: 0 };
-    if left_to_count == 0 {
-        return Some(at);
-    }
-    let (quadrant, turn) = match block.motion {
-        Motion::Line(quadrant) => (quadrant, None),
-        Motion::Clockwise(quadrant) => (quadrant, Some(false)),
-        Motion::CounterClockwise(quadrant) => (quadrant, Some(true)),
-    };
-    if let Some(counter_clockwise) = turn {
-        let mut round = Round::of(block, quadrant, counter_clockwise)?;
-        let start = round.point();
-        for _ in 0..most {
-            if round.is_at_axis() {
-                round.turn();
-            }
-            let is_outside = round.left * round.left + round.done * round.done >= round.square;
-            let counts = if is_outside {
-                round.left -= 1;
-                round.left_counts()
-            } else {
-                round.done += 1;
-                !round.left_counts()
-            };
-            let point = round.point();
-            at = Node {
-                x: point.x - start.x,
-                y: point.y - start.y,
-            };
-            each(at);
-            left_to_count -= i64::from(counts);
-            if left_to_count == 0 {
-                return Some(at);
-            }
-        }
-        return None;
-    }
-    let Ramp {
-        first,
-        second,
-        first_counts,
-    } = ramp(block, quadrant)?;
-    let (mut a, mut b) = (0_i64, 0_i64);
-    for _ in 0..most {
-        let is_above = i128::from(b) * i128::from(first) >= i128::from(a) * i128::from(second);
-        // Along the second axis there is nothing to compare.
-        let steps_first = is_above && first > 0;
-        if steps_first {
-            a += 1;
-        } else {
-            b += 1;
-        }
-        let (x, y) = if is_turned(quadrant) { (b, a) } else { (a, b) };
-        at = signed(quadrant, x, y);
-        each(at);
-        left_to_count -= i64::from(steps_first == first_counts);
-        if left_to_count == 0 {
-            return Some(at);
-        }
-    }
-    None
-}
-
+#[cfg(any(test, feature = "testing"))]
+pub(super) mod stepped;
 #[cfg(test)]
 mod tests;

@@ -34,11 +34,11 @@ pub(crate) use around::StatedPoint;
 pub use block::{Block, CountingAxis, Motion, Quadrant};
 pub use decode::decode;
 pub use document::Document;
-pub(crate) use fault::SyntaxFault;
 pub use fields::{Fields, fields_of};
-pub use machine::{interpolate, travel};
+#[cfg(feature = "testing")]
+pub use machine::stepped::interpolate;
+pub use machine::travel;
 pub use parse::{Item, read, read_line};
-pub(crate) use words::Word;
 pub use words::Words;
 pub use write::write;
 pub(crate) use write::{of_part, write_four_b, write_with};

@@ -11,6 +11,7 @@ use super::words::Words;
 use super::write::{write, write_with};
 use crate::drawing::EntityId;
 use crate::geometry::{Arc, Point, Segment};
+use crate::program::numbering::Renumbering;
 use crate::program::{ProofError, ProvedProgram};
 use crate::settings::{Effective, Jumps, Layout};
 use crate::toolpath::{PathSegment, Source, WirePath};
@@ -25,17 +26,7 @@ fn path_of(segments: Vec<Segment>) -> WirePath {
         .into_iter()
         .map(|geometry| PathSegment { geometry, source })
         .collect();
-    WirePath {
-        outline: 0,
-        pass: 1,
-        counter_clockwise: None,
-        cut_off: false,
-        is_way_back: false,
-        correction: 0.0,
-        thread_hole,
-        side: None,
-        segments,
-    }
+    WirePath::along(thread_hole, segments)
 }
 
 fn written(segments: Vec<Segment>) -> ProvedProgram {
@@ -185,9 +176,12 @@ fn how_many_digits_a_controller_has_is_a_setting() {
                 .all(|finding| finding.rule.name() == "too-many-digits"),
             "{findings:?}"
         );
-        let pieces = findings
-            .iter()
-            .map(|finding| document.fixes(finding)[0].edit[0].text.lines().count());
+        let pieces = findings.iter().map(|finding| {
+            document.offered(finding, Renumbering::Offered)[0].edit[0]
+                .text
+                .lines()
+                .count()
+        });
         (findings.len(), pieces.max())
     };
     assert_eq!(

@@ -129,15 +129,8 @@ pub(crate) fn of_part(
 ) -> Option<Vec<PathSegment>> {
     let scale = unit_mm * 1000.0;
     let path = WirePath {
-        outline: 0,
-        pass: 1,
-        counter_clockwise: None,
-        cut_off: false,
-        is_way_back: false,
-        correction: 0.0,
-        thread_hole: segments.first()?.geometry.start(),
         side: Some(side),
-        segments,
+        ..WirePath::along(segments.first()?.geometry.start(), segments)
     };
     let (correction, radius) = transitions(settings);
     let mut corners = CutCorners::default();
@@ -261,10 +254,8 @@ impl Writer for Blocks<'_> {
         self.prove(&lines)
     }
 
-    fn end(&mut self, closed: bool, first: Node, last: Node, _: bool) -> Proved {
-        self.proof
-            .finish_contour(closed, first, last)
-            .map_err(ProofError::Mismatch)
+    fn end(&mut self, _: Node, _: bool) -> Proved {
+        self.proof.finish_contour().map_err(ProofError::Mismatch)
     }
 
     /// Some straight blocks between two pauses would be read as the way to the next contour.
@@ -343,21 +334,18 @@ impl<'a> Blocks<'a> {
             let start = notes.at();
             let by = travel(&line.block.block).map_or(Vector::zeros(), |to| point_of(to).coords);
             notes.four_b |= line.part.is_some();
+            let kind = match line.decoded {
+                _ if self.is_jump => Kind::Rapid,
+                Segment::Line(_) => Kind::Line,
+                Segment::Arc(_) => Kind::Arc,
+            };
             notes.note(Step {
                 range: read.range,
-                line: 0,
                 number: read.number,
-                kind: match line.decoded {
-                    _ if self.is_jump => Kind::Rapid,
-                    Segment::Line(_) => Kind::Line,
-                    Segment::Arc(_) => Kind::Arc,
-                },
-                start,
                 end: start + by,
                 ideal: Some(line.decoded.moved(start - point_of(line.block.from))),
-                contour: 0,
-                side: None,
                 is_relative: true,
+                ..Step::stop(kind, start)
             });
         }
         Ok(())

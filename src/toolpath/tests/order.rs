@@ -5,6 +5,7 @@ use crate::drawing::{Drawing, Geometry, Role, Unit};
 use crate::finding::{Detail, Place, Rule};
 use crate::geometry::Point;
 use crate::settings::{Direction, Effective};
+use crate::toolpath::job::Job;
 use crate::toolpath::{Refusal, plan};
 
 /// Contours come as they are drawn, or as they are selected; those within another come before it.
@@ -34,15 +35,10 @@ fn machining_order_is_that_of_the_drawing_or_of_the_selection() {
     ] {
         let handles =
             handles.map(|handles| handles.into_iter().map(String::from).collect::<Vec<_>>());
-        let chosen = crate::toolpath::order::chosen(
-            &drawing,
-            &outlines,
-            handles.as_deref(),
-            Default::default(),
-            &Default::default(),
-            1e-9,
-        )
-        .map(|chosen| chosen.outlines);
+        let settings = Effective::default();
+        let job = Job::of(&drawing, &outlines, &settings);
+        let chosen = job.chosen(handles.as_deref(), Default::default(), &Default::default());
+        let chosen = chosen.map(|chosen| chosen.outlines);
         assert_eq!(chosen, Ok(expected), "{handles:?}");
     }
 }

@@ -10,17 +10,13 @@ use crate::program::grid::{best_center, snap};
 use std::ops::Range;
 
 /// Centres that fit the ends of an arc: by another convention, a lost sign or a swap of I and J, else the nearest one.
-pub(super) fn center_fixes(document: &Document, range: &Range<usize>) -> Vec<TextFix> {
+pub(super) fn center_fixes(document: &Document, range: &Range<usize>) -> Option<Vec<TextFix>> {
     let line = document.text().line_of(range.start);
-    let Some(before) = document.machine_before(line) else {
-        return Vec::new();
-    };
+    let before = document.machine_before(line)?;
     let (mut machine, reading) = (before, document.reading());
-    let Some(made) = machine.run(&document.block(line), reading) else {
-        return Vec::new();
-    };
+    let made = machine.run(&document.block(line), reading)?;
     let Bend::Center { i, j, absolute } = made.bend else {
-        return Vec::new();
+        return None;
     };
     let rule = reading.rule(made.incremental);
     let own = made.center(rule);
@@ -74,7 +70,7 @@ pub(super) fn center_fixes(document: &Document, range: &Range<usize>) -> Vec<Tex
         let kind = FixKind::SetCenter { radius, how };
         fixes.push(TextFix::text(kind, false, edit).preferred_if(fixes.is_empty()));
     }
-    fixes
+    Some(fixes)
 }
 
 /// The centre equally far from both ends and nearest to the programmed one, and its distance from that one, mm.

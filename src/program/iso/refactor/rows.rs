@@ -3,7 +3,7 @@
 use super::{Iso, node_of};
 use crate::finding::{Detail, Place as Where, Severity};
 use crate::program::iso::document::Document;
-use crate::program::iso::moves::{Course, Move};
+use crate::program::iso::moves::Move;
 use crate::program::iso::style::Style;
 use crate::program::refactor::Row;
 
@@ -39,10 +39,7 @@ pub(super) fn rows(document: &Document) -> Result<Vec<Row<Iso>>, String> {
     let mut rows = Vec::new();
     let mut fault = None;
     document.moves(&mut |line, made, machine| {
-        if matches!(
-            made.course(document.reading()),
-            Course::OffRadius { .. } | Course::NoRadius
-        ) {
+        if made.curve(document.reading()).is_none() {
             fault.get_or_insert_with(|| say!(the_arc_of_a_line_leads_nowhere, line + 1));
         }
         let [from, to] = [made.from, made.to].map(node_of);

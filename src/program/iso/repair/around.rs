@@ -89,7 +89,7 @@ pub(super) fn stands_alone(document: &Document, lines: &Range<usize>) -> bool {
     let (mut has_corner, mut has_arc) = (false, false);
     for block in lines.clone().map(|line| document.block(line)) {
         has_corner |= block.corner.is_some();
-        has_arc |= block.i.is_some() || block.j.is_some();
+        has_arc |= block.has_center();
     }
     let is_begun = || {
         document

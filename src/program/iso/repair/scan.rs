@@ -5,9 +5,7 @@ pub(crate) use super::line::Line;
 use crate::geometry::{Segment, Vector};
 use crate::program::iso::block::{Block, Motion, Stop};
 use crate::program::iso::machine::Machine;
-use crate::program::iso::moves::{
-    Bend, Course, Move, Place, Reading, added, apart, distance, micrometres,
-};
+use crate::program::iso::moves::{Bend, Course, Move, Place, Reading, added, apart, distance};
 use crate::program::iso::shape::directions;
 use crate::program::path::{BACK, CLEAR, ROUNDING, TANGENT, tolerance, turn};
 
@@ -228,14 +226,9 @@ impl<'a> Way<'a> {
 
     /// The pieces that are cut, with other lines in place of `count` ones, µm. An arc that cannot be is left out.
     pub(crate) fn pieces_with(&self, index: usize, count: usize, lines: &[Line]) -> Vec<Segment> {
-        let piece = |made: Move| match made.course(self.reading) {
-            Course::Line => Some(Segment::line(micrometres(made.from), micrometres(made.to))),
-            Course::Arc(arc) => Some(Segment::Arc(arc)),
-            Course::OffRadius { .. } | Course::NoRadius => None,
-        };
         self.run_with(index, count, lines)
             .filter(|made| made.is_cut() && made.goes_anywhere())
-            .filter_map(piece)
+            .filter_map(|made| made.curve(self.reading))
             .collect()
     }
 
@@ -261,15 +254,7 @@ impl Scan {
         self.against.hard += line.faults;
         let block = &line.block;
         let made = self.machine.run(block, reading);
-        let is_arc = matches!(
-            self.machine.motion,
-            Motion::Clockwise | Motion::CounterClockwise
-        );
-        if (block.i.is_some() || block.j.is_some())
-            && !is_arc
-            && !block.takes_coordinates
-            && !block.sets_position
-        {
+        if block.has_stray_center(self.machine.motion) {
             self.against.hard += 1;
         }
         let mut ended = None;

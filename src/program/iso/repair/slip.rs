@@ -9,10 +9,7 @@ impl Suspect<'_> {
     /// another slip, or none. `lines` stand in the place of those that it changes.
     pub(super) fn is_a_slip(&self, change: &Change, lines: &[Line]) -> bool {
         let total = self.way.total();
-        let has_radius = |line: &Line| {
-            let block = &line.block;
-            block.i.is_some() || block.j.is_some() || block.r.is_some()
-        };
+        let has_radius = |line: &Line| line.block.has_center() || line.block.r.is_some();
         match change {
             Change::Delete { index } => self.is_twice(*index),
             Change::Insert { .. } => false,

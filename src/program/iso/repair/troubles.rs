@@ -1,6 +1,6 @@
 //! The findings that one slip may explain.
 
-use crate::finding::{Detail, Fault, Finding, Place, Rule, Severity};
+use crate::finding::{Detail, Fault, Finding, Rule, Severity};
 use crate::program::by_chunk::ByChunk;
 use crate::program::iso::document::Document;
 use crate::program::of_cut::OfCut;
@@ -23,10 +23,7 @@ impl<'a> Troubles<'a> {
         told: Option<&'a ByChunk<OfCut>>,
     ) -> Troubles<'a> {
         let findings = findings.iter().filter(|one| is_trouble(one));
-        let findings = findings.filter_map(|one| match &one.place {
-            Place::Text { range } => Some(range.start),
-            _ => None,
-        });
+        let findings = findings.filter_map(|one| Some(one.place.in_text()?.start));
         let mut findings: Vec<usize> = findings.collect();
         findings.sort_unstable();
         // Cuts follow each other, and what is found of one stands in it.
@@ -111,8 +108,6 @@ fn may_be_slip(rule: Rule, severity: Severity, detail: &Detail) -> bool {
 }
 
 pub(crate) fn line_of(document: &Document, finding: &Finding) -> Option<usize> {
-    match &finding.place {
-        Place::Text { range } => Some(document.text().line_of(range.start)),
-        _ => None,
-    }
+    let range = finding.place.in_text()?;
+    Some(document.text().line_of(range.start))
 }

@@ -11,7 +11,7 @@ pub(super) fn fixed(text: &str, rule: &str, title: &str) -> String {
         .into_iter()
         .find(|finding| finding.rule.name() == rule)
         .unwrap_or_else(|| panic!("no {rule} in {text}"));
-    let fixes = document.fixes(&finding);
+    let fixes = document.offered(&finding, Renumbering::Offered);
     let titles: Vec<String> = fixes.iter().map(|fix| fix.kind.title(1.0)).collect();
     let index = titles
         .iter()
@@ -163,7 +163,10 @@ fn no_line_is_offered_where_what_follows_would_be_cut_otherwise() {
                 .starts_with("Close the contour with a line")
         };
         assert_eq!(
-            document.fixes(&finding).iter().any(is_close),
+            document
+                .offered(&finding, Renumbering::Offered)
+                .iter()
+                .any(is_close),
             offered,
             "{text}"
         );
@@ -188,7 +191,12 @@ fn slip(line: usize, with: &str, expected: &[(usize, &str)]) {
     findings.sort_by_key(|finding| finding.severity);
     let fix = findings
         .iter()
-        .find_map(|finding| document.fixes(finding).into_iter().next())
+        .find_map(|finding| {
+            document
+                .offered(finding, Renumbering::Offered)
+                .into_iter()
+                .next()
+        })
         .unwrap_or_else(|| panic!("no fix: {with}"));
     let mut fixed = document.clone();
     fix.edit

@@ -34,15 +34,8 @@ fn path_of(segments: &[Segment], side: Option<Side>) -> WirePath {
         last.source = Source::LeadOut;
     }
     WirePath {
-        outline: 0,
-        pass: 1,
-        counter_clockwise: None,
-        cut_off: false,
-        is_way_back: false,
-        correction: 0.0,
-        thread_hole,
         side,
-        segments,
+        ..WirePath::along(thread_hole, segments)
     }
 }
 

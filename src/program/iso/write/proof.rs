@@ -6,7 +6,7 @@ use crate::program::encode::proved_aside;
 use crate::program::grid::point_of;
 use crate::program::iso::encode::Encoded;
 use crate::program::iso::moves::FARTHEST;
-use crate::program::iso::moves::{Course, Move, Place, micrometres};
+use crate::program::iso::moves::{Course, Move, Place};
 use crate::program::write::{ProofError, Proved, scaled, too_far_out};
 
 /// A line that was read back and is as it should be.
@@ -41,7 +41,7 @@ impl Lines<'_> {
             return Err(self.refused(say!(the_correction_is_not_in_force_along_the_contour)));
         }
         let decoded = match made.course(&self.reading) {
-            Course::Line => Segment::line(micrometres(made.from), micrometres(made.to)),
+            Course::Line => made.chord(),
             Course::Arc(arc) => Segment::Arc(arc),
             Course::OffRadius { start, end, .. } => {
                 return Err(ProofError::Mismatch(say!(

@@ -12,8 +12,8 @@ use super::super::rules::{self, Site, TextFix, missing_end, position_mismatch, t
 use super::super::sum::Sum;
 use super::sequence::place_before;
 use super::{At, Document};
-use crate::finding::{Detail, Fault, Finding, FixKind, Place};
-use crate::program::lookalikes::{Alike, alike};
+use crate::finding::{Detail, Fault, Finding, FixKind};
+use crate::program::lookalikes::alike;
 use crate::program::numbering::{self, Renumbering};
 use crate::program::path::{HasCuts, not_closed};
 use crate::program::repair::merged;
@@ -23,38 +23,35 @@ use std::ops::Range;
 impl Document {
     /// The fixes of one finding, the preferred one first: explanations of the whole contour before those of the finding
     /// alone.
-    pub fn fixes(&self, finding: &Finding) -> Vec<TextFix> {
-        let own = self.fixes_of(finding, Renumbering::Offered);
-        merged(self.contour_fixes(finding), own, false)
+    pub(in crate::program) fn offered(
+        &self,
+        finding: &Finding,
+        renumbering: Renumbering,
+    ) -> Vec<TextFix> {
+        let own = self.fixes_of(finding, renumbering).unwrap_or_default();
+        let of_contour = self.contour_fixes(finding).unwrap_or_default();
+        merged(of_contour, own, false)
     }
 
-    /// Those that are about the finding alone: all but the numbering of all blocks, which is never made with others.
-    pub(crate) fn local_fixes(&self, finding: &Finding) -> Vec<TextFix> {
-        let own = self.fixes_of(finding, Renumbering::LeftOut);
-        merged(self.contour_fixes(finding), own, false)
-    }
-
-    fn fixes_of(&self, finding: &Finding, renumbering: Renumbering) -> Vec<TextFix> {
-        let Place::Text { range } = &finding.place else {
-            return Vec::new();
-        };
+    fn fixes_of(&self, finding: &Finding, renumbering: Renumbering) -> Option<Vec<TextFix>> {
+        let range = finding.place.in_text()?;
         let fault = match &finding.detail {
             Detail::Program(fault) => fault,
             Detail::Said(_) => return self.letter_fixes(range),
-            _ => return Vec::new(),
+            _ => return None,
         };
         match &**fault {
-            Fault::MissingEnd { word } => missing_end::fixes(&self.text, range.end, word),
-            Fault::TextAfterEnd { .. } => match self.view.end {
-                Some(end) => text_after_end::fixes(&self.text, self.range_of(end).start),
-                None => Vec::new(),
-            },
+            Fault::MissingEnd { word } => Some(missing_end::fixes(&self.text, range.end, word)),
+            Fault::TextAfterEnd { .. } => {
+                let end = self.range_of(self.view.end?);
+                Some(text_after_end::fixes(&self.text, end.start))
+            }
             Fault::NotClosed { .. } => self.closing_fixes(range),
             Fault::DoubledNumber { .. }
             | Fault::NumberOutOfOrder { .. }
             | Fault::Unnumbered { .. } => self.number_fixes(range, renumbering),
-            Fault::PositionMismatch { .. } => self.position_fixes(range).unwrap_or_default(),
-            Fault::Spur { .. } => self.spur_fixes(range).unwrap_or_default(),
+            Fault::PositionMismatch { .. } => self.position_fixes(range),
+            Fault::Spur { .. } => self.spur_fixes(range),
             fault => self.block_fixes(range, fault),
         }
     }
@@ -120,10 +117,8 @@ impl Document {
         behind.find_map(|(_, entry)| entry.block())
     }
 
-    fn block_fixes(&self, range: &Range<usize>, fault: &Fault) -> Vec<TextFix> {
-        let Some((at, entry)) = self.block_at(range) else {
-            return Vec::new();
-        };
+    fn block_fixes(&self, range: &Range<usize>, fault: &Fault) -> Option<Vec<TextFix>> {
+        let (at, entry) = self.block_at(range)?;
         let own = self.range_of(at);
         // A number that stands before the block belongs to it.
         let block = if matches!(fault, Fault::BlockNumberAsB { .. }) {
@@ -131,9 +126,7 @@ impl Document {
         } else {
             own.clone()
         };
-        let Some(fields) = fields_of(self.text.bytes(), own) else {
-            return Vec::new();
-        };
+        let fields = fields_of(self.text.bytes(), own)?;
         let line = self.text.line_of(block.start);
         let site = Site {
             text: self.text.bytes(),
@@ -148,7 +141,7 @@ impl Document {
             largest: self.limits.largest(),
             closes_with: &|blocks| self.closes_with(at, entry, blocks),
         };
-        rules::fixes(&site, fault)
+        Some(rules::fixes(&site, fault))
     }
 
     /// Whether the contour of a block closes with other blocks in its place.
@@ -174,20 +167,16 @@ impl Document {
     }
 
     /// A straight block that closes the contour.
-    fn closing_fixes(&self, range: &Range<usize>) -> Vec<TextFix> {
-        let Some((at, _)) = self.block_at(range) else {
-            return Vec::new();
-        };
-        let Some(cut) = self.cut_of(at) else {
-            return Vec::new();
-        };
-        let Some(Fault::NotClosed { x, y }) = not_closed(&self.way(&cut)) else {
-            return Vec::new();
+    fn closing_fixes(&self, range: &Range<usize>) -> Option<Vec<TextFix>> {
+        let (at, _) = self.block_at(range)?;
+        let cut = self.cut_of(at)?;
+        let Fault::NotClosed { x, y } = not_closed(&self.way(&cut))? else {
+            return None;
         };
         let [x, y] = [-x, -y].map(|um| um.round() as i64);
         let largest = self.limits.largest();
         if x.abs().max(y.abs()) > largest || (x, y) == (0, 0) {
-            return Vec::new();
+            return None;
         }
         let block = line_block(Node { x: 0, y: 0 }, Node { x, y });
         let own = self.text.bytes().get(range.clone()).unwrap_or_default();
@@ -198,12 +187,10 @@ impl Document {
         }
         push_fields(&mut text, layout, &block, None);
         let behind = self.text.line_range(self.text.line_of(range.start)).end;
-        let Ok(text) = String::from_utf8(text) else {
-            return Vec::new();
-        };
+        let text = String::from_utf8(text).ok()?;
         let length = (x as f64).hypot(y as f64) / 1000.0;
         let edit = vec![TextEdit::new(behind..behind, text)];
-        vec![TextFix::text(FixKind::Close { length }, false, edit)]
+        Some(vec![TextFix::text(FixKind::Close { length }, false, edit)])
     }
 
     /// The number of a block after another one, where the two before it are numbered.
@@ -216,7 +203,7 @@ impl Document {
         own.checked_add(numbering::step(before?.number()?, own)?)
     }
 
-    fn number_fixes(&self, range: &Range<usize>, renumbering: Renumbering) -> Vec<TextFix> {
+    fn number_fixes(&self, range: &Range<usize>, renumbering: Renumbering) -> Option<Vec<TextFix>> {
         let faulty = self.view.asked.faulty_numbers(|| {
             let (places, blocks) = self.numbered(self.view.end);
             let found = numbering::check(&blocks).into_iter();
@@ -225,16 +212,14 @@ impl Document {
             of_place.rev().collect()
         });
         let own = self.entry_at(range);
-        let own = own.filter(|at| self.range_of(*at) == *range);
-        let Some((at, meant)) = own.and_then(|at| Some((at, *faulty.get(&at)?))) else {
-            return Vec::new();
-        };
+        let at = own.filter(|at| self.range_of(*at) == *range)?;
+        let meant = *faulty.get(&at)?;
         let edit = |at: At, number: u32| {
             self.with_number(self.digits_before(at), self.range_of(at).start, number)
         };
         let own = meant.map(|meant| (meant, edit(at, meant)));
         if renumbering == Renumbering::LeftOut {
-            return numbering::fixes(own, None);
+            return Some(numbering::fixes(own, None));
         }
         let (places, blocks) = self.numbered(self.view.end);
         let mut numbers = blocks.iter().filter_map(|block| block.number);
@@ -246,7 +231,7 @@ impl Document {
             });
             ([first, step], edits.collect())
         });
-        numbering::fixes(own, all)
+        Some(numbering::fixes(own, all))
     }
 
     /// The digits of the number that a block or word has.
@@ -261,36 +246,24 @@ impl Document {
         Some(line + end - count..line + end)
     }
 
-    fn letter_fixes(&self, range: &Range<usize>) -> Vec<TextFix> {
-        match self.text.bytes().get(range.clone()) {
-            Some(b"O" | b"o") => {
-                let edit = vec![TextEdit::new(range.clone(), "0")];
-                vec![TextFix::text(FixKind::ZeroForO, true, edit)]
-            }
-            Some(bytes) => {
-                let place =
-                    |start: usize, length: usize| range.start + start..range.start + start + length;
-                let alike = alike(bytes);
-                let plain = |found: &Alike| {
-                    TextEdit::new(
-                        place(found.at, found.length),
-                        char::from(found.likeness.ascii()),
-                    )
-                };
-                let fix = |kind, edit| vec![TextFix::text(kind, true, edit)];
-                if alike.iter().any(|found| found.likeness.is_letter()) {
-                    return fix(FixKind::PlainLetters, alike.iter().map(plain).collect());
-                }
-                let commas = decimal_commas(bytes).map(|at| TextEdit::new(place(at, 1), "."));
-                let commas: Vec<TextEdit> = commas.collect();
-                if commas.len() == 2 {
-                    fix(FixKind::DecimalPoints, commas)
-                } else {
-                    Vec::new()
-                }
-            }
-            None => Vec::new(),
+    fn letter_fixes(&self, range: &Range<usize>) -> Option<Vec<TextFix>> {
+        let bytes = self.text.slice(range.clone())?;
+        let fix = |kind, edit| Some(vec![TextFix::text(kind, true, edit)]);
+        if let b"O" | b"o" = bytes {
+            return fix(FixKind::ZeroForO, vec![TextEdit::new(range.clone(), "0")]);
         }
+        let plain = |at: usize, length: usize, plain: char| {
+            let start = range.start + at;
+            TextEdit::new(start..start + length, plain)
+        };
+        let alike = alike(bytes);
+        if alike.iter().any(|found| found.likeness.is_letter()) {
+            let letters = alike.iter();
+            let letters = letters.map(|it| plain(it.at, it.length, it.likeness.ascii().into()));
+            return fix(FixKind::PlainLetters, letters.collect());
+        }
+        let commas: Vec<TextEdit> = decimal_commas(bytes).map(|at| plain(at, 1, '.')).collect();
+        (commas.len() == 2).then(|| fix(FixKind::DecimalPoints, commas))?
     }
 }
 

@@ -11,7 +11,7 @@ use super::super::repair::{
 };
 use super::super::rules::TextFix;
 use super::{At, Document, JoinedCut};
-use crate::finding::{Axis, Fault, Finding, FixKind, Place, Rule};
+use crate::finding::{Fault, Finding, FixKind, Rule};
 use crate::program::grid::Node;
 use crate::program::repair::offered;
 use crate::program::three_b::block::{Block, Motion};
@@ -22,10 +22,8 @@ use std::ops::Range;
 
 impl Document {
     /// The repairs of the contour with a finding, the most likely one first.
-    pub(super) fn contour_fixes(&self, finding: &Finding) -> Vec<TextFix> {
-        let Place::Text { range } = &finding.place else {
-            return Vec::new();
-        };
+    pub(super) fn contour_fixes(&self, finding: &Finding) -> Option<Vec<TextFix>> {
+        let range = finding.place.in_text()?;
         let scope = match finding.rule {
             Rule::NotClosed
             | Rule::PathCrossesItself
@@ -46,17 +44,12 @@ impl Document {
             | Rule::ArcWithoutRadius
             | Rule::ArcOffRadius
             | Rule::TooManyDigits => Scope::Blocks,
-            _ => return Vec::new(),
+            _ => return None,
         };
-        let Some(at) = self.entry_at(range) else {
-            return Vec::new();
-        };
-        let Some(cut) = self.cut_of(at) else {
-            return Vec::new();
-        };
+        let cut = self.cut_of(self.entry_at(range)?)?;
         // Every finding of a cut asks for the same.
         let found = || self.fixes_of_cut(&cut, scope);
-        self.view.asked.fixes_of(&cut, scope, found)
+        Some(self.view.asked.fixes_of(&cut, scope, found))
     }
 
     fn fixes_of_cut(&self, cut: &JoinedCut, scope: Scope) -> Vec<TextFix> {
@@ -184,20 +177,16 @@ impl Document {
                 is_sure,
             },
             Slip::Exchanged => Fault::ExchangedKeepsOpen,
-            Slip::Number(Number::X, _) => Fault::NumberKeepsOpen {
-                axis: Axis::X,
-                value: old.x,
-                meant: block.x,
-            },
-            Slip::Number(Number::Y, _) => Fault::NumberKeepsOpen {
-                axis: Axis::Y,
-                value: old.y,
-                meant: block.y,
-            },
-            Slip::Number(Number::J, _) => Fault::JKeepsOpen {
-                j: old.j,
-                meant: block.j,
-                is_sure,
+            Slip::Number(number, _) => match number.axis() {
+                Some(axis) => {
+                    let [value, meant] = [old, block].map(|block| axis.of([block.x, block.y]));
+                    Fault::NumberKeepsOpen { axis, value, meant }
+                }
+                None => Fault::JKeepsOpen {
+                    j: old.j,
+                    meant: block.j,
+                    is_sure,
+                },
             },
             Slip::Coordinates | Slip::Unread { .. } => return None,
         };
@@ -454,15 +443,13 @@ fn kind_of(old: &Block, new: &Block, slip: &Slip) -> FixKind {
             j: (old.j != new.j).then_some(new.j),
         },
         Slip::Exchanged => FixKind::ExchangeXAndY,
-        Slip::Number(Number::X, _) => FixKind::SetEnd {
-            axis: Axis::X,
-            value: new.x,
+        Slip::Number(number, _) => match number.axis() {
+            Some(axis) => FixKind::SetEnd {
+                axis,
+                value: axis.of([new.x, new.y]),
+            },
+            None => FixKind::SetJ { j: new.j },
         },
-        Slip::Number(Number::Y, _) => FixKind::SetEnd {
-            axis: Axis::Y,
-            value: new.y,
-        },
-        Slip::Number(Number::J, _) => FixKind::SetJ { j: new.j },
         Slip::Coordinates | Slip::Unread { .. } => FixKind::FollowCoordinates,
     }
 }

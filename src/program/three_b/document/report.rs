@@ -142,14 +142,19 @@ impl Document {
         }
     }
 
+    /// The bytes of a spot of a block.
+    pub(super) fn spot_range(&self, spot: rules::Spot, block: Range<usize>) -> Range<usize> {
+        if spot == rules::Spot::Block {
+            return block;
+        }
+        let fields = fields_of(self.text.bytes(), block.clone());
+        fields.map_or(block.clone(), |fields| spot.range(&fields, block))
+    }
+
     fn materialized(&self, stretch: usize, local: &Local) -> Finding {
         let base = self.stretches.byte(stretch);
         let block = local.range.start + base..local.range.end + base;
-        let range = match local.spot {
-            rules::Spot::Block => block,
-            spot => fields_of(self.text.bytes(), block.clone())
-                .map_or(block.clone(), |fields| spot.range(&fields, block)),
-        };
+        let range = self.spot_range(local.spot, block);
         let detail = match &local.detail {
             Detail::Program(fault) if self.is_unusual_only(stretch, local) => {
                 Detail::Program(Box::new(fault.as_unusual()))

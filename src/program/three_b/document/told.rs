@@ -5,7 +5,6 @@
 //! again. The search for the block to blame is repeated only where one of the lines that it looks
 //! at has changed.
 
-use super::super::fields::fields_of;
 use super::super::repair::FEWEST_BLAMED;
 use super::super::rules;
 use super::{At, Document, JoinedCut, View};
@@ -283,9 +282,7 @@ impl Document {
             Fault::NumberKeepsOpen { axis: Axis::Y, .. } => rules::Spot::Y,
             _ => rules::Spot::Block,
         };
-        let block = self.range_of(at);
-        let range = fields_of(self.text.bytes(), block.clone())
-            .map_or(block.clone(), |fields| spot.range(&fields, block));
+        let range = self.spot_range(spot, self.range_of(at));
         Some(Finding::of(fault.clone(), range))
     }
 

@@ -188,13 +188,11 @@ impl Program for Document {
                 range: self.range_of(own),
                 line: first_line + what.line as usize,
                 number: what.number(),
-                kind,
-                start,
                 end,
                 ideal,
                 contour: *contour,
-                side: None,
                 is_relative: true,
+                ..Step::stop(kind, start)
             });
             start = end;
             if let What::Word { .. } = what.what {

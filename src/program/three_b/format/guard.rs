@@ -2,7 +2,7 @@
 //! they are no evidence.
 
 use super::{Ends, format, layout_of};
-use crate::finding::{Finding, Place, Rule};
+use crate::finding::{Finding, Rule};
 use crate::program::three_b::Document;
 use crate::settings::{Effective, Layout};
 use crate::text::{TextEdit, edited};
@@ -60,10 +60,8 @@ pub(crate) fn guarded(
     if changed(&before, &findings_after(document, settings, &kept)).is_some() {
         kept.clear();
     }
-    let line = match &reason.place {
-        Place::Text { range } => text.line_of(range.start.min(text.len())),
-        _ => 0,
-    };
+    let place = reason.place.in_text();
+    let line = place.map_or(0, |range| text.line_of(range.start.min(text.len())));
     Formatted {
         edits: kept,
         kept: Some(Kept {

@@ -1,3 +1,4 @@
+use super::stepped::interpolate;
 use super::*;
 use crate::geometry::{Point, Segment};
 use crate::program::three_b::{Item, Words, decode, read};

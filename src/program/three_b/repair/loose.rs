@@ -13,6 +13,17 @@ pub(in super::super) enum Number {
     J,
 }
 
+impl Number {
+    /// The axis along which it counts; J counts along both.
+    pub(in super::super) fn axis(self) -> Option<CountingAxis> {
+        match self {
+            Number::X => Some(CountingAxis::X),
+            Number::Y => Some(CountingAxis::Y),
+            Number::J => None,
+        }
+    }
+}
+
 /// A broken block.
 #[derive(Clone, Debug, PartialEq)]
 pub(in super::super) struct Loose {

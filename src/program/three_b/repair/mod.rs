@@ -293,15 +293,7 @@ impl Contour for Suspect<'_> {
             } => Some(block),
             _ => None,
         };
-        let by = match change {
-            Change::Replace {
-                meant: (block, _), ..
-            }
-            | Change::Insert {
-                meant: (block, _), ..
-            } => travel_of(block),
-            _ => Move::default(),
-        };
+        let by = change.meant().map(|(block, _)| travel_of(block));
         Lead {
             at: change.index(),
             kind: (
@@ -315,7 +307,7 @@ impl Contour for Suspect<'_> {
                 .and_then(|block| decode(block, Point::origin()))
                 .and_then(|way| way.as_arc().map(|arc| arc.center - arc.start))
                 .unwrap_or_default(),
-            by,
+            by: by.unwrap_or_default(),
         }
     }
 

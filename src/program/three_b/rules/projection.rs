@@ -2,7 +2,7 @@
 
 use super::super::decode::J_TOLERANCE;
 use super::Outlook;
-use crate::program::three_b::block::{Block, CountingAxis, Motion};
+use crate::program::three_b::block::{Block, Motion};
 
 /// The meaning of a line's J.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,7 +30,7 @@ pub(super) fn is_misfit(block: &Block) -> bool {
 fn length_of(block: &Block) -> Length {
     let Block { x, y, j, axis, .. } = *block;
     let larger = x.max(y);
-    let counted = if axis == CountingAxis::X { x } else { y };
+    let counted = axis.of([x, y]);
     let near = |a: f64| (j as f64 - a).abs() <= J_TOLERANCE;
     if larger == 0 || near(larger as f64) || (counted > 0 && near(counted as f64)) {
         return Length::Projection;
@@ -54,7 +54,7 @@ fn length_of(block: &Block) -> Length {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::program::three_b::block::Quadrant;
+    use crate::program::three_b::block::{CountingAxis, Quadrant};
 
     #[test]
     fn the_length_in_j_is_told_by_x_and_y() {

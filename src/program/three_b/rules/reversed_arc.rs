@@ -3,7 +3,7 @@
 use super::{BlockRule, Site, TextFix};
 use crate::finding::{Fault, FixKind, Rule};
 use crate::geometry::{Arc, Point, Segment};
-use crate::program::three_b::block::{Block, Motion, Quadrant};
+use crate::program::three_b::block::{Block, Motion};
 use crate::program::three_b::decode::meant;
 use crate::program::three_b::encode::counted;
 use std::f64::consts::TAU;
@@ -35,11 +35,7 @@ fn exchanged(block: &Block) -> Option<Block> {
     };
     let start = arc.start - arc.center;
     let [x, y] = [start.x, start.y].map(|um| um.round() as i64);
-    let motion = match block.motion {
-        Motion::Clockwise(_) => Motion::CounterClockwise(Quadrant::counter_clockwise(x, y)),
-        Motion::CounterClockwise(_) => Motion::Clockwise(Quadrant::clockwise(x, y)),
-        Motion::Line(_) => return None,
-    };
+    let motion = Motion::arc(arc.sweep < 0.0, x, y);
     let j = counted(&other, block.axis).round() as i64;
     Some(Block {
         j,

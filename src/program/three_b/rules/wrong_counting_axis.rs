@@ -21,7 +21,7 @@ fn check(outlook: &Outlook) -> Option<Observation> {
     let axis = outlook.block.axis;
     if outlook.is_line() {
         let Block { x, y, j, .. } = *outlook.block;
-        let (counted, other) = if axis == Axis::X { (x, y) } else { (y, x) };
+        let [counted, other] = [axis, axis.other()].map(|axis| axis.of([x, y]));
         // A ratio is as near to a tie as its line.
         let scale = if other > 0 && j > other { j / other } else { 1 };
         let contradicts = other > 0 && (other - counted).saturating_mul(scale) > TIE;
@@ -40,11 +40,7 @@ fn check(outlook: &Outlook) -> Option<Observation> {
         return None;
     };
     let out = arc.end - arc.center;
-    let (along, across) = if axis == Axis::X {
-        (out.x.abs(), out.y.abs())
-    } else {
-        (out.y.abs(), out.x.abs())
-    };
+    let [along, across] = [axis, axis.other()].map(|axis| axis.of([out.x, out.y]).abs());
     let fault = || {
         let sentence = say!(
             g_does_not_fit_the_end_of_the_arc,

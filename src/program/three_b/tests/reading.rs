@@ -2,6 +2,7 @@
 
 use super::blocks;
 use crate::geometry::Point;
+use crate::program::numbering::Renumbering;
 use crate::program::three_b::around::StatedPoint;
 use crate::program::three_b::block::{Block, CountingAxis, Motion, Quadrant};
 use crate::program::three_b::decode::{DecodeFault, decode};
@@ -158,7 +159,10 @@ fn coordinates_beyond_any_machine_are_none() {
         let document = crate::program::three_b::Document::read(with(stated).into_bytes());
         let findings = document.findings();
         // The fixes are asked for, too.
-        let _: Vec<_> = findings.iter().map(|it| document.fixes(it)).collect();
+        let _: Vec<_> = findings
+            .iter()
+            .map(|it| document.offered(it, Renumbering::Offered))
+            .collect();
         findings.iter().map(|finding| finding.rule.name()).collect()
     };
     for far in [
