@@ -5,7 +5,7 @@ use super::ends::{Asked, EndsOf, Runs};
 use super::pair_findings::FacingWalls;
 use super::pairs::Pairs;
 use super::report::Report;
-use crate::drawing::{ContourKey, Drawing, RUN};
+use crate::drawing::{ContourIndex, ContourKey, Drawing};
 use crate::finding::{Detail, Rule, Severity, Side};
 use crate::rules::arc_as_chords::REACH;
 use crate::rules::dead_end::{DeadEnd, holds};
@@ -192,8 +192,9 @@ fn enter(
                     walls.and_then(|(one, other)| DeadEnd::between(&one, &other, side, center));
                 let ended = end.and_then(|end| Some((end.walls(), end.left(outlook)?)));
                 let is_forward = end.is_none_or(|end| end.walls().is_sorted());
-                each.ended = (is_forward && hangs_on_runs(one, other, count)).then_some(ended);
-                if each.ended.is_none() && !(is_forward && is_near(one, other, count)) {
+                let hangs = is_forward && hangs_on_runs(outlook.index, one, other);
+                each.ended = hangs.then_some(ended);
+                if !hangs && !(is_forward && is_near(outlook.index, one, other)) {
                     of.far.insert(runs);
                 }
                 ended
@@ -212,21 +213,22 @@ fn enter(
 
 /// True if all that a rule sees between two segments lies in their runs, so that re-checking these is enough: they are
 /// checked again where one of their segments changes, or one of [`NEIGHBOURS`] about them.
-fn hangs_on_runs(one: usize, other: usize, count: usize) -> bool {
+fn hangs_on_runs(index: &ContourIndex, one: usize, other: usize) -> bool {
     const ABOUT: usize = REACH - NEIGHBOURS;
     let (first, last) = (one.min(other), one.max(other));
-    let is_inside = first >= REACH && last + REACH < count;
+    let is_inside = first >= REACH && last + REACH < index.len();
+    let [of_first, of_last] = [first, last].map(|segment| index.run_of(segment));
     is_inside
-        && last / RUN - first / RUN <= 1
-        && (first - ABOUT) / RUN == first / RUN
-        && (last + ABOUT) / RUN == last / RUN
+        && of_last - of_first <= 1
+        && index.run_of(first - ABOUT) == of_first
+        && index.run_of(last + ABOUT) == of_last
 }
 
 /// True where the runs of two segments and of those about them are few, and do not cross the end of the contour.
-fn is_near(one: usize, other: usize, count: usize) -> bool {
+fn is_near(index: &ContourIndex, one: usize, other: usize) -> bool {
     let last = one.max(other) + REACH;
     let first = one.min(other).checked_sub(REACH);
-    first.is_some_and(|first| last < count && last / RUN - first / RUN < FEW)
+    first.is_some_and(|first| last < index.len() && index.run_of(last) - index.run_of(first) < FEW)
 }
 
 /// The slots between walls of one contour, for the wire on either side: the two walls, in the order of the first, each

@@ -1,5 +1,6 @@
 //! The dead ends of contours, kept by the two runs in which they were found. Knows nothing of how they are found.
 
+use super::compare::shifted;
 use crate::drawing::ContourKey;
 use crate::finding::Side;
 use crate::rules::dead_end::Left;
@@ -87,6 +88,23 @@ impl EndsOf {
             if self.ends.remove(&order).is_some() {
                 self.places -= usize::from(!self.has(order.0));
             }
+        }
+    }
+
+    /// Segments from `first` on have other indices, in the contour and in the entity that it is.
+    pub(super) fn shift(&mut self, first: usize, by: isize) {
+        let shifted = |index| shifted(index, first, by);
+        let moved = |((rank, segment, is_left), depth, walls): Order| -> Order {
+            ((rank, shifted(segment), is_left), depth, walls.map(shifted))
+        };
+        let ends = std::mem::take(&mut self.ends).into_iter();
+        let ends = ends.map(|(order, left)| {
+            let index = shifted(left.index);
+            (moved(order), Left { index, ..left })
+        });
+        self.ends = ends.collect();
+        for order in self.of_runs.values_mut().flatten() {
+            *order = moved(*order);
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::notable::Kind;
 use super::report::Report;
-use crate::drawing::{Contour, ContourIndex, Drawing, RUN, Role};
+use crate::drawing::{Contour, ContourIndex, Drawing, Role};
 use crate::finding::{Finding, Severity, Side};
 use crate::rules::lost_pocket::Checked;
 use crate::rules::{AtHand, LOCAL_RULES, Limits, LocalRule, Observation, Outlook};
@@ -103,7 +103,7 @@ impl Known {
             asked.extend(
                 ranges
                     .into_iter()
-                    .flat_map(|range| range.start / RUN..range.end.div_ceil(RUN).min(runs))
+                    .flat_map(|range| self.index.runs_over(range))
                     .map(|run| (run, number)),
             );
         }
@@ -114,9 +114,9 @@ impl Known {
             one / AT_ONCE == other / AT_ONCE && other - one <= NEAR
         };
         for asked in asked.chunk_by(at_once) {
-            let runs_at_hand = asked[0].0..asked[asked.len() - 1].0 + 1;
-            let range = (runs_at_hand.start * RUN).saturating_sub(ABOUT)
-                ..(runs_at_hand.end * RUN + ABOUT).min(count);
+            let segments_of = |run| self.index.range_of(run);
+            let range = segments_of(asked[0].0).start.saturating_sub(ABOUT)
+                ..(segments_of(asked[asked.len() - 1].0).end + ABOUT).min(count);
             let at_hand = all
                 .take()
                 .unwrap_or_else(|| AtHand::of(drawing, contour, limits, range));
@@ -143,6 +143,15 @@ impl Known {
                 seen.iter().for_each(|new| counts.add(new));
                 known.observations[run] = seen.as_slice().into();
             }
+        }
+    }
+
+    /// Moves the observations behind the runs that hold some segments, of which others have become so many fewer or more.
+    pub(crate) fn shift(&mut self, behind: usize, by: isize) {
+        let of_runs = self.by_rule.iter_mut();
+        let later = of_runs.flat_map(|seen| seen.observations.iter_mut().skip(behind));
+        for observation in later.flatten() {
+            observation.index = (observation.index as usize).wrapping_add_signed(by) as u32;
         }
     }
 

@@ -146,7 +146,6 @@ impl Analysis {
         let recounted = before.count() != geometry.segment_count();
         if recounted {
             self.chains.recount(drawing, entity);
-            self.pairs.renumber();
             self.answers.retain(|(other, _), _| *other != key);
         }
         self.lost.remove(&key);
@@ -162,6 +161,17 @@ impl Analysis {
             return false;
         };
         let mut known = Arc::unwrap_or_clone(known);
+        let mut forgotten = FxHashSet::default();
+        let spliced = vertices
+            .filter(|_| recounted)
+            .and_then(|vertices| self.splice(drawing, key, &mut known, vertices, &mut forgotten));
+        let (vertices, recounted) = match spliced {
+            Some(vertices) => (Some(vertices), false),
+            None => (vertices, recounted),
+        };
+        if recounted {
+            self.pairs.renumber();
+        }
         let Some(contour) = self.chains.get(key) else {
             return false;
         };
@@ -179,36 +189,37 @@ impl Analysis {
             let Range { start, end } = within(&piece, range);
             // Later segments have other indices now; in a piece travelled against its own
             // direction, and in the pieces after it, that reaches past the splice.
-            start..if recounted { contour.len() } else { end }
+            match (recounted, known.index.is_as_afresh()) {
+                (false, _) => start..end,
+                (true, true) => start..contour.len(),
+                (true, false) => 0..contour.len(),
+            }
         });
         let ranges: Vec<Range<usize>> = ranges.collect();
         // What a pair rule sees at a segment depends on its neighbours, too. Runs after a segment that came or went
         // have other segments.
-        let mut runs = BTreeSet::new();
+        let mut runs: BTreeSet<usize> = forgotten.iter().copied().collect();
         for (nth, range) in ranges.iter().enumerate() {
             // For an entity that is a contour by itself there is nothing to check as a whole where
             // no other comes near its ends.
             let is_end = nth >= changed && is_all && !recounted;
-            let bounds_of = |index: usize| known.index.bounds_of_run(index / RUN);
+            let bounds_of = |index: usize| known.index.bounds_of_run(known.index.run_of(index));
             if is_end && !self.pairs.comes_near_others(key, &bounds_of(range.start)) {
                 continue;
             }
-            let count = if recounted {
-                known.index.len().max(contour.len())
+            let (index, count) = (&known.index, contour.len());
+            let from = range.start.saturating_sub(NEIGHBOURS);
+            if recounted {
+                let last = index.run_count().max(count.div_ceil(RUN));
+                runs.extend(index.run_of(from)..last);
             } else {
-                contour.len()
-            };
-            let behind = if recounted {
-                count
-            } else {
-                (range.end + NEIGHBOURS).min(count)
-            };
-            runs.extend(range.start.saturating_sub(NEIGHBOURS) / RUN..behind.div_ceil(RUN));
-            if contour.closed && range.start < NEIGHBOURS {
-                runs.extend(count.saturating_sub(NEIGHBOURS) / RUN..count.div_ceil(RUN));
+                runs.extend(index.runs_over(from..(range.end + NEIGHBOURS).min(count)));
+            }
+            if contour.closed && !recounted && range.start < NEIGHBOURS {
+                runs.extend(index.runs_over(count.saturating_sub(NEIGHBOURS)..count));
             }
             if contour.closed && (recounted || range.end + NEIGHBOURS > count) {
-                runs.extend(0..NEIGHBOURS.min(count).div_ceil(RUN));
+                runs.extend(index.runs_over(0..NEIGHBOURS.min(count)));
             }
         }
         // Two closed outlines that lie on each other may begin anywhere: what is known of both is kept where one of them begins.
@@ -231,7 +242,6 @@ impl Analysis {
                 self.pairs.forget_run((other, run), &bounds);
             }
         }
-        let mut forgotten = FxHashSet::default();
         for &run in &runs {
             if run < known.index.run_count() && forgotten.insert(run) {
                 self.pairs
@@ -274,9 +284,54 @@ impl Analysis {
                 .is_some_and(|entity| entity.geometry.is_closed())
         })?;
         let (_, index) = self.chains.index_of(first, 0)?;
-        Some((key, (index / RUN) as u32))
+        let run = self.known.get(&key)?.index.run_of(index);
+        Some((key, run as u32))
+    }
+
+    /// Takes up that some vertices of an entity that is a long contour by itself have become more or fewer: what is known
+    /// of the segments behind them stays, under other indices. Returns the vertices that are to be looked at, as a splice
+    /// that keeps the count; `None` where all behind it is to be looked at. The runs about the splice are `forgotten`.
+    fn splice(
+        &mut self,
+        drawing: &Drawing,
+        key: ContourKey,
+        known: &mut Known,
+        (start, removed, inserted): (usize, usize, usize),
+        forgotten: &mut FxHashSet<usize>,
+    ) -> Option<(usize, usize, usize)> {
+        let contour = self.chains.get(key)?;
+        let [piece] = contour.pieces.as_slice() else {
+            return None;
+        };
+        let (gone, come) = (start.checked_sub(1)?..start + removed, inserted + 1);
+        let index = &mut known.index;
+        let about = gone.start.checked_sub(NEIGHBOURS)?..gone.end + NEIGHBOURS;
+        let is_inside = about.start > 0 && about.end < index.len();
+        if piece.reversed || !is_inside || come > RUN || index.run_count() < LONG {
+            return None;
+        }
+        for run in index.runs_over(about) {
+            if forgotten.insert(run) {
+                let bounds = index.bounds_of_run(run);
+                self.pairs.forget_run((key, run as u32), &bounds);
+            }
+        }
+        let behind = index.runs_over(gone.clone()).end;
+        let first = index.range_of(behind).start;
+        let tight = self.tight_below();
+        if !index.splice(drawing, contour, tight, (gone, come)) {
+            return None;
+        }
+        let by = inserted as isize - removed as isize;
+        let runs = behind as u32..index.run_count() as u32;
+        self.pairs.shift(key, runs, first, by);
+        known.shift(behind, by);
+        Some((start, inserted, inserted))
     }
 }
+
+/// From this many runs on a contour is not looked at anew because segments come or go.
+const LONG: usize = 4;
 
 /// Asks a question of each contour; of many contours on several threads.
 fn each_of<T: Send>(keys: &[ContourKey], ask: impl Fn(ContourKey) -> T + Sync) -> Vec<T> {

@@ -5,6 +5,7 @@ mod hatched;
 mod left_out;
 mod pairs;
 mod random;
+mod spliced;
 mod told;
 use proptest::prelude::*;
 use std::fmt::Write;
