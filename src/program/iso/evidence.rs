@@ -122,8 +122,8 @@ impl Arcs {
     /// What speaks against a rule: misfits, centres far away, wide turns. Among full circles, which fit under any rule,
     /// one or two that do not quite come back are slips, and tell nothing either.
     fn against(&self, rule: usize) -> (u32, u32, u32) {
-        let are_slips = self.beside <= SLIPS.min(self.closed)
-            && self.closed + self.beside == self.all;
+        let are_slips =
+            self.beside <= SLIPS.min(self.closed) && self.closed + self.beside == self.all;
         let without = |all: [u32; 3], slips: [u32; 3]| match are_slips {
             true => all[rule].saturating_sub(slips[rule]),
             false => all[rule],
