@@ -120,8 +120,8 @@ pub(super) fn edits(
             if let Some((meant, by, off)) = meant_by(&meant, traced, index, placement) {
                 // Nor does a block stand for the next one as well.
                 let next = traced.blocks.get(index + 1).and_then(Block::segment);
-                let ends_there = |next: &Segment| (next.end() - own.end() - by).norm() <= REACH;
-                let is_of_both = by.norm() > BESIDE && next.is_some_and(ends_there);
+                let ends_there = |next: &Segment| (next.end() - own.end() - by).norm() <= BESIDE;
+                let is_of_both = by.norm() > 2.0 * BESIDE && next.is_some_and(ends_there);
                 let likely = hows
                     .iter()
                     .filter(|how| **how == How::Relative || !is_of_both);
@@ -291,7 +291,7 @@ fn meant_by(
         arc => arc,
     };
     let manner = (traced.counts, block.by_radius);
-    let apart = match is_lost || block.by_radius {
+    let apart = match is_lost {
         true => traced.center_apart(block, &meant.moved(own.start() - meant.start())),
         false => numbers_apart(own, &meant, manner),
     };
