@@ -5,7 +5,7 @@ use super::against_reference::{Told, against_reference};
 use super::comparison::looked_at;
 use super::difference::{Comparison, Difference};
 use super::drawn::Drawn;
-use super::followed::{but_one, followed};
+use super::followed::{Layings, but_one, followed};
 use super::guess::otherwise;
 use super::traced::{Block, Traced};
 use super::uneven::uneven;
@@ -60,21 +60,22 @@ fn compared(drawn: &Drawn, traced: &Traced) -> (Option<Comparison>, bool) {
         let known = known.filter(|told| !told.has_gap);
         return (known.map(Told::whole), true);
     }
+    let mut layings = Layings::of(drawn, traced);
     let Some(known) = known else {
         let guessed = otherwise(drawn, traced);
         let seen = match guessed {
             Some(told) if is_silent(&told) || is_slight(&told) => Some(told.whole()),
             Some(told) if told.is_one_change() => {
-                clean_or_slip(drawn, traced).or(Some(told.whole()))
+                clean_or_slip(drawn, traced, &mut layings).or(Some(told.whole()))
             }
-            Some(told) => clean_or_slip(drawn, traced)
-                .or_else(|| but_one(drawn, traced))
+            Some(told) => clean_or_slip(drawn, traced, &mut layings)
+                .or_else(|| but_one(&mut layings))
                 .or(Some(told.whole())),
-            None => clean_or_slip(drawn, traced).or_else(|| {
+            None => clean_or_slip(drawn, traced, &mut layings).or_else(|| {
                 let seen = looked_at(drawn, traced);
                 match seen.as_ref().is_some_and(is_clean) {
                     true => seen,
-                    false => but_one(drawn, traced).or(seen),
+                    false => but_one(&mut layings).or(seen),
                 }
             }),
         };
@@ -101,7 +102,7 @@ fn compared(drawn: &Drawn, traced: &Traced) -> (Option<Comparison>, bool) {
         && !known.is_one_change()
         && !is_slight(&known)
         && is_of_contours(&known)
-        && let Some(seen) = clean_or_slip(drawn, traced)
+        && let Some(seen) = clean_or_slip(drawn, traced, &mut layings)
     {
         return (Some(seen), false);
     }
@@ -121,7 +122,7 @@ fn compared(drawn: &Drawn, traced: &Traced) -> (Option<Comparison>, bool) {
     }
     // One may be as another writer has it in a place or two.
     let seen = looked_at(drawn, traced).filter(is_clean);
-    let seen = seen.or_else(|| but_one(drawn, traced));
+    let seen = seen.or_else(|| but_one(&mut layings));
     (seen.or(Some(known)), false)
 }
 
@@ -131,8 +132,8 @@ fn is_clean(seen: &Comparison) -> bool {
 
 /// What says nothing of a program; but where one block of it may be a few micrometres off, that: nobody sets anything
 /// otherwise by so little.
-fn clean_or_slip(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
-    let seen = followed(drawn, traced)?;
+fn clean_or_slip(drawn: &Drawn, traced: &Traced, layings: &mut Layings) -> Option<Comparison> {
+    let seen = followed(layings)?;
     let is_slip = |seen: &Comparison| {
         is_one_off(seen, LEAST..=SLIP) && seen.differences.iter().all(|one| one.kind == Kind::Block)
     };

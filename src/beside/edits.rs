@@ -101,7 +101,11 @@ pub(super) fn edits(
         let (lost, _) = stretch(rounds, &spot, &entry);
         let (by, off) = (lost.end() - lost.start(), lost.length());
         for &how in hows.iter().take(2) {
-            add(of(Change::Lost(lost, how), Some(&spot), by, off));
+            // What it leaves nothing of is not lost before it.
+            let is_all = how != How::Relative && (own.start() + by - own.end()).norm() <= REACH;
+            if !is_all {
+                add(of(Change::Lost(lost, how), Some(&spot), by, off));
+            }
         }
     }
     for (spot, entry) in begun.iter().copied().chain(ending(own.end())) {
@@ -114,7 +118,14 @@ pub(super) fn edits(
         });
         for meant in all.into_iter().chain(part) {
             if let Some((meant, by, off)) = meant_by(&meant, traced, index, placement) {
-                for &how in hows {
+                // Nor does a block stand for the next one as well.
+                let next = traced.blocks.get(index + 1).and_then(Block::segment);
+                let ends_there = |next: &Segment| (next.end() - own.end() - by).norm() <= BESIDE;
+                let is_of_both = by.norm() > 2.0 * BESIDE && next.is_some_and(ends_there);
+                let likely = hows
+                    .iter()
+                    .filter(|how| **how == How::Relative || !is_of_both);
+                for &how in likely {
                     add(of(Change::Otherwise(meant, how), Some(&spot), by, off));
                 }
             }
@@ -192,11 +203,11 @@ impl Edit {
                 };
                 edited.blocks.insert(index, block);
                 shift_cuts(&mut edited, index, 1);
-                go_on(&mut edited.blocks[index + 1..], self.by, how);
+                go_on(traced, &mut edited.blocks[index + 1..], self.by, how);
             }
             Change::Otherwise(meant, how) => {
                 edited.blocks[index].motion = Motion::Cut(meant);
-                go_on(&mut edited.blocks[index + 1..], self.by, how);
+                go_on(traced, &mut edited.blocks[index + 1..], self.by, how);
             }
         }
         edited
@@ -267,16 +278,31 @@ fn meant_by(
     };
     let end = placement.program(stretch.end()) + aside;
     let by = end - own.end();
+    // A whole turn that ends a little beside its start may be next to none.
+    let turn = stretch.as_arc().filter(|arc| arc.is_full_turn());
+    let turn = turn.map_or(0.0, |_| stretch.length());
+    let longer = (stretch.length() - own.length()).abs();
     let is_alike = is_lost
+        || block.by_radius && turns_like(own, stretch)
         || stretch.as_arc().is_some() == own.as_arc().is_some()
-            && (stretch.length() - own.length()).abs() <= 2.0 * by.norm() + TOLERANCE;
+            && longer.min((longer - turn).abs()) <= 2.0 * by.norm() + TOLERANCE;
     let meant = match stretch.moved(end - stretch.end()) {
         Segment::Line(_) => Segment::line(own.start(), end),
         arc => arc,
     };
     let manner = (traced.counts, block.by_radius);
-    let off = by.norm().max(numbers_apart(own, &meant, manner));
+    let apart = match is_lost {
+        true => traced.center_apart(block, &meant.moved(own.start() - meant.start())),
+        false => numbers_apart(own, &meant, manner),
+    };
+    let off = by.norm().max(apart);
     (is_alike && off >= LEAST).then_some((meant, by, off))
+}
+
+/// Two arcs that go round in the same sense.
+fn turns_like(one: &Segment, other: &Segment) -> bool {
+    let sweeps = one.as_arc().zip(other.as_arc());
+    sweeps.is_some_and(|(one, other)| one.sweep * other.sweep > 0.0)
 }
 
 /// Cuts of a program that has a block more or less.
@@ -330,38 +356,64 @@ impl How {
 }
 
 /// Lets blocks go on after one whose end has moved.
-fn go_on(behind: &mut [Block], by: Vector, how: How) {
+fn go_on(traced: &Traced, behind: &mut [Block], by: Vector, how: How) {
     match how {
         How::Relative => move_on(behind, by),
-        How::Held => hold(behind, by),
+        How::Held => hold(traced, behind, by),
         How::AbsoluteFrom | How::Absolute => {
-            let next = behind.iter_mut().find_map(|block| match &mut block.motion {
-                Motion::Cut(segment) => Some(segment),
-                _ => None,
-            });
-            if let Some(next) = next {
-                let end = next.end();
-                *next = begun_at(next, next.start() + by, end, by, how);
+            let next = behind.iter_mut().find(|block| block.segment().is_some());
+            if let Some(next) = next
+                && let Some(own) = next.segment()
+            {
+                let center_by = if how == How::Absolute {
+                    Vector::zeros()
+                } else {
+                    by
+                };
+                let ends = [own.start() + by, own.end()];
+                next.motion = Motion::Cut(between(traced, next, own, ends, center_by));
             }
         }
     }
 }
 
+/// A block between other ends: an arc by its radius, else about a centre that has moved as well.
+fn between(
+    traced: &Traced,
+    block: &Block,
+    own: &Segment,
+    [start, end]: [Point; 2],
+    center_by: Vector,
+) -> Segment {
+    if block.by_radius || block.is_lost {
+        let is_absolute = center_by == Vector::zeros();
+        let said = traced.arc_between(block, [start, end], is_absolute);
+        return said.unwrap_or(Segment::line(start, end));
+    }
+    match own {
+        Segment::Line(_) => Segment::line(start, end),
+        Segment::Arc(arc) => Segment::Arc(Arc::about(
+            arc.center + center_by,
+            start,
+            end,
+            arc.sweep > 0.0,
+        )),
+    }
+}
+
 /// Moves the blocks after a changed end that name no other place in the direction of the change.
-fn hold(behind: &mut [Block], mut by: Vector) {
+fn hold(traced: &Traced, behind: &mut [Block], mut by: Vector) {
     for block in behind {
         let Some([start, end]) = block.motion.ends() else {
             continue;
         };
         let kept = by.zip_map(&(end - start), |by, way| if way == 0.0 { by } else { 0.0 });
+        if let Some(own) = block.segment() {
+            let ends = [start + by, end + kept];
+            block.motion = Motion::Cut(between(traced, block, own, ends, by));
+        }
         match &mut block.motion {
-            Motion::Cut(Segment::Line(_)) => {
-                block.motion = Motion::Cut(Segment::line(start + by, end + kept));
-            }
-            Motion::Cut(Segment::Arc(arc)) => {
-                let center = arc.center + by;
-                *arc = Arc::about(center, start + by, end + kept, arc.sweep > 0.0);
-            }
+            Motion::Cut(_) => {}
             Motion::Way(start, way) => {
                 *start += by;
                 *way += kept - by;
@@ -371,19 +423,6 @@ fn hold(behind: &mut [Block], mut by: Vector) {
         by = kept;
         if by == Vector::zeros() {
             return;
-        }
-    }
-}
-
-fn begun_at(segment: &Segment, start: Point, end: Point, by: Vector, how: How) -> Segment {
-    match segment {
-        Segment::Line(_) => Segment::line(start, end),
-        Segment::Arc(arc) => {
-            let center = match how {
-                How::AbsoluteFrom => arc.center + by,
-                _ => arc.center,
-            };
-            Segment::Arc(Arc::about(center, start, end, arc.sweep > 0.0))
         }
     }
 }

@@ -29,6 +29,7 @@ const ALIKE: f64 = 0.3;
 const SLIPS: usize = 3;
 
 /// A way in which a program may lie on its drawing.
+#[derive(Clone)]
 struct Laying {
     drawn: Drawn,
     courses: Vec<Course>,
@@ -51,15 +52,44 @@ impl Laying {
     }
 }
 
+/// All ways in which a program may lie on its drawing, the likeliest first; each is laid once.
+pub(super) struct Layings<'a> {
+    traced: &'a Traced,
+    known: Vec<Laying>,
+    rest: Box<dyn Iterator<Item = Laying> + 'a>,
+}
+
+impl<'a> Layings<'a> {
+    pub(super) fn of(drawn: &'a Drawn, traced: &'a Traced) -> Layings<'a> {
+        Layings {
+            traced,
+            known: Vec::new(),
+            rest: Box::new(std::iter::once(()).flat_map(|()| layings(drawn, traced))),
+        }
+    }
+
+    fn get(&mut self, nth: usize) -> Option<&Laying> {
+        if self.known.len() <= nth {
+            self.known.extend(self.rest.next());
+        }
+        self.known.get(nth)
+    }
+}
+
 /// The comparison of a program of which every block follows the drawing; `None` where one does not. A number that is off
 /// by less than moves its block aside is told, and the one block without which the wire does not come back.
-pub(super) fn followed(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
-    let (laying, mut walked) = layings(drawn, traced).find_map(|laying| {
-        let (walked, _) = sound(traced, &laying.rounds, laying.placement)?;
-        (!is_left(traced, &walked.runs)).then_some((laying, walked))
-    })?;
+pub(super) fn followed(layings: &mut Layings) -> Option<Comparison> {
+    let traced = layings.traced;
+    let mut all = 0..;
+    let (laying, mut walked) = loop {
+        let laying = layings.get(all.next()?)?;
+        let whole = sound(traced, &laying.rounds, laying.placement);
+        if let Some((walked, _)) = whole.filter(|(walked, _)| !is_left(traced, &walked.runs)) {
+            break (laying.clone(), walked);
+        }
+    };
     if walked.misses_start
-        && let Some(seen) = but_one(drawn, traced)
+        && let Some(seen) = but_one(layings)
     {
         return Some(seen);
     }
@@ -78,19 +108,15 @@ pub(super) fn followed(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
 
 /// The comparison of a program that follows the drawing, and comes back to where each cut begins, but for one block:
 /// of all such blocks the one that is the least off.
-pub(super) fn but_one(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
-    let mut all: Vec<(usize, Laying)> = layings(drawn, traced)
-        .map(|laying| {
-            (
-                Members::count(traced, &laying.rounds, laying.placement),
-                laying,
-            )
-        })
-        .collect();
-    all.sort_by_key(|(count, _)| Reverse(*count));
-    let mut likely: Vec<Laying> = Vec::new();
-    for (_, laying) in all {
-        if likely.len() < LIKELY && !likely.iter().any(|other| other.is_like(&laying)) {
+pub(super) fn but_one(layings: &mut Layings) -> Option<Comparison> {
+    let traced = layings.traced;
+    layings.known.extend(&mut layings.rest);
+    let count = |laying: &&Laying| Members::count(traced, &laying.rounds, laying.placement);
+    let mut all: Vec<&Laying> = layings.known.iter().collect();
+    all.sort_by_cached_key(|laying| Reverse(count(laying)));
+    let mut likely: Vec<&Laying> = Vec::new();
+    for laying in all {
+        if likely.len() < LIKELY && !likely.iter().any(|other| other.is_like(laying)) {
             likely.push(laying);
         }
     }
@@ -102,7 +128,7 @@ pub(super) fn but_one(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
             is_whole.then_some((walked, miss))
         };
         let only = single(traced, rounds, placement, &[], f64::INFINITY, &whole)?;
-        Some((laying, only))
+        Some((laying.clone(), only))
     });
     let (laying, only) = found.reduce(|best, one| match one.1.is_likelier(&best.1) {
         true => one,

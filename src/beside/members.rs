@@ -241,10 +241,10 @@ impl Members {
         whole_or_first(all.chain(beside))
     }
 
-    /// Blocks about those where blocks begin to follow, or no longer do.
+    /// Blocks about those where blocks begin to follow, or no longer do, and those of short cuts of which none does.
     pub(crate) fn breaks(traced: &Traced, rounds: &Rounds, placement: Placement) -> Vec<usize> {
         let mut members = Members::new(traced, placement);
-        let mut breaks = Vec::new();
+        let (mut breaks, mut reached) = (Vec::new(), traced.blocks.len());
         for index in 0..traced.blocks.len() {
             let is_on = members.spot.is_some();
             members.take(traced, rounds, index);
@@ -253,9 +253,16 @@ impl Members {
             }
             if members.is_broken {
                 breaks.extend(index.saturating_sub(BETWEEN + 2)..=index);
+                reached = index;
                 break;
             }
         }
+        let cuts = traced.cuts.iter().map(|[all, _]| all);
+        let is_lost = |cut: &&Range<usize>| {
+            let is_short = cut.end <= reached && cut.len() <= BETWEEN + 2;
+            is_short && !members.runs[cut.start..cut.end].contains(&true)
+        };
+        breaks.extend(cuts.filter(is_lost).cloned().flatten());
         breaks.retain(|&index| traced.blocks[index].segment().is_some());
         breaks
     }

@@ -67,6 +67,8 @@ const COUNTED: f64 = 1.52;
 /// µm.
 const CENTRED: f64 = 1.501;
 const ASIDE: f64 = 2.6;
+/// By how much the radius of an arc, and half of the distance of its ends, are rounded, µm.
+const ROUNDED_RADIUS: f64 = 1.2;
 /// The largest sum of the roundings of single steps, µm: what stands farther away has been moved.
 const DRIFTED: f64 = 2.2;
 /// The largest distance of a node from its assumed place: the program's place was found from rounded places; the arc
@@ -440,17 +442,20 @@ impl Placement {
     }
 }
 
-/// How far the rounding of its ends moves the centre of an arc that states its radius and spans less than half a turn, µm: by the more the
-/// shorter it is beside its radius.
+/// How far the rounding of its ends and its radius moves the centre of an arc that states its radius and spans less than
+/// half a turn, µm: along the line between its ends by the more the shorter that is beside its radius, and across it by the more the nearer
+/// it comes to the diameter.
 pub(super) fn lever(arc: &Arc) -> f64 {
     let chord = (arc.end - arc.start).norm();
-    if arc.sweep.abs() >= std::f64::consts::PI {
-        0.0
-    } else if chord < LEAST_PART {
-        f64::INFINITY
-    } else {
-        2.0 * SNAPPED * (arc.radius / chord - 0.5).max(0.0)
+    if (arc.sweep.abs() - std::f64::consts::PI).abs() < 1e-9 {
+        return 0.0;
     }
+    if chord < LEAST_PART {
+        return f64::INFINITY;
+    }
+    let height = (arc.radius.powi(2) - chord.powi(2) / 4.0).max(0.0).sqrt();
+    let along = 2.0 * SNAPPED * (arc.radius / chord - 0.5).max(0.0);
+    along + ROUNDED_RADIUS * (arc.radius / height.max(1.0) - 1.0)
 }
 
 /// The rest of a spot's piece, up to `entry` where that lies ahead on it; and the spot after that.

@@ -1,7 +1,7 @@
 //! The data of a program for comparing: its blocks as they mean it.
 
 use super::BETWEEN;
-use crate::geometry::{Point, Segment, Side, Vector};
+use crate::geometry::{Arc, Point, Segment, Side, Vector, left_normal};
 use crate::program::block_words::{BlockWords, register_in};
 use crate::program::path::{self, Kind, Step, Trace};
 use crate::program::{Document, Format, Language};
@@ -148,6 +148,45 @@ impl Block {
     }
 }
 
+/// Half of the ends' distance is the radius of a half circle within this, where both are rounded, µm.
+const HALF: f64 = 1.75;
+/// A reader takes an arc whose ends are so much too far apart for a half circle, µm.
+const LARGER: f64 = 20.0;
+
+/// The ends of an arc that is rounded are as far from its centre within this, µm.
+const LOST: f64 = 3.0;
+
+/// The radius that an arc of ISO states instead of its centre, µm.
+fn radius_said(language: Language, step: &Step, text: &SourceText) -> Option<f64> {
+    let is_arc = language == Language::Iso && step.kind == Kind::Arc;
+    let said = text.slice(step.range.clone()).filter(|_| is_arc)?;
+    let has_radius = said.contains(&b'R');
+    has_radius.then(|| {
+        BlockWords::of(language, said)
+            .length(b'R')
+            .unwrap_or(0.0)
+            .abs()
+    })
+}
+
+/// An arc that states its radius. Near half a turn, what the rounding of its ends leaves of their distance moves its
+/// centre by a hundred times as much: it is meant to be a half circle, or, where its radius is too small, none at all.
+fn half_or_none(arc: Arc, radius: f64) -> Option<Segment> {
+    let half = (arc.end - arc.start).norm() / 2.0;
+    if (half - radius).abs() <= HALF {
+        let middle = arc.start + (arc.end - arc.start) / 2.0;
+        return Some(Segment::Arc(Arc::about(
+            middle,
+            arc.start,
+            arc.end,
+            arc.sweep > 0.0,
+        )));
+    }
+    // Only by so little is it taken for an arc.
+    let is_too_small = radius > 0.0 && (HALF..=LARGER).contains(&(half - radius));
+    (!is_too_small).then_some(Segment::Arc(arc))
+}
+
 impl Traced {
     pub fn of(program: &Document) -> Traced {
         let four_b = match program {
@@ -200,28 +239,30 @@ impl Traced {
             stretch
         };
         let mut registers = Registers::default();
-        let blocks = trace.steps.into_iter().map(|step| Block {
-            stretch: stretch_of(&step),
-            register: registers.of(&step, &text),
-            line: step.line,
-            motion: match (step.kind, step.ideal) {
-                (Kind::Line | Kind::Arc, Some(segment)) => Motion::Cut(segment),
-                (Kind::Arc, None) if step.end != step.start => {
-                    Motion::Cut(Segment::line(step.start, step.end))
-                }
-                (Kind::Line | Kind::Arc | Kind::Rapid, _) => {
-                    Motion::Way(step.start, step.end - step.start)
-                }
-                (Kind::Pause | Kind::End, _) => Motion::Stop,
-            },
-            side: step.side,
-            is_lost: step.kind == Kind::Arc && step.ideal.is_none(),
-            by_radius: language == Language::Iso
-                && step.kind == Kind::Arc
-                && text
-                    .slice(step.range.clone())
-                    .is_some_and(|said| said.contains(&b'R')),
-            range: step.range,
+        let blocks = trace.steps.into_iter().map(|mut step| {
+            let radius = radius_said(language, &step, &text);
+            if let (Some(radius), Some(Segment::Arc(arc))) = (radius, step.ideal) {
+                step.ideal = half_or_none(arc, radius);
+            }
+            Block {
+                stretch: stretch_of(&step),
+                register: registers.of(&step, &text),
+                line: step.line,
+                motion: match (step.kind, step.ideal) {
+                    (Kind::Line | Kind::Arc, Some(segment)) => Motion::Cut(segment),
+                    (Kind::Arc, None) if step.end != step.start => {
+                        Motion::Cut(Segment::line(step.start, step.end))
+                    }
+                    (Kind::Line | Kind::Arc | Kind::Rapid, _) => {
+                        Motion::Way(step.start, step.end - step.start)
+                    }
+                    (Kind::Pause | Kind::End, _) => Motion::Stop,
+                },
+                side: step.side,
+                is_lost: step.kind == Kind::Arc && step.ideal.is_none(),
+                by_radius: radius.is_some(),
+                range: step.range,
+            }
         });
         let blocks = blocks.collect();
         Traced {
@@ -296,6 +337,56 @@ impl Traced {
     /// The content of a block.
     pub(super) fn said(&self, block: &Block) -> BlockWords {
         self.said_in(self.range_from(block))
+    }
+
+    /// By how much the centre that a block says, or its radius, is off from that of an arc that begins where it does, µm:
+    /// counted from its start, to its start, or from the program's zero, whichever is nearest. 0 for all but arcs of ISO.
+    pub(super) fn center_apart(&self, block: &Block, meant: &Segment) -> f64 {
+        let (Some(arc), Language::Iso) = (meant.as_arc(), self.language) else {
+            return 0.0;
+        };
+        let said = self.said(block);
+        if let Some(radius) = said.length(b'R') {
+            return (radius.abs() - arc.radius).abs();
+        }
+        let [i, j] = [b'I', b'J'].map(|letter| said.length(letter).unwrap_or(0.0));
+        let center = Vector::new(i, j);
+        let to_center = arc.center - arc.start;
+        let all = [to_center, -to_center, arc.center.coords];
+        let apart = all.into_iter().map(|meant| (meant - center).amax());
+        apart.fold(f64::INFINITY, f64::min)
+    }
+
+    /// The arc that a block of ISO says, by its radius or about its centre, between other ends.
+    pub(super) fn arc_between(
+        &self,
+        block: &Block,
+        [start, end]: [Point; 2],
+        is_absolute: bool,
+    ) -> Option<Segment> {
+        let said = self.said(block);
+        let own = block.segment().and_then(Segment::as_arc);
+        let is_left = own.map(|arc| arc.sweep > 0.0).or(said.turns_left())?;
+        let chord = end - start;
+        let half = chord.norm() / 2.0;
+        if let Some(radius) = said.length(b'R') {
+            let height = (radius * radius - half * half).max(0.0).sqrt();
+            let to_left = left_normal(chord) / (2.0 * half).max(1e-9) * height;
+            let aside = if is_left != (radius < 0.0) {
+                to_left
+            } else {
+                -to_left
+            };
+            let arc = Arc::about(start + chord / 2.0 + aside, start, end, is_left);
+            return half_or_none(arc, radius.abs());
+        }
+        let [i, j] = [b'I', b'J'].map(|letter| said.length(letter).unwrap_or(0.0));
+        let center = match is_absolute {
+            true => Point::new(i, j),
+            false => start + Vector::new(i, j),
+        };
+        let off = ((start - center).norm() - (end - center).norm()).abs();
+        (off <= LOST).then(|| Segment::Arc(Arc::about(center, start, end, is_left)))
     }
 
     /// The bytes of a range of the text.

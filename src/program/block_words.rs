@@ -40,6 +40,9 @@ pub(crate) fn register_in(text: &[u8]) -> Option<u32> {
     named
 }
 
+/// The letters of ISO before a length.
+const LENGTHS: &[u8] = b"XYIJRUVZK";
+
 impl BlockWords {
     /// For the first block of a line that begins with it.
     pub(crate) fn of(language: Language, line: &[u8]) -> BlockWords {
@@ -88,7 +91,7 @@ impl BlockWords {
             let value = number.mantissa as f64 / 10_f64.powi(number.decimals.into());
             match letter {
                 b'N' => {}
-                b'X' | b'Y' | b'I' | b'J' | b'R' | b'U' | b'V' | b'Z' | b'K' => {
+                letter if LENGTHS.contains(&letter) => {
                     said.words.push(letter);
                     let steps = if number.point { 1e3 } else { 1.0 };
                     said.numbers.push(value * steps);
@@ -109,6 +112,27 @@ impl BlockWords {
     /// All of its numbers are zero.
     pub(crate) fn is_at_zero(&self) -> bool {
         self.numbers.iter().all(|number| *number == 0.0)
+    }
+
+    /// The length behind a letter of an ISO block, µm.
+    pub(crate) fn length(&self, letter: u8) -> Option<f64> {
+        let mut letters = self.words.iter().filter(|word| LENGTHS.contains(word));
+        let at = letters.position(|word| *word == letter)?;
+        self.numbers.get(at).copied()
+    }
+
+    /// Whether an arc of ISO that says so turns to the left.
+    pub(crate) fn turns_left(&self) -> Option<bool> {
+        let has = |word: &[u8]| {
+            let at = memchr::memmem::find(&self.words, word);
+            let next = at.map(|at| self.words.get(at + word.len()));
+            next.is_some_and(|next| next.is_none_or(|next| !next.is_ascii_digit()))
+        };
+        match (has(b"G3"), has(b"G2")) {
+            (true, false) => Some(true),
+            (false, true) => Some(false),
+            _ => None,
+        }
     }
 
     /// The same words and numbers, whatever stands after them.

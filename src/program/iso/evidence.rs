@@ -61,6 +61,13 @@ pub(crate) struct Arcs {
     /// How many arcs of a few micrometres have, under each rule, a centre so far away that they would be lines: both
     /// ends of such an arc fit nearly any centre.
     pub(crate) far: [u32; 3],
+    /// How many come back to where they began: these fit any centre.
+    pub(crate) closed: u32,
+    /// How many end beside where they began, far from each of their centres, and of these the counts above.
+    pub(crate) beside: u32,
+    pub(crate) off_beside: [u32; 3],
+    pub(crate) far_beside: [u32; 3],
+    pub(crate) wide_beside: [u32; 3],
 }
 
 /// How many decimals the numbers with a point have.
@@ -96,24 +103,49 @@ const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
 impl Arcs {
     fn change(&mut self, other: &Arcs, change: fn(&mut u32, u32)) {
         change(&mut self.all, other.all);
-        let counts = self
-            .off
-            .iter_mut()
-            .chain(&mut self.unclear)
-            .chain(&mut self.wide)
-            .chain(&mut self.far);
-        let others = other.off.into_iter().chain(other.unclear);
-        for (count, more) in counts.zip(others.chain(other.wide).chain(other.far)) {
-            change(count, more);
+        change(&mut self.closed, other.closed);
+        change(&mut self.beside, other.beside);
+        for (counts, more) in [
+            (&mut self.off, other.off),
+            (&mut self.unclear, other.unclear),
+            (&mut self.wide, other.wide),
+            (&mut self.far, other.far),
+            (&mut self.off_beside, other.off_beside),
+            (&mut self.far_beside, other.far_beside),
+            (&mut self.wide_beside, other.wide_beside),
+        ] {
+            let pairs = counts.iter_mut().zip(more);
+            pairs.for_each(|(count, more)| change(count, more));
         }
+    }
+
+    /// What speaks against a rule: misfits, centres far away, wide turns. Among full circles, which fit under any rule,
+    /// one or two that do not quite come back are slips, and tell nothing either.
+    fn against(&self, rule: usize) -> (u32, u32, u32) {
+        let are_slips =
+            self.beside <= SLIPS.min(self.closed) && self.closed + self.beside == self.all;
+        let without = |all: [u32; 3], slips: [u32; 3]| match are_slips {
+            true => all[rule].saturating_sub(slips[rule]),
+            false => all[rule],
+        };
+        (
+            without(self.off, self.off_beside),
+            without(self.far, self.far_beside),
+            without(self.wide, self.wide_beside),
+        )
+    }
+
+    fn fit(&self, rule: usize) -> (u32, u32) {
+        let (off, far, _) = self.against(rule);
+        (off, far)
     }
 
     /// True where two rules fit equally many arcs, more than any other, and give different centres.
     fn is_open(&self, rules: usize) -> bool {
-        let against = |rule: usize| (self.off[rule], self.far[rule]);
-        let least = (0..rules).map(against).min().unwrap_or_default();
+        let least = (0..rules).map(|rule| self.fit(rule)).min();
+        let is_least = |rule: usize| Some(self.fit(rule)) == least;
         let open = |(&(a, b), &unclear): (&(usize, usize), &u32)| {
-            unclear > 0 && b < rules && against(a) == least && against(b) == least
+            unclear > 0 && b < rules && is_least(a) && is_least(b)
         };
         PAIRS.iter().zip(&self.unclear).any(open)
     }
@@ -127,12 +159,9 @@ impl Arcs {
     /// tie `preferred`, then the first. Between the centre's own coordinates and the way from the centre to the start
     /// turns decide nothing: the latter is rare.
     fn rule(&self, preferred: CenterRule, rules: &[CenterRule]) -> CenterRule {
-        let against = |rule: CenterRule| {
-            let rule = rule as usize;
-            (self.off[rule], self.far[rule], self.wide[rule])
-        };
+        let against = |rule: CenterRule| self.against(rule as usize);
         // An arc that ends in the zero fits both of these: one about the mirrored centre, the rest of a whole turn.
-        let fit = |rule: CenterRule| (self.off[rule as usize], self.far[rule as usize]);
+        let fit = |rule: CenterRule| self.fit(rule as usize);
         let fits_absolute = rules.contains(&CenterRule::Absolute)
             && fit(CenterRule::Absolute) == fit(CenterRule::CenterToStart)
             && preferred != CenterRule::CenterToStart;
@@ -222,15 +251,22 @@ impl Evidence {
         // Under G91 nothing is absolute.
         let compared = if arc.incremental { 2 } else { 3 };
         let wide = centers.map(|center| center.is_some_and(|center| turns_widely(arc, center)));
-        for (count, &is_wide) in arcs.wide.iter_mut().zip(&wide[..compared]) {
-            *count += u32::from(is_wide);
-        }
         let far = centers.map(|center| center.is_some_and(|center| lies_far(arc, center)));
-        for (count, &is_far) in arcs.far.iter_mut().zip(&far[..compared]) {
-            *count += u32::from(is_far);
-        }
-        for (count, &is_off) in arcs.off.iter_mut().zip(&off[..compared]) {
-            *count += u32::from(is_off);
+        let count = |counts: &mut [u32; 3], are: [bool; 3]| {
+            let pairs = counts.iter_mut().zip(&are[..compared]);
+            pairs.for_each(|(count, is)| *count += u32::from(*is));
+        };
+        count(&mut arcs.off, off);
+        count(&mut arcs.far, far);
+        count(&mut arcs.wide, wide);
+        let mut about = centers[..compared].iter().flatten();
+        if arc.from == arc.to {
+            arcs.closed += 1;
+        } else if about.all(|center| ends_beside(arc, *center)) {
+            arcs.beside += 1;
+            count(&mut arcs.off_beside, off);
+            count(&mut arcs.far_beside, far);
+            count(&mut arcs.wide_beside, wide);
         }
         for (count, (a, b)) in arcs.unclear.iter_mut().zip(PAIRS) {
             *count += u32::from(b < compared && !off[a] && !off[b] && centers[a] != centers[b]);
@@ -329,6 +365,12 @@ fn lies_far(arc: &Move, center: Place) -> bool {
     let chord = distance(arc.from, arc.to);
     let is_short = chord > 0.0 && chord <= (10 * MICROMETRE) as f64;
     is_short && distance(arc.from, center) > 100.0 * chord
+}
+
+/// True of an arc that ends a little beside where it began, seen from a centre: the whole of a circle but for a slip,
+/// or a very short arc.
+fn ends_beside(arc: &Move, center: Place) -> bool {
+    10.0 * distance(arc.from, arc.to) < distance(arc.from, center)
 }
 
 /// True where an arc about a centre turns by more than a half, and by less than a whole.
