@@ -160,6 +160,16 @@ impl std::fmt::Display for ChangeError {
     }
 }
 
+/// Where two lists of vertices differ, as a splice of the old one: its start, and how many go and come.
+pub(crate) fn differing(old: &[Vertex], new: &[Vertex]) -> (usize, usize, usize) {
+    let equal = |(one, other): &(&Vertex, &Vertex)| one == other;
+    let start = old.iter().zip(new).take_while(equal).count();
+    let behind = old[start..].iter().rev().zip(new[start..].iter().rev());
+    let behind = behind.take_while(equal).count();
+    let many = |vertices: &[Vertex]| vertices.len() - start - behind;
+    (start, many(old), many(new))
+}
+
 impl Drawing {
     /// Replaces `delete_count` vertices of a polyline from `start` on by `insert`. Costs the length
     /// of the edit when the count stays, else that of the tail of the polyline.

@@ -33,6 +33,7 @@ pub use contour::Contour;
 pub(crate) use contour::{ContourSegment, Piece};
 pub(crate) use doubles::run_together;
 pub(crate) use drafting::{START_HOLES, is_drafting_layer, is_drafting_linetype};
+pub(crate) use edit::differing;
 pub use edit::{Change, Delta, DrawingEdit, Touched};
 pub use entity::{Entity, EntityId, Geometry, Role, Vertex};
 pub(crate) use handle::Handle;

@@ -11,7 +11,9 @@ use super::reader::{ReadItem, Said, range_key, read_item};
 use super::reading::{is_fitted, set_appearance};
 use super::shape::{MOST_CURVE_ARCS, Shape, curve_arcs};
 use super::table::{Became, Context, Item, NO_ITEM, Named};
-use crate::drawing::{Delta, Drawing, Entity, EntityId, Handle, Touched};
+use crate::drawing::{
+    Delta, Drawing, Entity, EntityId, Geometry, Handle, Touched, Vertex, differing,
+};
 use crate::finding::{Finding, Place};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::ops::Range;
@@ -430,10 +432,34 @@ fn put(
         return entity;
     };
     if drawing.get(id) != Some(&entity) {
-        drawing.replace(id, entity);
-        delta.touched.push(Touched::Entity { entity: id });
+        let touched = splice(drawing, id, &entity).unwrap_or_else(|| {
+            drawing.replace(id, entity);
+            Touched::Entity { entity: id }
+        });
+        delta.touched.push(touched);
     }
     id
+}
+
+/// Takes up the vertices in which a polyline differs, where nothing else does and they are few.
+fn splice(drawing: &mut Drawing, id: EntityId, new: &Entity) -> Option<Touched> {
+    let old = drawing.get(id)?;
+    let is_alike = (&old.layer, old.role, old.kind) == (&new.layer, new.role, new.kind);
+    let ((closed, old), (now_closed, new)) = (polyline(old)?, polyline(new)?);
+    if !is_alike || closed != now_closed {
+        return None;
+    }
+    let (start, removed, inserted) = differing(old, new);
+    let come = new.get(start..start + inserted)?;
+    let is_few = removed.max(inserted) <= FEW;
+    is_few.then(|| drawing.splice(id, start, removed, come).ok())?
+}
+
+fn polyline(entity: &Entity) -> Option<(bool, &[Vertex])> {
+    match &entity.geometry {
+        Geometry::Polyline { closed, vertices } => Some((*closed, vertices)),
+        _ => None,
+    }
 }
 
 fn items_in<'a>(items: &'a [Item], range: &Range<usize>) -> std::slice::Iter<'a, Item> {

@@ -11,7 +11,9 @@ use super::entity::VertexLines;
 use super::lines::Lines;
 use super::reader::range_key;
 use super::table::{Became, NO_ITEM, Named};
-use crate::drawing::{Appearance, Delta, Entity, EntityId, Geometry, Touched, Vertex, Visibility};
+use crate::drawing::{
+    Appearance, Delta, Entity, EntityId, Geometry, Touched, Vertex, Visibility, differing,
+};
 use crate::finding::Finding;
 use std::ops::Range;
 use std::sync::Arc;
@@ -223,17 +225,11 @@ impl Document {
             return None;
         };
         let old = all.get(run.clone())?;
-        let equal = |(one, other): &(&Vertex, &Vertex)| one == other;
-        let before = old.iter().zip(&vertices).take_while(equal).count();
-        let (old, new) = (old.get(before..)?, vertices.get(before..)?);
-        let behind = old.iter().rev().zip(new.iter().rev());
-        let behind = behind.take_while(equal).count();
-        let (removed, inserted) = (old.len() - behind, new.len() - behind);
         // Those that were told of its removal have to be told of its return.
-        let (start, removed, inserted) = match (removed, inserted) {
-            (0, 0) if !comes_back => return Some(Delta::default()),
-            (0, 0) => (0, 0, 0),
-            _ => (before, removed, inserted),
+        let (start, removed, inserted) = match differing(old, &vertices) {
+            (_, 0, 0) if !comes_back => return Some(Delta::default()),
+            (_, 0, 0) => (0, 0, 0),
+            differing => differing,
         };
         let new = vertices.get(start..start + inserted)?;
         let touched = drawing.splice(id, run.start + start, removed, new).ok()?;
