@@ -441,7 +441,7 @@ fn put(
     id
 }
 
-/// Takes up the vertices in which a polyline differs, where nothing else does and they are few.
+/// Takes up the vertices in which a polyline differs, where nothing else does and they are few of many.
 fn splice(drawing: &mut Drawing, id: EntityId, new: &Entity) -> Option<Touched> {
     let old = drawing.get(id)?;
     let is_alike = (&old.layer, old.role, old.kind) == (&new.layer, new.role, new.kind);
@@ -451,7 +451,7 @@ fn splice(drawing: &mut Drawing, id: EntityId, new: &Entity) -> Option<Touched> 
     }
     let (start, removed, inserted) = differing(old, new);
     let come = new.get(start..start + inserted)?;
-    let is_few = removed.max(inserted) <= FEW;
+    let is_few = removed.max(inserted) <= FEW.min(old.len() / 4);
     is_few.then(|| drawing.splice(id, start, removed, come).ok())?
 }
 
