@@ -74,7 +74,7 @@ impl Analysis {
     }
 
     /// Arcs with a smaller radius are below the correction.
-    fn tight_below(&self) -> f64 {
+    pub(super) fn tight_below(&self) -> f64 {
         self.limits.correction - self.limits.tolerances.report
     }
 
@@ -287,51 +287,7 @@ impl Analysis {
         let run = self.known.get(&key)?.index.run_of(index);
         Some((key, run as u32))
     }
-
-    /// Takes up that some vertices of an entity that is a long contour by itself have become more or fewer: what is known
-    /// of the segments behind them stays, under other indices. Returns the vertices that are to be looked at, as a splice
-    /// that keeps the count; `None` where all behind it is to be looked at. The runs about the splice are `forgotten`.
-    fn splice(
-        &mut self,
-        drawing: &Drawing,
-        key: ContourKey,
-        known: &mut Known,
-        (start, removed, inserted): (usize, usize, usize),
-        forgotten: &mut FxHashSet<usize>,
-    ) -> Option<(usize, usize, usize)> {
-        let contour = self.chains.get(key)?;
-        let [piece] = contour.pieces.as_slice() else {
-            return None;
-        };
-        let (gone, come) = (start.checked_sub(1)?..start + removed, inserted + 1);
-        let index = &mut known.index;
-        let about = gone.start.checked_sub(NEIGHBOURS)?..gone.end + NEIGHBOURS;
-        let is_inside = about.start > 0 && about.end < index.len();
-        if piece.reversed || !is_inside || come > RUN || index.run_count() < LONG {
-            return None;
-        }
-        for run in index.runs_over(about) {
-            if forgotten.insert(run) {
-                let bounds = index.bounds_of_run(run);
-                self.pairs.forget_run((key, run as u32), &bounds);
-            }
-        }
-        let behind = index.runs_over(gone.clone()).end;
-        let first = index.range_of(behind).start;
-        let tight = self.tight_below();
-        if !index.splice(drawing, contour, tight, (gone, come)) {
-            return None;
-        }
-        let by = inserted as isize - removed as isize;
-        let runs = behind as u32..index.run_count() as u32;
-        self.pairs.shift(key, runs, first, by);
-        known.shift(behind, by);
-        Some((start, inserted, inserted))
-    }
 }
-
-/// From this many runs on a contour is not looked at anew because segments come or go.
-const LONG: usize = 4;
 
 /// Asks a question of each contour; of many contours on several threads.
 fn each_of<T: Send>(keys: &[ContourKey], ask: impl Fn(ContourKey) -> T + Sync) -> Vec<T> {

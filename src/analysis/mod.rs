@@ -31,6 +31,7 @@ mod report;
 mod runs;
 mod said_twice;
 mod search;
+mod splice;
 mod suppressed;
 mod told;
 mod within;

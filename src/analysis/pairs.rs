@@ -102,31 +102,6 @@ impl Pairs {
         (self.told, self.ends) = (None, None);
     }
 
-    /// To be called when the segments of a contour from `first` on have other indices, which lie in these runs, and nothing
-    /// is known of the segment before them.
-    pub(super) fn shift(
-        &mut self,
-        key: ContourKey,
-        runs: std::ops::Range<u32>,
-        first: usize,
-        by: isize,
-    ) {
-        self.told = None;
-        for run in runs.clone() {
-            for &partner in self.partners.get(&(key, run)).into_iter().flatten() {
-                // Between two of these runs once.
-                let is_later = partner.0 == key && partner.1 < run && runs.contains(&partner.1);
-                if !is_later {
-                    self.seen
-                        .shift(&ordered((key, run), partner), key, first, by);
-                }
-            }
-        }
-        if let Some(of) = self.ends.as_mut().and_then(|ends| ends.of.get_mut(&key)) {
-            Arc::make_mut(of).shift(first, by);
-        }
-    }
-
     /// Takes away the findings, which hold again once the contour that is now removed is back.
     pub(super) fn set_told_aside(&mut self) -> ToldAside {
         ToldAside {

@@ -258,9 +258,11 @@ impl Members {
             }
         }
         let cuts = traced.cuts.iter().map(|[all, _]| all);
+        // Where nothing follows at all, the program is another one's.
+        let is_of_drawing = members.runs.contains(&true);
         let is_lost = |cut: &&Range<usize>| {
             let is_short = cut.end <= reached && cut.len() <= BETWEEN + 2;
-            is_short && !members.runs[cut.start..cut.end].contains(&true)
+            is_of_drawing && is_short && !members.runs[cut.start..cut.end].contains(&true)
         };
         breaks.extend(cuts.filter(is_lost).cloned().flatten());
         breaks.retain(|&index| traced.blocks[index].segment().is_some());

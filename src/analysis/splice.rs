@@ -1,0 +1,79 @@
+//! Segments come into a long contour or leave it: what is known of those behind them stays, under other indices.
+
+use super::Analysis;
+use super::compare::{RunId, ordered};
+use super::known::Known;
+use super::pairs::Pairs;
+use crate::drawing::{ContourKey, Drawing, RUN};
+use crate::rules::NEIGHBOURS;
+use rustc_hash::FxHashSet;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// From this many runs on a contour is not looked at anew because segments come or go.
+const LONG: usize = 4;
+
+impl Analysis {
+    /// Takes up that some vertices of an entity that is a long contour by itself have become more or fewer: what is known
+    /// of the segments behind them stays, under other indices. Returns the vertices that are to be looked at, as a splice
+    /// that keeps the count; `None` where all behind it is to be looked at. The runs about the splice are `forgotten`.
+    pub(super) fn splice(
+        &mut self,
+        drawing: &Drawing,
+        key: ContourKey,
+        known: &mut Known,
+        (start, removed, inserted): (usize, usize, usize),
+        forgotten: &mut FxHashSet<usize>,
+    ) -> Option<(usize, usize, usize)> {
+        let contour = self.chains.get(key)?;
+        let [piece] = contour.pieces.as_slice() else {
+            return None;
+        };
+        let (gone, come) = (start.checked_sub(1)?..start + removed, inserted + 1);
+        let index = &mut known.index;
+        let about = gone.start.checked_sub(NEIGHBOURS)?..gone.end + NEIGHBOURS;
+        let is_inside = about.start > 0 && about.end < index.len();
+        if piece.reversed || !is_inside || come > RUN || index.run_count() < LONG {
+            return None;
+        }
+        for run in index.runs_over(about) {
+            if forgotten.insert(run) {
+                let bounds = index.bounds_of_run(run);
+                self.pairs.forget_run((key, run as u32), &bounds);
+            }
+        }
+        let behind = index.runs_over(gone.clone()).end;
+        let first = index.range_of(behind).start;
+        let tight = self.tight_below();
+        if !index.splice(drawing, contour, tight, (gone, come)) {
+            return None;
+        }
+        let by = inserted as isize - removed as isize;
+        let runs = behind as u32..index.run_count() as u32;
+        self.pairs.shift(key, runs, first, by);
+        known.shift(behind, by);
+        Some((start, inserted, inserted))
+    }
+}
+
+impl Pairs {
+    /// To be called when the segments of a contour from `first` on have other indices, which lie in these runs, and nothing
+    /// is known of the segment before them.
+    fn shift(&mut self, key: ContourKey, runs: Range<u32>, first: usize, by: isize) {
+        self.told = None;
+        for run in runs.clone() {
+            let partners: Vec<RunId> = self.partners_of((key, run)).collect();
+            for partner in partners {
+                // Between two of these runs once.
+                let is_later = partner.0 == key && partner.1 < run && runs.contains(&partner.1);
+                if !is_later {
+                    self.seen
+                        .shift(&ordered((key, run), partner), key, first, by);
+                }
+            }
+        }
+        if let Some(of) = self.ends.as_mut().and_then(|ends| ends.of.get_mut(&key)) {
+            Arc::make_mut(of).shift(first, by);
+        }
+    }
+}
