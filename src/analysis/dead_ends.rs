@@ -194,7 +194,7 @@ fn enter(
                 let is_forward = end.is_none_or(|end| end.walls().is_sorted());
                 let hangs = is_forward && hangs_on_runs(outlook.index, one, other);
                 each.ended = hangs.then_some(ended);
-                if !hangs && !(is_forward && is_near(outlook.index, one, other)) {
+                if !(hangs || is_forward && is_near(outlook.index, one, other)) {
                     of.far.insert(runs);
                 }
                 ended
