@@ -146,7 +146,7 @@ impl Known {
         }
     }
 
-    /// Moves the observations behind the runs that hold some segments, of which others have become so many fewer or more.
+    /// The segments of the runs from `behind` on have indices that are larger by so many.
     pub(crate) fn shift(&mut self, behind: usize, by: isize) {
         let of_runs = self.by_rule.iter_mut();
         let later = of_runs.flat_map(|seen| seen.observations.iter_mut().skip(behind));

@@ -1,7 +1,7 @@
 //! The data of a program for comparing: its blocks as they mean it.
 
 use super::BETWEEN;
-use crate::geometry::{Arc, Point, Segment, Side, Vector, left_normal};
+use crate::geometry::{Arc, Point, Segment, Side, Vector};
 use crate::program::block_words::{BlockWords, register_in};
 use crate::program::path::{self, Kind, Step, Trace};
 use crate::program::{Document, Format, Language};
@@ -367,17 +367,8 @@ impl Traced {
         let said = self.said(block);
         let own = block.segment().and_then(Segment::as_arc);
         let is_left = own.map(|arc| arc.sweep > 0.0).or(said.turns_left())?;
-        let chord = end - start;
-        let half = chord.norm() / 2.0;
         if let Some(radius) = said.length(b'R') {
-            let height = (radius * radius - half * half).max(0.0).sqrt();
-            let to_left = left_normal(chord) / (2.0 * half).max(1e-9) * height;
-            let aside = if is_left != (radius < 0.0) {
-                to_left
-            } else {
-                -to_left
-            };
-            let arc = Arc::about(start + chord / 2.0 + aside, start, end, is_left);
+            let arc = Arc::of_radius(start, end, radius, is_left);
             return half_or_none(arc, radius.abs());
         }
         let [i, j] = [b'I', b'J'].map(|letter| said.length(letter).unwrap_or(0.0));

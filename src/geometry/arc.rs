@@ -70,6 +70,19 @@ impl Arc {
         }
     }
 
+    /// The arc from `start` to `end` with a radius: of at most half a turn, or of more where the radius is negative. A
+    /// radius that is too small gives a half circle; the ends may not coincide.
+    pub(crate) fn of_radius(start: Point, end: Point, radius: f64, counter_clockwise: bool) -> Arc {
+        let chord = end - start;
+        let half = chord.norm() / 2.0;
+        let height = (radius * radius - half * half).max(0.0).sqrt();
+        let is_left = counter_clockwise != (radius < 0.0);
+        let aside = if is_left { height } else { -height };
+        let normal = left_normal(chord) / (2.0 * half).max(1e-9);
+        let center = start + chord / 2.0 + normal * aside;
+        Arc::about(center, start, end, counter_clockwise)
+    }
+
     /// The arc about `center` from `start` to `end`, counter-clockwise or clockwise. Coinciding ends are a full turn.
     pub fn about(center: Point, start: Point, end: Point, counter_clockwise: bool) -> Arc {
         let start_angle = (start.y - center.y).atan2(start.x - center.x);

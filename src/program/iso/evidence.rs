@@ -48,26 +48,47 @@ pub(crate) struct Evidence {
     pub(crate) incremental: Arcs,
 }
 
-/// Arcs with I and J: how many do not fit under each rule, and how many fit under two rules about different centres.
+/// Arcs with I and J: what speaks against each rule, and how many fit under two rules about different centres.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Arcs {
     pub(crate) all: u32,
-    pub(crate) off: [u32; 3],
     /// In the order of [`PAIRS`].
-    pub(crate) unclear: [u32; 3],
-    /// How many turn by more than a half under each rule: between rules that fit the ends equally well, the intended
-    /// one turns less.
-    pub(crate) wide: [u32; 3],
-    /// How many arcs of a few micrometres have, under each rule, a centre so far away that they would be lines: both
-    /// ends of such an arc fit nearly any centre.
-    pub(crate) far: [u32; 3],
+    unclear: [u32; 3],
+    of_all: Against,
     /// How many come back to where they began: these fit any centre.
-    pub(crate) closed: u32,
-    /// How many end beside where they began, far from each of their centres, and of these the counts above.
-    pub(crate) beside: u32,
-    pub(crate) off_beside: [u32; 3],
-    pub(crate) far_beside: [u32; 3],
-    pub(crate) wide_beside: [u32; 3],
+    closed: u32,
+    /// How many end beside where they began, far from each of their centres, and what of these speaks against each rule.
+    beside: u32,
+    of_beside: Against,
+}
+
+/// What speaks against each rule, in numbers of arcs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct Against {
+    /// They do not fit.
+    off: [u32; 3],
+    /// Of a few micrometres, with a centre so far away that they would be lines: both ends of such an arc fit nearly any
+    /// centre.
+    far: [u32; 3],
+    /// They turn by more than a half: between rules that fit the ends equally well, the intended one turns less.
+    wide: [u32; 3],
+}
+
+impl Against {
+    fn change(&mut self, other: &Against, change: fn(&mut u32, u32)) {
+        for (counts, more) in [
+            (&mut self.off, other.off),
+            (&mut self.far, other.far),
+            (&mut self.wide, other.wide),
+        ] {
+            each_of(counts, more, change);
+        }
+    }
+}
+
+fn each_of(counts: &mut [u32; 3], more: [u32; 3], change: fn(&mut u32, u32)) {
+    let pairs = counts.iter_mut().zip(more);
+    pairs.for_each(|(count, more)| change(count, more));
 }
 
 /// How many decimals the numbers with a point have.
@@ -102,21 +123,16 @@ const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
 
 impl Arcs {
     fn change(&mut self, other: &Arcs, change: fn(&mut u32, u32)) {
-        change(&mut self.all, other.all);
-        change(&mut self.closed, other.closed);
-        change(&mut self.beside, other.beside);
-        for (counts, more) in [
-            (&mut self.off, other.off),
-            (&mut self.unclear, other.unclear),
-            (&mut self.wide, other.wide),
-            (&mut self.far, other.far),
-            (&mut self.off_beside, other.off_beside),
-            (&mut self.far_beside, other.far_beside),
-            (&mut self.wide_beside, other.wide_beside),
+        for (count, more) in [
+            (&mut self.all, other.all),
+            (&mut self.closed, other.closed),
+            (&mut self.beside, other.beside),
         ] {
-            let pairs = counts.iter_mut().zip(more);
-            pairs.for_each(|(count, more)| change(count, more));
+            change(count, more);
         }
+        each_of(&mut self.unclear, other.unclear, change);
+        self.of_all.change(&other.of_all, change);
+        self.of_beside.change(&other.of_beside, change);
     }
 
     /// What speaks against a rule: misfits, centres far away, wide turns. Among full circles, which fit under any rule,
@@ -124,15 +140,13 @@ impl Arcs {
     fn against(&self, rule: usize) -> (u32, u32, u32) {
         let are_slips =
             self.beside <= SLIPS.min(self.closed) && self.closed + self.beside == self.all;
-        let without = |all: [u32; 3], slips: [u32; 3]| match are_slips {
-            true => all[rule].saturating_sub(slips[rule]),
-            false => all[rule],
-        };
-        (
-            without(self.off, self.off_beside),
-            without(self.far, self.far_beside),
-            without(self.wide, self.wide_beside),
-        )
+        let mut told = self.of_all;
+        if are_slips {
+            told.change(&self.of_beside, |count, less| {
+                *count = count.saturating_sub(less)
+            });
+        }
+        (told.off[rule], told.far[rule], told.wide[rule])
     }
 
     fn fit(&self, rule: usize) -> (u32, u32) {
@@ -250,23 +264,24 @@ impl Evidence {
         let off = RULES.map(|rule| arc.difference(rule).abs() > tolerance as f64);
         // Under G91 nothing is absolute.
         let compared = if arc.incremental { 2 } else { 3 };
-        let wide = centers.map(|center| center.is_some_and(|center| turns_widely(arc, center)));
-        let far = centers.map(|center| center.is_some_and(|center| lies_far(arc, center)));
-        let count = |counts: &mut [u32; 3], are: [bool; 3]| {
-            let pairs = counts.iter_mut().zip(&are[..compared]);
-            pairs.for_each(|(count, is)| *count += u32::from(*is));
+        let about = |is: fn(&Move, Place) -> bool| {
+            centers.map(|center| center.is_some_and(|center| is(arc, center)))
         };
-        count(&mut arcs.off, off);
-        count(&mut arcs.far, far);
-        count(&mut arcs.wide, wide);
-        let mut about = centers[..compared].iter().flatten();
+        let [misfits, far, wide] = [off, about(lies_far), about(turns_widely)]
+            .map(|are| std::array::from_fn(|rule| u32::from(rule < compared && are[rule])));
+        let own = Against {
+            off: misfits,
+            far,
+            wide,
+        };
+        let add = |count: &mut u32, more| *count += more;
+        arcs.of_all.change(&own, add);
+        let mut compared_centers = centers[..compared].iter().flatten();
         if arc.from == arc.to {
             arcs.closed += 1;
-        } else if about.all(|center| ends_beside(arc, *center)) {
+        } else if compared_centers.all(|center| ends_beside(arc, *center)) {
             arcs.beside += 1;
-            count(&mut arcs.off_beside, off);
-            count(&mut arcs.far_beside, far);
-            count(&mut arcs.wide_beside, wide);
+            arcs.of_beside.change(&own, add);
         }
         for (count, (a, b)) in arcs.unclear.iter_mut().zip(PAIRS) {
             *count += u32::from(b < compared && !off[a] && !off[b] && centers[a] != centers[b]);

@@ -212,28 +212,19 @@ impl Move {
     /// The arc with a given radius: at most a half turn, or more where R is negative.
     fn about_radius(&self, radius: i64, counter_clockwise: bool, reading: &Reading) -> Course {
         let (from, to) = (micrometres(self.from), micrometres(self.to));
-        let chord = to - from;
-        let (half, given) = (chord.norm() / 2.0, radius.unsigned_abs() as f64 / 1e3);
+        let radius = radius as f64 / 1e3;
+        let (half, given) = ((to - from).norm() / 2.0, radius.abs());
         if half == 0.0 || given == 0.0 {
             return Course::NoRadius;
         }
-        let middle = from + chord / 2.0;
         if half - given > reading.tolerance as f64 / 1e3 {
             return Course::OffRadius {
                 start: given,
                 end: half,
-                center: middle,
+                center: from + (to - from) / 2.0,
             };
         }
-        let height = (given * given - half * half).max(0.0).sqrt();
-        let to_left = counter_clockwise != (radius < 0);
-        let normal = crate::geometry::left_normal(chord) / (2.0 * half);
-        Course::Arc(Arc::about(
-            middle + normal * if to_left { height } else { -height },
-            from,
-            to,
-            counter_clockwise,
-        ))
+        Course::Arc(Arc::of_radius(from, to, radius, counter_clockwise))
     }
 
     /// The line or arc in µm; `None` where an arc leads nowhere.

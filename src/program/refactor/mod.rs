@@ -45,7 +45,7 @@ impl<'a> Offer<'a> {
         Offer { id, title, make }
     }
 
-    /// None where there is nothing to do.
+    /// The edits, empty where there is nothing to do, or why it cannot be done.
     pub fn edits(&self) -> Edits {
         (self.make)()
     }
