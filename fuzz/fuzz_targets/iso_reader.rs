@@ -4,21 +4,11 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use wedm::program::iso::Document;
-use wedm_fuzz::{check_program, edit_of_program};
+use wedm::program::{Document, Language};
+use wedm_fuzz::check_program;
 
 fuzz_target!(|data: &[u8]| {
-    let mut document = Document::read(data.to_vec());
-    check(&document);
-    let (range, replacement) = edit_of_program(data);
-    document.edit(range, &replacement);
-    check(&document);
-    let fresh = Document::read(document.text().bytes().to_vec());
-    assert_eq!(document.reading(), fresh.reading(), "how the numbers of an edited document are meant");
-    assert_eq!(document.findings(), fresh.findings(), "findings of an edited document");
-    assert_eq!(document.trace(), fresh.trace(), "trace of an edited document");
+    let [edited, fresh] = check_program(Language::Iso, data);
+    let (Document::Iso(edited), Document::Iso(fresh)) = (edited, fresh) else { panic!("another language") };
+    assert_eq!(edited.reading(), fresh.reading(), "how the numbers of an edited document are meant");
 });
-
-fn check(document: &Document) {
-    check_program(document.text(), &document.findings(), |finding| document.fixes(finding), &document.trace());
-}

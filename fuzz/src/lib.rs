@@ -3,9 +3,9 @@
 use std::ops::Range;
 use wedm::document::Document;
 use wedm::drawing::{Drawing, EntityId};
-use wedm::finding::{Finding, Fix, Place};
-use wedm::program::path::Trace;
-use wedm::text::{SourceText, TextEdit};
+use wedm::finding::{Finding, Place};
+use wedm::program::{Document as Program, Language};
+use wedm::settings::Effective;
 
 /// An input of two parts: a text, and after the first byte 0 what is done with it. A text without such a byte stands alone, so
 /// that a plain file is an input, too.
@@ -63,20 +63,39 @@ pub fn edit_of(script: &mut Script, length: usize, phrases: &[&str]) -> (Range<u
 }
 
 /// What is edited, as the first bytes of a program themselves say: from where, how much, and what comes in its place.
-pub fn edit_of_program(data: &[u8]) -> (Range<usize>, String) {
+fn edit_of_program(data: &[u8]) -> (Range<usize>, String) {
     let number = |at: usize| data.get(at).copied().map_or(0, usize::from);
     let start = (number(0) * 256 + number(1)) % (data.len() + 1);
     let replacement = String::from_utf8_lossy(data.get(..number(2) % 8).unwrap_or_default()).into_owned();
     (start..start + number(3) % 64, replacement)
 }
 
+/// Bytes as a program: reading, findings, fixes and the trace end whatever they are, and a document that was edited is the one
+/// read from scratch. Both are handed back.
+pub fn check_program(language: Language, data: &[u8]) -> [Program; 2] {
+    let settings = Effective::default();
+    let mut edited = Program::read(language, data.to_vec(), &settings);
+    check_places(&edited);
+    let (range, replacement) = edit_of_program(data);
+    edited.edit(range, &replacement);
+    check_places(&edited);
+    let fresh = Program::read(language, edited.text().bytes().to_vec(), &settings);
+    assert_eq!(findings_of(&edited), findings_of(&fresh), "findings of an edited document");
+    assert_eq!(edited.trace(), fresh.trace(), "trace of an edited document");
+    [edited, fresh]
+}
+
+fn findings_of(program: &Program) -> Vec<Finding> {
+    program.findings(&Effective::default(), usize::MAX).0
+}
+
 /// Everything that is said of a program has its place in the text, and edits of a fix are sorted and disjoint.
-pub fn check_program(text: &SourceText, findings: &[Finding], fixes: impl Fn(&Finding) -> Vec<Fix<Vec<TextEdit>>>, trace: &Trace) {
-    let length = text.len();
-    for finding in findings.iter().take(64) {
+fn check_places(program: &Program) {
+    let length = program.text().len();
+    for finding in findings_of(program).iter().take(64) {
         let Place::Text { range } = &finding.place else { panic!("{finding:?} has no place") };
         assert!(range.start <= range.end && range.end <= length, "{finding:?} in {length} bytes");
-        for fix in fixes(finding) {
+        for fix in program.fixes(finding) {
             let mut from = 0;
             for edit in &fix.edit {
                 assert!(from <= edit.range.start && edit.range.start <= edit.range.end && edit.range.end <= length, "{fix:?}");
@@ -84,8 +103,8 @@ pub fn check_program(text: &SourceText, findings: &[Finding], fixes: impl Fn(&Fi
             }
         }
     }
-    for step in &trace.steps {
-        assert!(step.range.end <= length && step.line < text.line_count(), "{step:?}");
+    for step in &program.trace().steps {
+        assert!(step.range.end <= length && step.line < program.text().line_count(), "{step:?}");
         assert!(step.end.x.is_finite() && step.end.y.is_finite(), "{step:?}");
     }
 }

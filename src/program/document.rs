@@ -169,7 +169,7 @@ impl Document {
 
     /// The fixes of one finding as edits of the text, the preferred one first. A fix that might
     /// spoil the program is neither preferred nor made by "fix all".
-    pub(crate) fn fixes(&self, finding: &Finding) -> Vec<TextFix> {
+    pub fn fixes(&self, finding: &Finding) -> Vec<TextFix> {
         if self.is_no_text().is_some() {
             return Vec::new();
         }

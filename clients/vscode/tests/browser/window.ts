@@ -9,8 +9,13 @@ export class Window {
   constructor(readonly page: Page) {}
 
   async open(name: string): Promise<void> {
-    await this.page.locator(".explorer-folders-view .monaco-list-row", { hasText: name }).first().dblclick();
-    await this.tab(name);
+    const row = this.page.locator(".explorer-folders-view .monaco-list-row", { hasText: name }).first();
+    // A list that takes up new files may move under the pointer: then another row gets the second click.
+    for (let left = 3; ; left--) {
+      await row.dblclick();
+      const shown = this.tab(name, left > 0 ? 15_000 : undefined);
+      if (await shown.then(() => true, (error) => left === 0 && Promise.reject(error))) break;
+    }
     await this.page.locator(".editor-group-container.active .view-lines .view-line").first().waitFor();
   }
 
@@ -30,8 +35,8 @@ export class Window {
   }
 
   /** Waits for the tab of a file in front: what a command has written it opens afterwards, over whatever is turned to before. */
-  async tab(name: string): Promise<void> {
-    await this.page.locator(`.tabs-container .tab.active[data-resource-name="${name}"]`).first().waitFor();
+  async tab(name: string, timeout?: number): Promise<void> {
+    await this.page.locator(`.tabs-container .tab.active[data-resource-name="${name}"]`).first().waitFor({ timeout });
   }
 
   async command(title: string): Promise<void> {
