@@ -13,8 +13,14 @@ export class Window {
     // A list that takes up new files may move under the pointer: then another row gets the second click.
     for (let left = 3; ; left--) {
       await row.dblclick();
-      const shown = this.tab(name, left > 0 ? 15_000 : undefined);
-      if (await shown.then(() => true, (error) => left === 0 && Promise.reject(error))) break;
+      try {
+        await this.tab(name, left > 0 ? PATIENCE / 4 : PATIENCE);
+        break;
+      } catch (error) {
+        if (left === 0) {
+          throw error;
+        }
+      }
     }
     await this.page.locator(".editor-group-container.active .view-lines .view-line").first().waitFor();
   }
@@ -35,7 +41,7 @@ export class Window {
   }
 
   /** Waits for the tab of a file in front: what a command has written it opens afterwards, over whatever is turned to before. */
-  async tab(name: string, timeout?: number): Promise<void> {
+  async tab(name: string, timeout = PATIENCE): Promise<void> {
     await this.page.locator(`.tabs-container .tab.active[data-resource-name="${name}"]`).first().waitFor({ timeout });
   }
 
