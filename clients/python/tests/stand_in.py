@@ -3,6 +3,12 @@
     python stand_in.py protocol N      says that it speaks protocol N
     python stand_in.py dies METHOD     ends when it is asked for METHOD
     python stand_in.py deaf METHOD     never answers METHOD
+    python stand_in.py babbles METHOD  writes a line that is no message, directly before the answer to METHOD
+    python stand_in.py raves METHOD    the same with a body that is no JSON
+    python stand_in.py counts METHOD   the same with JSON that is no message
+    python stand_in.py mute METHOD     closes its stdout when it is asked for METHOD, and lives on
+
+With the name of a file behind METHOD the last four do so once: they make the file, and do nothing of the kind where it stands.
 """
 
 from __future__ import annotations
@@ -12,6 +18,7 @@ import os
 import subprocess
 import sys
 import threading
+from pathlib import Path
 from typing import IO, Any
 
 
@@ -30,8 +37,20 @@ def write(stream: IO[bytes], message: dict[str, Any]) -> None:
     stream.flush()
 
 
+def misbehave(what: str, once: list[str]) -> None:
+    for mark in map(Path, once):
+        if mark.exists():
+            return
+        mark.touch()
+    if what == "mute":
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    said = {"babbles": b"the cutter is warm\n", "raves": b"Content-Length: 7\r\n\r\nno json", "counts": b"Content-Length: 2\r\n\r\n42"}
+    sys.stdout.buffer.write(said.get(what, b""))
+    sys.stdout.buffer.flush()
+
+
 def main() -> None:
-    what, detail = sys.argv[1:3]
+    what, detail, *once = sys.argv[1:]
     server = subprocess.Popen([os.environ["WEDM"]], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
     assert server.stdin is not None and server.stdout is not None
     out, into = server.stdout, server.stdin
@@ -53,6 +72,7 @@ def main() -> None:
                 os._exit(3)
             if what == "deaf":
                 continue
+            misbehave(what, once)
         write(into, message)
     into.close()
     server.wait()

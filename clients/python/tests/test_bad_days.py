@@ -198,6 +198,25 @@ def test_a_server_that_dies_of_a_question_is_given_up_with_its_last_words() -> N
         assert rules(server, drawing) == ["2A small-radius"]
 
 
+@pytest.mark.parametrize("how", ["babbles", "raves", "counts", "mute"])
+def test_a_server_that_writes_what_is_no_message_is_killed_and_another_one_asked(how: str, tmp_path: Path) -> None:
+    with Server([*STAND_IN, how, "wedm/contours", str(tmp_path / "once")], timeout=30) as server:
+        drawing = server.open([Polyline(TIGHT, handle="2A")])
+        first = server.pid
+        assert first is not None
+        assert len(server.contours(drawing).contours) == 1
+        assert server.pid != first
+        with pytest.raises(ProcessLookupError):
+            os.kill(first, 0)
+        assert rules(server, drawing) == ["2A small-radius"]
+
+
+def test_a_server_that_always_writes_what_is_no_message_is_given_up() -> None:
+    said = "has ended 6 times in a row, the last time killed since it wrote what is no message: 'the cutter is warm"
+    with pytest.raises(ServerDied, match=said), Server([*STAND_IN, "babbles", "initialize"], timeout=30):
+        pass
+
+
 def test_pauses_are_those_of_every_client() -> None:
     cases = json.loads((Path(__file__).parents[2] / "restarts.json").read_text("utf-8"))["cases"]
     for case in cases:

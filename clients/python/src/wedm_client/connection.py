@@ -6,6 +6,7 @@ import asyncio
 import collections
 import logging
 import os
+import re
 import threading
 import time
 from collections.abc import Callable, Coroutine, Mapping, Sequence
@@ -16,6 +17,7 @@ from typing import Any, TypeVar
 import attrs
 from lsprotocol import types
 from pygls.exceptions import JsonRpcException
+from pygls.io_ import run_async
 from pygls.lsp.client import LanguageClient
 from pygls.protocol import LanguageServerProtocol
 
@@ -30,6 +32,8 @@ REQUEST_FAILED = -32803
 
 # Seconds; a program that has not answered by then is no server.
 _PATIENCE = 20.0
+# Seconds that a process may live on when it has closed its stdout.
+_LAST_WORDS = 2.0
 
 LOG = logging.getLogger("wedm_client")
 
@@ -89,20 +93,69 @@ class _Protocol(LanguageServerProtocol):
         return super().structure_message(data)
 
 
+class _NoMessage(Exception):
+    """The server has written what belongs to no message."""
+
+
+class _Messages:
+    """The server's stdout as pygls reads it, which would pass over a line that is no header and wait for ever for what it has swallowed."""
+
+    _HEADER = re.compile(rb"(Content-Length: \d+|Content-Type: [^\r\n]*)\r\n")
+
+    def __init__(self, pipe: asyncio.StreamReader) -> None:
+        self._pipe = pipe
+
+    async def readline(self) -> bytes:
+        try:
+            line = await self._pipe.readline()
+        except ValueError:
+            raise _NoMessage("a line that does not end") from None
+        if line not in (b"", b"\r\n") and not self._HEADER.fullmatch(line):
+            raise _NoMessage(repr(line[:80].decode("utf-8", "replace")))
+        return line
+
+    async def readexactly(self, n: int) -> bytes:
+        return await self._pipe.readexactly(n)
+
+
 class _Client(LanguageClient):
     def __init__(self, on_end: Callable[[int], None]) -> None:
         super().__init__("wedm-client", "0.1.0", protocol_cls=_Protocol)
         self.said: collections.deque[str] = collections.deque(maxlen=20)
+        #: What the server wrote that belongs to no message; it is killed then.
+        self.babble: str | None = None
         self._on_end = on_end
 
     async def start_io(self, cmd: str, *args: Any, **kwargs: Any) -> None:
-        await super().start_io(cmd, *args, **kwargs)
+        pipe = asyncio.subprocess.PIPE
+        server = await asyncio.create_subprocess_exec(cmd, *args, stdin=pipe, stdout=pipe, stderr=pipe, **kwargs)
+        assert server.stdin is not None and server.stdout is not None and server.stderr is not None
+        self._server = server
+        self.protocol.set_writer(server.stdin)
+        exits: Coroutine[Any, Any, None] = self._server_exit()  # type: ignore[no-untyped-call]
         # A pipe that nobody reads would stop the server.
-        self._async_tasks.append(asyncio.create_task(self._listen()))
+        for task in (self._read(server, server.stdout), self._listen(server.stderr), exits):
+            self._async_tasks.append(asyncio.create_task(task))
 
-    async def _listen(self) -> None:
-        assert self._server is not None and self._server.stderr is not None
-        while chunk := await self._server.stderr.read(65536):
+    async def _read(self, server: asyncio.subprocess.Process, stdout: asyncio.StreamReader) -> None:
+        try:
+            await run_async(self._stop_event, _Messages(stdout), self.protocol, error_handler=self._judge)
+            await asyncio.wait_for(server.wait(), _LAST_WORDS)
+        except _NoMessage as reason:
+            self.babble = str(reason)
+            LOG.warning("the server wrote what is no message, and is killed: %s", reason)
+            _kill(server)
+        except (asyncio.IncompleteReadError, asyncio.TimeoutError, OSError):
+            # It will say nothing more, and cannot be asked.
+            _kill(server)
+
+    def _judge(self, error: Exception, source: type[Exception]) -> None:
+        # ValueError is of a body that is no JSON, AttributeError of JSON that is no message; what is wrong within a message is its own affair.
+        if isinstance(error, (ValueError, AttributeError)):
+            raise _NoMessage(f"a body that is none ({error})") from error
+
+    async def _listen(self, stderr: asyncio.StreamReader) -> None:
+        while chunk := await stderr.read(65536):
             self.said.extend(chunk.decode("utf-8", "replace").splitlines())
 
     async def server_exit(self, server: asyncio.subprocess.Process) -> None:
@@ -191,6 +244,12 @@ class Connection:
             self.life = time.monotonic() - self._ready_at
         self.ended, self.exit_code = True, exit_code
         self._on_end(self)
+
+    @property
+    def how_it_ended(self) -> str:
+        """To be read after "the last time"."""
+        babble = self._client.babble
+        return f"with code {self.exit_code}" if babble is None else f"killed since it wrote what is no message: {babble}"
 
     @property
     def said(self) -> list[str]:

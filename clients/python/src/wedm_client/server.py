@@ -671,7 +671,7 @@ class Server:
             said = "".join(f"\n  {line}" for line in connection.said)
             raise ServerDied(
                 f"{self.command[0]} has ended {MOST_ENDS} times in a row, "
-                f"the last time with code {connection.exit_code}, and is not started again; its last words:{said or ' none'}"
+                f"the last time {connection.how_it_ended}, and is not started again; its last words:{said or ' none'}"
             )
         time.sleep(pause)
 

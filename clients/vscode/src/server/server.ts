@@ -117,10 +117,12 @@ export class Server implements vscode.Disposable {
   }
 
   async #begin(start: number, program: string, child: ChildProcessWithoutNullStreams): Promise<void> {
-    let ended = "it ended";
+    let ended = t("it ended");
+    let babbled = false;
     const exited = new Promise<void>((resolve) => {
       child.once("exit", (code, signal) => {
-        ended = `it ended with ${signal ?? `code ${code ?? 0}`}`;
+        const how = signal === null ? t("it ended with code {0}", code ?? 0) : t("it ended with {0}", signal);
+        ended = babbled ? t("it wrote what is no message, and was killed") : how;
         this.log.info(`${program} (process ${child.pid ?? 0}): ${ended}`);
         resolve();
       });
@@ -132,6 +134,11 @@ export class Server implements vscode.Disposable {
     };
     const client = new QuietClient("wedm", "Wire EDM", () => Promise.resolve(child), this.#options());
     client.registerFeature(abilities);
+    client.onBabble = (error) => {
+      this.log.error(`${program} (process ${child.pid ?? 0}) wrote what is no message: ${error.message}`);
+      babbled = true;
+      child.kill("SIGKILL");
+    };
     this.#client = client;
     const silence = new AbortController();
     const clock = setTimeout(() => {
@@ -244,7 +251,7 @@ export class Server implements vscode.Disposable {
       progressOnInitialization: false,
       // A failure at the start is reported once for all tries.
       initializationFailedHandler: () => false,
-      // Deaths are dealt with here, as docs/protocol.md says; the client's own way starts again at once, four times.
+      // Ends and what is no message are dealt with above, as docs/protocol.md says; the client's own way starts again at once, four times.
       errorHandler: {
         error: () => ({ action: ErrorAction.Continue, handled: true }),
         closed: () => ({ action: CloseAction.DoNotRestart, handled: true }),

@@ -1,4 +1,5 @@
-// What bad days look like: no server, a server of another version, one that dies in the middle of an edit, a file too large for VS Code.
+// What bad days look like: no server, a server of another version, one that writes what is no message, one that dies in the middle of an
+// edit, a file too large for VS Code.
 
 import { execFile } from "node:child_process";
 import { mkdir, readFile, writeFile } from "node:fs/promises";
@@ -64,6 +65,19 @@ async function missing(checks: Checks): Promise<void> {
       await choose(WEDM);
       await window.squiggles.first().waitFor();
       await expectSoon("0.100 mm", async () => (await window.status.innerText()).includes("0.100 mm"), () => window.status.innerText());
+    });
+    await checks.check("a server that writes what is no message is killed, and another one started", async () => {
+      const babbles = join(host.folder, "..", "babbles");
+      const starts = async (): Promise<number[]> => (await readFile(`${babbles}.starts`, "utf8")).trim().split("\n").map(Number);
+      const first = `[ $(wc -l <${babbles}.starts) = 1 ] && exec ${process.execPath} ${FAKE_SERVER} babbles`;
+      await writeFile(babbles, `#!/bin/sh\necho $$ >>${babbles}.starts\n${first}\nexec ${WEDM} serve\n`, { mode: 0o755 });
+      await choose(babbles);
+      await expectSoon("another start", async () => (await starts()).length > 1, async () => JSON.stringify(await starts()));
+      await window.squiggles.first().waitFor();
+      const [babbler, ...others] = await starts();
+      expectEqual("other starts", others.length, 1);
+      expectEqual("the one that babbled still lives", lives(babbler ?? 0), false);
+      expectEqual("notices", await host.page.locator(".notifications-toasts .notification-list-item").count(), 0);
     });
   } finally {
     await host.stop();
@@ -160,6 +174,14 @@ async function killed(checks: Checks): Promise<void> {
 
 async function says(window: Window, text: string): Promise<void> {
   await expectSoon(text, async () => (await window.problems()).some((row) => row.includes(text)), async () => (await window.problems()).join("\n"));
+}
+
+function lives(pid: number): boolean {
+  try {
+    return process.kill(pid, 0);
+  } catch {
+    return false;
+  }
 }
 
 /** The one that serves this window; no other may ever be stopped. */

@@ -1,6 +1,8 @@
 #!/usr/bin/env node
-// A server of another version: it shakes hands, names protocol 2, and answers nothing else.
+// A server of another version: it shakes hands, names protocol 2, and answers nothing else. With the word `babbles` it names protocol 1,
+// and after the handshake it writes a line before a message, as a program does that prints to the wrong place; then it waits for its end.
 
+const babbles = process.argv.includes("babbles");
 let waiting = Buffer.alloc(0);
 
 process.stdin.on("data", (chunk) => {
@@ -22,12 +24,19 @@ function answer({ id, method }) {
     if (method === "exit") {
       process.exit(0);
     }
+    if (method === "initialized" && babbles) {
+      process.stdout.write(`the cutter is warm\n${frame({ jsonrpc: "2.0", method: "window/logMessage", params: { type: 3, message: "ready" } })}`);
+    }
     return;
   }
   const result =
     method === "initialize"
-      ? { serverInfo: { name: "wedm", version: "9.9.9" }, capabilities: { textDocumentSync: 2, experimental: { wedm: { protocol: 2 } } } }
+      ? { serverInfo: { name: "wedm", version: "9.9.9" }, capabilities: { textDocumentSync: 2, experimental: { wedm: { protocol: babbles ? 1 : 2 } } } }
       : null;
-  const body = JSON.stringify({ jsonrpc: "2.0", id, result });
-  process.stdout.write(`Content-Length: ${Buffer.byteLength(body)}\r\n\r\n${body}`);
+  process.stdout.write(frame({ jsonrpc: "2.0", id, result }));
+}
+
+function frame(message) {
+  const body = JSON.stringify(message);
+  return `Content-Length: ${Buffer.byteLength(body)}\r\n\r\n${body}`;
 }
