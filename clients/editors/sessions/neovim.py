@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from .place import EDITORS, FAULT, OFFERED, Place, expect, saw
+from .place import EDITORS, FAULT, OFFERED, WEDM, Place, expect, saw
 
 #: Keeps in `said` what Neovim tells its user.
 HEAR = "local notify, said = vim.notify, ''\nvim.notify = function(text, ...) said = said .. text notify(text, ...) end\n"
@@ -49,7 +49,8 @@ def that_dies(program: str, native: bool, editor: str) -> None:
     place = Place(editor + "-dies")
     server = place.folder / "programs/wedm"
     server.unlink()
-    server.write_text('#!/bin/sh\necho >>"$WEDM_DRAWING.starts"\nexit 3\n')
+    # With 3 and with 0 in turns: a code says nothing of whether it was asked to end.
+    server.write_text('#!/bin/sh\necho >>"$WEDM_DRAWING.starts"\nexit $(($(wc -l <"$WEDM_DRAWING.starts") % 2 * 3))\n')
     server.chmod(0o755)
     if native:
         start = f"vim.opt.runtimepath:append('{EDITORS}/neovim') vim.lsp.enable('wedm') vim.cmd('filetype on') vim.cmd('runtime! ftdetect/wedm.lua')"
@@ -65,9 +66,41 @@ def that_dies(program: str, native: bool, editor: str) -> None:
         "vim.wait(90000, function() return #vim.fn.readfile(vim.env.WEDM_DRAWING .. '.starts') > 6 end, 20)\nvim.cmd('qall!')\nend })\n"
     )
     said = place.run([program, "--headless", "-u", "NONE", "-i", "NONE", "-n", "-S", str(script)])
-    saw(said, "wedm has ended with code 3 and is started again in 0.5 s", "wedm has ended 6 times in a row, the last time with code 3", "starts: 6")
+    saw(said, "wedm has ended with code 0 and is started again in 0.5 s", "wedm has ended 6 times in a row, the last time with code 0", "starts: 6")
     starts = Path(f"{place.drawing}.starts").read_text().count("\n")
     expect(starts > 6, "opening the drawing again has not started it again")
+
+
+def bad_server(program: str, native: bool, editor: str, how: str, act: str, *expected: str) -> None:
+    """A server that does what the stand-in of the Python client's tests calls `how`, and what then is told and started."""
+    place = Place(f"{editor}-{act}")
+    server = place.folder / "programs/wedm"
+    server.unlink()
+    stand_in = f"WEDM={WEDM} exec python3 {EDITORS.parent}/python/tests/stand_in.py {how}" if how else f"exec {WEDM}"
+    server.write_text(f'#!/bin/sh\necho >>"$WEDM_DRAWING.starts"\n{stand_in}\n')
+    server.chmod(0o755)
+    patience = {"WEDM_PATIENCE": "1500"} if how.startswith("deaf") else {}
+    words = [program, "--headless", "-u", "NONE", "-i", "NONE", "-n", "-S", str(EDITORS / "neovim/bad_server.lua")]
+    said = place.run(words, WEDM_CONFIGURATION=str(EDITORS / "neovim"), WEDM_NATIVE="1" if native else "0", WEDM_ACT=act, **patience)
+    saw(said, "patience: 20000 ms", *expected)
+
+
+def of_another_version(program: str, native: bool, editor: str) -> None:
+    update = "speaks protocol 2 of wedm, these files speak 1: update these files"
+    bad_server(program, native, editor, "protocol 2", "given_up", update, "starts: 1")
+
+
+def that_is_silent(program: str, native: bool, editor: str) -> None:
+    bad_server(program, native, editor, "deaf initialize", "given_up", "does not answer: there was nothing within 1.5 s", "starts: 1")
+
+
+def that_babbles(program: str, native: bool, editor: str) -> None:
+    """Bodies that are no JSON: of other bytes Neovim tells no client."""
+    bad_server(program, native, editor, "raves textDocument/hover once", "babble", "starts: 2")
+
+
+def that_is_stopped(program: str, native: bool, editor: str) -> None:
+    bad_server(program, native, editor, "", "stop", "starts: 1")
 
 
 def pauses(program: str) -> None:

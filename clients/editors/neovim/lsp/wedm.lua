@@ -73,12 +73,11 @@ return {
         local own = config.settings and config.settings.wedm or {}
         -- An empty table of Lua would be sent as a list.
         params.initializationOptions = next(own) and own or vim.empty_dict()
+        restarts.watch(vim.tbl_filter(function(client) return client.config == config end, vim.lsp.get_clients { _uninitialized = true })[1])
     end,
-    on_init = function(client) restarts.answered(client.id) end,
+    on_init = restarts.answered,
+    on_error = function(code) restarts.erred(code) end,
     on_exit = function(code, signal, client_id)
-        -- The server exits with 0 only where it was asked to end.
-        if code ~= 0 or signal ~= 0 then
-            vim.schedule(function() again(client_id, code, signal) end)
-        end
+        vim.schedule(function() again(client_id, code, signal) end)
     end,
 }

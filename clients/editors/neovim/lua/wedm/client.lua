@@ -35,7 +35,8 @@ local function start(options, root)
     -- Neovim heeds the version of an edit but does not announce it: without this a fix would be made in a text that has changed in the meantime.
     local capabilities = vim.lsp.protocol.make_client_capabilities()
     capabilities.workspace.workspaceEdit.documentChanges = true
-    return vim.lsp.start_client {
+    local id
+    id = vim.lsp.start_client {
         capabilities = capabilities,
         name = 'wedm',
         cmd = options.cmd,
@@ -44,15 +45,15 @@ local function start(options, root)
         init_options = settings_of(options),
         settings = { wedm = settings_of(options) },
         on_attach = options.on_attach,
-        on_init = function(client) restarts.answered(client.id) end,
+        on_init = restarts.answered,
+        on_error = function(code) restarts.erred(code, id) end,
         on_exit = function(code, signal, client_id)
             clients[root] = nil
-            -- The server exits with 0 only where it was asked to end.
-            if code ~= 0 or signal ~= 0 then
-                vim.schedule(function() M.again(options, root, client_id, code, signal) end)
-            end
+            vim.schedule(function() M.again(options, root, client_id, code, signal) end)
         end,
     }
+    restarts.watch(id and vim.lsp.get_client_by_id(id))
+    return id
 end
 
 -- Starts a server again that has ended. What is in its buffers now is opened in the new one.
