@@ -14,8 +14,8 @@ from typing import Any, get_args, get_type_hints
 import pytest
 
 import wedm_client
-from wedm_client import results, settings
-from wedm_client.results import _KEYS, _camel
+from wedm_client import findings, programs, results, settings
+from wedm_client.reading import _KEYS, _camel
 
 
 @pytest.fixture
@@ -31,17 +31,20 @@ READ_OTHERWISE = {
 }
 # Types of the package that have a name of their own.
 OTHER_NAMES = {"Segment": "InspectedSegment", "Contour": "ContoursContour", "WirePath": "ToolpathPath", "Bounds": "SimulatedBounds"}
+# The types that an answer is read into, by their names.
+ANSWERS = {
+    name: kind
+    for module in (findings, results, programs)
+    for name, kind in vars(module).items()
+    if dataclasses.is_dataclass(kind) and kind.__module__ == module.__name__
+}
 # Which type of the package stands for which of the schema. `Fixed` is made of several answers.
-RESULTS = [
-    (name, OTHER_NAMES.get(name, name))
-    for name, kind in vars(results).items()
-    if dataclasses.is_dataclass(kind) and kind.__module__ == results.__name__ and name not in READ_OTHERWISE | {"Fixed"}
-]
+RESULTS = [(name, OTHER_NAMES.get(name, name)) for name in ANSWERS if name not in READ_OTHERWISE | {"Fixed"}]
 
 
 @pytest.mark.parametrize(("ours", "theirs"), RESULTS)
 def test_results_have_every_key_of_the_schema(schema: dict[str, Any], ours: str, theirs: str) -> None:
-    held = {_KEYS.get((ours, field.name), _camel(field.name)) for field in dataclasses.fields(getattr(results, ours))}
+    held = {_KEYS.get((ours, field.name), _camel(field.name)) for field in dataclasses.fields(ANSWERS[ours])}
     assert held >= set(schema["$defs"][theirs]["properties"])
 
 
@@ -65,7 +68,7 @@ def test_whatever_the_server_answers_has_its_type(schema: dict[str, Any]) -> Non
 
 @pytest.mark.parametrize(("ours", "theirs"), RESULTS)
 def test_words_of_results_are_those_of_the_schema(schema: dict[str, Any], ours: str, theirs: str) -> None:
-    hints = get_type_hints(getattr(results, ours))
+    hints = get_type_hints(ANSWERS[ours])
     for field in hints:
         key = _KEYS.get((ours, field), _camel(field))
         words = _words_of(schema, schema["$defs"][theirs]["properties"].get(key, {}))
@@ -99,7 +102,7 @@ def test_settings_have_the_keys_of_the_schema(schema: dict[str, Any], ours: str,
 
 
 def test_all_that_the_package_has_is_named_at_its_front_door() -> None:
-    for module in (results, settings):
+    for module in (findings, results, programs, settings):
         own = {name for name, value in vars(module).items() if isinstance(value, type) and value.__module__ == module.__name__}
         assert {name for name in own if not name.startswith("_")} <= set(wedm_client.__all__)
 

@@ -19,7 +19,7 @@ from typing import Any
 from .documents import WireFormat
 from .errors import NoAnswer, WedmError
 from .find import find
-from .results import Diagnostic, Findings
+from .findings import Diagnostic, Findings
 from .settings import Side
 from .shown import Rows, Value
 

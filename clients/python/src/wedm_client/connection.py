@@ -22,7 +22,7 @@ from pygls.lsp.client import LanguageClient
 from pygls.protocol import LanguageServerProtocol
 
 from .errors import NoAnswer, Outdated, Refused, RequestFailed, WedmError, WrongProtocol, WrongSettings
-from .results import diagnostic_from_json
+from .findings import diagnostic_from_json
 
 #: The version of the name space wedm/ that this package speaks.
 PROTOCOL = 1

@@ -12,23 +12,10 @@ from typing import Any, Literal, Protocol
 from .cad import write_back_to
 from .entities import Change, Delete, Entity, Polyline, Put, Splice, Vertex
 from .errors import DoesNotApply, WedmError
-from .results import (
-    Contours,
-    Diagnostic,
-    Findings,
-    Fit,
-    Fixed,
-    Inspection,
-    Located,
-    PairProgram,
-    Picture,
-    Program,
-    Repair,
-    SettingsInForce,
-    Simulation,
-    Toolpath,
-    write_beside,
-)
+from .files import write_beside
+from .findings import Diagnostic, Findings, Fixed, Located
+from .programs import Fit, PairProgram, Program, Simulation
+from .results import Contours, Inspection, Picture, Repair, SettingsInForce, Toolpath
 from .settings import Settings, Units
 from .shown import Rows, counted
 

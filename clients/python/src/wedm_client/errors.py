@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .results import Diagnostic
+    from .findings import Diagnostic
 
 
 class NotSaved(ResourceWarning):
