@@ -113,16 +113,25 @@ void Connection::read()
     const QList<QByteArray> bodies = m_reader.feed(m_process.readAllStandardOutput());
     for (const QByteArray &body : bodies)
         take(body);
-    if (!m_reader.damage().isEmpty() && !m_over) {
-        end(tr("it does not speak the language server protocol: %1").arg(m_reader.damage()));
-        m_process.kill();
-    }
+    if (!m_reader.damage().isEmpty())
+        endBabbling(m_reader.damage());
+}
+
+void Connection::endBabbling(const QString &what)
+{
+    if (m_over)
+        return;
+    end(tr("it does not speak the language server protocol: %1").arg(what));
+    m_process.kill();
 }
 
 void Connection::take(const QByteArray &body)
 {
     QJsonParseError error;
     const QJsonDocument document = QJsonDocument::fromJson(body, &error);
+    // What is too large for Qt may be a message all the same.
+    if (!document.isObject() && error.error != QJsonParseError::DocumentTooLarge)
+        endBabbling(document.isNull() ? error.errorString() : QStringLiteral("no object"));
     if (m_over || !document.isObject())
         return;
     const QJsonObject message = document.object();

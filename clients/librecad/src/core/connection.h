@@ -55,6 +55,7 @@ private:
     void read();
     void take(const QByteArray &body);
     void end(const QString &reason, bool hasRun = true);
+    void endBabbling(const QString &what);
 
     QProcess m_process;
     FrameReader m_reader;
