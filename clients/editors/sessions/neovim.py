@@ -10,6 +10,13 @@ from .place import EDITORS, FAULT, OFFERED, WEDM, Place, expect, saw
 HEAR = "local notify, said = vim.notify, ''\nvim.notify = function(text, ...) said = said .. text notify(text, ...) end\n"
 
 
+def start(native: bool) -> str:
+    """What a user has in init.lua."""
+    if native:
+        return f"vim.opt.runtimepath:append('{EDITORS}/neovim') vim.lsp.enable('wedm') vim.cmd('filetype on') vim.cmd('runtime! ftdetect/wedm.lua')"
+    return f"vim.opt.runtimepath:append('{EDITORS}/neovim') require('wedm').setup()"
+
+
 def repair(program: str, native: bool, editor: str) -> None:
     place = Place(editor)
     words = [program, "--headless", "-u", "NONE", "-i", "NONE", "-n", "-S", str(EDITORS / "neovim/session.lua")]
@@ -52,13 +59,9 @@ def that_dies(program: str, native: bool, editor: str) -> None:
     # With 3 and with 0 in turns: a code says nothing of whether it was asked to end.
     server.write_text('#!/bin/sh\necho >>"$WEDM_DRAWING.starts"\nexit $(($(wc -l <"$WEDM_DRAWING.starts") % 2 * 3))\n')
     server.chmod(0o755)
-    if native:
-        start = f"vim.opt.runtimepath:append('{EDITORS}/neovim') vim.lsp.enable('wedm') vim.cmd('filetype on') vim.cmd('runtime! ftdetect/wedm.lua')"
-    else:
-        start = f"vim.opt.runtimepath:append('{EDITORS}/neovim') require('wedm').setup()"
     script = place.folder / "start.lua"
     script.write_text(
-        f"{start}\n{HEAR}"
+        f"{start(native)}\n{HEAR}"
         "vim.api.nvim_create_autocmd('VimEnter', { nested = true, callback = function()\n"
         "vim.cmd('edit ' .. vim.env.WEDM_DRAWING)\n"
         "vim.wait(90000, function() return said:find('not started again') ~= nil end, 20)\nvim.wait(1000)\n"
@@ -79,9 +82,9 @@ def bad_server(program: str, native: bool, editor: str, how: str, act: str, *exp
     stand_in = f"WEDM={WEDM} exec python3 {EDITORS.parent}/python/tests/stand_in.py {how}" if how else f"exec {WEDM}"
     server.write_text(f'#!/bin/sh\necho >>"$WEDM_DRAWING.starts"\n{stand_in}\n')
     server.chmod(0o755)
-    patience = {"WEDM_PATIENCE": "1500"} if how.startswith("deaf") else {}
+    patience = "1500" if how.startswith("deaf") else ""
     words = [program, "--headless", "-u", "NONE", "-i", "NONE", "-n", "-S", str(EDITORS / "neovim/bad_server.lua")]
-    said = place.run(words, WEDM_CONFIGURATION=str(EDITORS / "neovim"), WEDM_NATIVE="1" if native else "0", WEDM_ACT=act, **patience)
+    said = place.run(words, WEDM_CONFIGURATION=str(EDITORS / "neovim"), WEDM_NATIVE="1" if native else "0", WEDM_ACT=act, WEDM_PATIENCE=patience)
     saw(said, "patience: 20000 ms", *expected)
 
 
@@ -145,13 +148,9 @@ def package(program: str, native: bool, editor: str) -> None:
 def without_server(program: str, native: bool, editor: str) -> None:
     place = Place(editor + "-without")
     (place.folder / "programs/wedm").unlink()
-    if native:
-        start = f"vim.opt.runtimepath:append('{EDITORS}/neovim') vim.lsp.enable('wedm') vim.cmd('filetype on') vim.cmd('runtime! ftdetect/wedm.lua')"
-    else:
-        start = f"vim.opt.runtimepath:append('{EDITORS}/neovim') require('wedm').setup()"
     script = place.folder / "start.lua"
     script.write_text(
-        f"{HEAR}{start}\n"
+        f"{HEAR}{start(native)}\n"
         "vim.cmd('edit ' .. vim.env.WEDM_DRAWING)\nvim.wait(90000, function() return said:find('cargo install', 1, true) ~= nil end, 20)\nvim.cmd('qall!')\n"
     )
     said = place.run([program, "--headless", "-u", "NONE", "-i", "NONE", "-n", "-S", str(script)], PATH=place.path_without_server())
