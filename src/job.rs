@@ -8,24 +8,25 @@ mod convert;
 pub(crate) mod drill;
 mod milling;
 mod pair;
+mod repairs;
 mod tabs;
 
 pub(crate) use convert::{Converted, Target, convert};
 pub use pair::pair;
+pub use repairs::ROUNDS;
+pub(crate) use repairs::{Repairs, fix_all};
 
 use crate::analysis;
-use crate::document::{Document, Snapshot, Source};
-use crate::drawing::{Drawing, DrawingEdit, Entity};
-use crate::finding::{self, Detail, Edit, Finding, Place, Severity, Telling};
+use crate::document::{Document, Snapshot};
+use crate::drawing::Entity;
+use crate::finding::{self, Detail, Finding, Place, Severity, Telling};
 use crate::fit::{self, Fit};
 use crate::picture::{self, View};
 use crate::program::{self, Format, ProofError, ProvedProgram};
 use crate::rule::Rule;
 use crate::settings::{Effective, Order};
-use crate::text::{Patch, TextEdit, edited};
 use crate::toolpath::{self, Finished, Planned, StartHole, Work, entities_of, plan_while};
 use std::collections::BTreeSet;
-use std::sync::Arc;
 
 /// The caller while it waits: whether it still wants the result, and the progress that it is shown.
 pub trait Watch: Sync {
@@ -144,56 +145,6 @@ pub(crate) fn check(document: &mut Document, limit: usize) -> (Vec<Finding>, usi
         });
     }
     (findings, count)
-}
-
-/// Repairs in several rounds, since one may make room for another.
-#[derive(Debug)]
-pub(crate) enum Repairs {
-    /// For a text, as one edit of its present state; and the document after the repairs.
-    OfText {
-        edits: Vec<TextEdit>,
-        rounds: usize,
-        repaired: Box<Document>,
-    },
-    /// For a drawing without text, each with the drawing that it applies to.
-    OfDrawing(Vec<(Arc<Drawing>, DrawingEdit)>),
-}
-
-/// At most this many rounds: more change nothing.
-pub const ROUNDS: usize = 12;
-
-/// Every safe fix, repeated until none is left.
-pub(crate) fn fix_all(document: &Document) -> Option<Repairs> {
-    if let Source::Cad(_) = document.source() {
-        let mut present = document.clone();
-        let mut rounds = Vec::new();
-        while rounds.len() < ROUNDS
-            && let Some(Edit::Drawing(edit)) = present.fix_all()
-            && let Some(before) = present.drawing().cloned()
-            && let Some(Ok(())) = present.edit_drawing(|drawing| drawing.apply(&edit))
-        {
-            rounds.push((before, edit));
-        }
-        return (!rounds.is_empty()).then_some(Repairs::OfDrawing(rounds));
-    }
-    let mut patch = Patch::of(document.text()?.len());
-    let mut repaired = None;
-    let mut rounds = 0;
-    while rounds < ROUNDS
-        && let present = repaired.as_ref().unwrap_or(document)
-        && let Some(edits) = present.fix_all_in_text()
-        && let Some(longer) = patch.then(&edits)
-        && let Some(bytes) = present.text().and_then(|text| edited(text.bytes(), &edits))
-    {
-        rounds += 1;
-        patch = longer;
-        repaired = Some(present.reread(bytes));
-    }
-    Some(Repairs::OfText {
-        edits: patch.edits(),
-        rounds,
-        repaired: Box::new(repaired?),
-    })
 }
 
 /// The wire's path of all contours, or why there is none, and the picture with it.
@@ -358,6 +309,15 @@ pub fn generate(
     written(snapshot, findings, wanted, watch)
 }
 
+/// A program that only threads the wire is none; of the findings of the drawing, those that say why.
+fn cuts_nothing(mut findings: Vec<Finding>) -> Refusal {
+    findings.retain(|one| matches!(one.detail, Detail::OffsetCollapse { point: true, .. }));
+    match findings.is_empty() {
+        true => Refusal::Sentence(say!(it_cuts_nothing).into()),
+        false => Refusal::Findings(findings),
+    }
+}
+
 fn written(
     snapshot: &Snapshot,
     mut findings: Vec<Finding>,
@@ -403,6 +363,9 @@ fn written(
     } = planned(snapshot, &of_format, chosen.as_deref(), true, watch)?;
     if settings.mills {
         milling::too_short(snapshot, &paths)?;
+    }
+    if paths.iter().all(|path| path.segments.is_empty()) {
+        return Err(cuts_nothing(findings));
     }
     let mut go_on = |done, all| {
         watch.at(say!(writing_and_proving), Some((done, all)));

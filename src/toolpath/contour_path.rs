@@ -144,19 +144,8 @@ impl Job<'_> {
         }
     }
 
-    /// The path along a contour, as `laid_within` has it, of which nothing has been proved before.
-    pub(super) fn laid(
-        &self,
-        walls: &[Wall],
-        own: &Walls,
-        along: Along,
-    ) -> Result<Outcome, Refusal> {
-        self.laid_within(walls, own, along, Known::default())
-    }
-
-    /// The path along a contour, proved; `walls` have the wire on the side of that sign. That of an open one runs from beside the beginning of
-    /// the first wall to beside the end of the last. What is `known` is not looked at again.
-    pub(super) fn laid_within(
+    /// The path at just the correction, as `laid_within` has it.
+    pub(super) fn laid_at(
         &self,
         walls: &[Wall],
         own: &Walls,

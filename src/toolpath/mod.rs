@@ -4,6 +4,7 @@
 //! correction, lies at it everywhere but on the tips of corners, and leaves out nothing that the wire can reach: `proof`. Where that
 //! cannot be, there is an error finding at the place and no path. Everything is in drawing units; settings are in mm.
 
+mod at_limit;
 mod clearance;
 mod containment;
 mod contour_path;

@@ -3,6 +3,7 @@
 //! The judge knows nothing of how a path is made: a point is a place of the path when the nearest point of the contour
 //! is just the correction away, and every such point is reached from some point of the contour along its normal.
 
+mod at_limit;
 mod once;
 
 use super::random::judged;
