@@ -233,6 +233,18 @@ pub(crate) struct Tight {
     pub(crate) part: u32,
 }
 
+/// A way out and back at whose tip a move begins.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Spur {
+    pub(crate) tip: Place,
+    /// µm.
+    pub(crate) length: f64,
+    /// Bytes from the start of the stretch: the whole line's words.
+    pub(crate) range: (u32, u32),
+    /// The part that it belongs to, by its index in the stretch.
+    pub(crate) part: u32,
+}
+
 /// The smallest radii among some arcs, µm; infinite where there is none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Tightest {

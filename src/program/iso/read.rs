@@ -7,7 +7,7 @@ use super::corner::{self, Turned, turned};
 use super::evidence::FEW_BARE;
 use super::machine::{Behind, Machine, Trail, mark_of};
 use super::moves::{Course, Move, Reading, added, apart};
-use super::part::{Hears, Part, SEVERAL, Tight, Ways};
+use super::part::{Hears, Part, SEVERAL, Spur, Tight, Ways};
 use super::shape::Shape;
 use super::stretch::{Definition, Foreign, Pathless, Stretch};
 use crate::finding::{Fault, Finding, Rule};
@@ -361,7 +361,7 @@ impl Stretch {
         if !made.goes_anywhere() {
             return;
         }
-        self.examine(&made, range, ahead);
+        let odd = self.examine(&made, ahead);
         self.after.trail.push(&made);
         match self.parts.last_mut() {
             Some(part) if part.open => part.push(made, cap, range),
@@ -373,7 +373,19 @@ impl Stretch {
                     .push(Part::begin(made, cap, range, continues, !torn));
             }
         }
-        each(self.parts.len() - 1, &made, range);
+        let part = self.parts.len() - 1;
+        match odd {
+            // Whether it is one depends on where its cut begins.
+            Some(Fault::Spur { length }) => self.spurs.push(Spur {
+                tip: made.from,
+                length,
+                range,
+                part: part as u32,
+            }),
+            Some(fault) => self.fault(fault, range),
+            None => {}
+        }
+        each(part, &made, range);
     }
 
     /// Twice the area between a move and its chord, nm²; an arc is kept where it may be too tight, and its fault.
@@ -409,27 +421,21 @@ impl Stretch {
         0.0
     }
 
-    /// Reports an odd joint, a spur or a reversed arc, at the beginning of a move.
-    fn examine<'a>(&mut self, made: &Move, range: (u32, u32), ahead: &Ahead<'_, impl Lines<'a>>) {
+    /// The odd joint, a spur or a reversed arc, at the beginning of a move.
+    fn examine<'a>(&mut self, made: &Move, ahead: &Ahead<'_, impl Lines<'a>>) -> Option<Fault> {
         let reading = self.reading;
         let shape = |made: Move| Shape {
             made,
             reading: &reading,
         };
-        let [Some(before), came] = self.after.trail.last else {
-            return;
-        };
+        let [before, came] = self.after.trail.last;
         let made = shape(made.at_origin());
-        let Some(joint) = joint(came.map(shape), &shape(before), made) else {
-            return;
-        };
+        let joint = joint(came.map(shape), &shape(before?), made)?;
         let next = corner::next_move(self.after, ahead.lines(), &reading, Move::goes_anywhere);
         self.ahead = self.ahead.max(ahead.beyond(next.looked_at));
         self.fixed |= next.is_fixed;
         let next = next.made.map(|next| shape(next.at_origin()));
-        if let Some(fault) = joint.fault(next.as_ref()) {
-            self.fault(fault, range);
-        }
+        joint.fault(next.as_ref())
     }
 }
 

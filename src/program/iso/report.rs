@@ -7,13 +7,12 @@ mod told;
 use super::block::Code;
 use super::cut::JoinedCut;
 use super::document::{Document, Table};
-use super::fixes::have_met;
 use super::limits::Limits;
 use super::moves::{Place as Spot, Reading, apart, meet, micrometres};
-use super::part::{Part, WireSide};
+use super::part::{Part, Spur, WireSide};
 use super::plain::word_at;
 use super::repair::found::Repair;
-use super::repair::{Troubles, cut_within, line_of};
+use super::repair::{Troubles, cut_within};
 use super::stretch::Stretch;
 use crate::finding::{Detail, Fault, Finding, Place, Rule, Severity, Side};
 use crate::geometry::cross;
@@ -34,9 +33,6 @@ const LEAST_TWICE_AREA: u128 = 2_000_000;
 
 /// A cut of fewer moves has no ways in and out of two blocks each.
 const LONGEST_LEADS: u32 = 6;
-
-/// Beyond this many spurs it is not checked whether they are ways out and in again.
-const MOST_SPURS: usize = 32;
 
 impl Document {
     /// The findings of the program, in the order of the text.
@@ -79,7 +75,6 @@ impl Document {
                 report.add(at(offset, behind), Fault::TextAfterEnd { word });
             }
         }
-        report.spurs();
         for cut in self.doubtful().untold() {
             report.judge(cut, Some(self.doubtful()));
         }
@@ -259,22 +254,6 @@ impl<'a> Report<'a> {
         }
     }
 
-    /// A way out and in again between two passes is no spur: its tip is the start of the cut.
-    fn spurs(&mut self) {
-        let spurs =
-            |findings: &[Finding]| findings.iter().filter(|one| one.rule == Rule::Spur).count();
-        if (1..=MOST_SPURS).contains(&spurs(&self.findings)) {
-            let document = self.document;
-            let is_lead = |finding: &Finding| {
-                let line = line_of(document, finding)?;
-                let tip = document.machine_before(line)?.at;
-                Some(have_met(document.begun_cut_with(line)?.from, tip))
-            };
-            self.findings
-                .retain(|finding| finding.rule != Rule::Spur || is_lead(finding) != Some(true));
-        }
-    }
-
     /// Adds up the evidence for the program as a whole.
     fn note(&mut self, stretch: &Stretch, offset: usize) {
         self.moves = self.moves.saturating_add(stretch.moves);
@@ -339,6 +318,7 @@ impl<'a> Report<'a> {
     /// those with which it may belong together.
     fn judge(&mut self, cut: &JoinedCut, all: Option<&ByChunk<JoinedCut>>) {
         let sum = &*cut.sum;
+        self.spurs(cut);
         if sum.open && !self.is_whole() {
             // A cut that was not read completely tells nothing about the whole.
             return;
@@ -394,6 +374,21 @@ impl<'a> Report<'a> {
             }
         }
         self.tight_arcs(cut, orientation);
+    }
+
+    /// A way out and in again between two passes is no spur: its tip is the start of the cut.
+    fn spurs(&mut self, cut: &JoinedCut) {
+        let (document, begin) = (self.document, cut.sum.start());
+        let tolerance = document.tolerance(&cut.sum);
+        for &(stretch, part) in &cut.parts {
+            let own = document.stretches().get(stretch);
+            let all = own.into_iter().flat_map(|own| own.spurs_of(part));
+            for spur in all.filter(|spur| !meet(begin, spur.tip, tolerance)) {
+                let Spur { length, range, .. } = spur;
+                let range = document.bytes_of((stretch, range));
+                self.add(range, Fault::Spur { length });
+            }
+        }
     }
 
     /// Twice the area of the contour of which a cut is the tab, or all but the tab, where both are cut from and to the

@@ -7,7 +7,7 @@ use super::block::{Code, Offset};
 use super::evidence::Evidence;
 use super::machine::Machine;
 use super::moves::{Place, Reading, added, micrometres};
-use super::part::{Part, Tight, Tightest, Ways};
+use super::part::{Part, Spur, Tight, Tightest, Ways};
 use super::word::Term;
 use crate::finding::Finding;
 use crate::geometry::Bounds;
@@ -80,6 +80,8 @@ pub(crate) struct Stretch {
     /// In the order of their parts, at their places before the stretch was moved, as `parts`.
     pub(crate) tight: Vec<Tight>,
     pub(crate) tightest: Tightest,
+    /// In the same order, and at the same places.
+    pub(crate) spurs: Vec<Spur>,
     pub(crate) parts: Vec<Part>,
     /// How far it has been moved since its lines were run.
     pub(crate) moved: Place,
@@ -243,6 +245,9 @@ impl Stretch {
         self.parts.shrink_to_fit();
         self.lays.shrink_to_fit();
         self.tight.shrink_to_fit();
+        self.spurs
+            .retain(|spur| !gone.contains(&(spur.part as usize)));
+        self.spurs.shrink_to_fit();
         self.gone = gone;
     }
 
@@ -263,6 +268,18 @@ impl Stretch {
         of_run.map(|tight| Tight {
             arc: tight.arc.shifted(self.moved),
             ..*tight
+        })
+    }
+
+    /// The ways out and back within a part, at their places.
+    pub(crate) fn spurs_of(&self, part: usize) -> impl Iterator<Item = Spur> + '_ {
+        let of_part = self
+            .spurs
+            .iter()
+            .filter(move |spur| spur.part as usize == part);
+        of_part.map(|spur| Spur {
+            tip: added(spur.tip, self.moved),
+            ..*spur
         })
     }
 }

@@ -287,3 +287,35 @@ fn one_slip_is_found_where_it_stands_and_turned_back() {
         slip(line, with, expected);
     }
 }
+
+/// Two passes without a stop: the way out and in again between them is no spur, in however many contours; one that lies
+/// elsewhere is, beside these.
+#[test]
+fn ways_between_passes_are_no_spurs_in_any_number_of_contours() {
+    let text = |contours: usize, spur: &str| {
+        let mut text = String::from("G90\nG92 X0. Y0.\n");
+        for contour in 0..contours {
+            let x = 50 * contour;
+            if contour > 0 {
+                text += &format!("M00\nG00 X{x}. Y0.\n");
+            }
+            let round = format!(
+                "G01 X{x}. Y5.\nX{0}. Y5.\nX{0}. Y15.\nX{1}. Y15.\nX{1}. Y5.\nX{x}. Y5.\nX{x}. Y0.\n",
+                x + 10,
+                x as i64 - 10
+            );
+            text += &round.repeat(2);
+        }
+        text + spur + "M02\n"
+    };
+    let spurs = |text: &str| {
+        let found = faults(text, &Effective::default());
+        found.iter().filter(|(_, rule)| *rule == "spur").count()
+    };
+    for contours in [1, 32, 33, 200] {
+        assert_eq!(spurs(&text(contours, "")), 0, "{contours} contours");
+        let x = 50 * (contours - 1);
+        let spur = format!("G01 X{x}. Y2.\nX{0}. Y2.\nX{x}. Y2.\nX{x}. Y1.\n", x + 3);
+        assert_eq!(spurs(&text(contours, &spur)), 1, "{contours} contours");
+    }
+}
