@@ -3,6 +3,7 @@
 use super::drawn::Drawn;
 use super::traced::{Block, Traced};
 use crate::geometry::{Bounds, Segment, Vector, left_normal};
+use crate::program::path::goes_back;
 use std::ops::Range;
 
 /// The largest distance between the boxes of passes of one contour, µm.
@@ -140,7 +141,8 @@ pub(super) fn contours(drawn: &Drawn, traced: &Traced) -> Option<Vec<String>> {
     Some(names.collect())
 }
 
-/// The passes of the longest contour, each from stop to stop; pieces that cut off its tab do not count.
+/// The passes of the longest contour, each from stop to stop; pieces that cut off its tab do not count, and neither do
+/// ways back along a pass.
 pub(super) fn passes(traced: &Traced) -> Vec<Vec<Segment>> {
     let Some(longest) = cuts(traced).max_by_key(|cut| cut.len()) else {
         return Vec::new();
@@ -155,6 +157,13 @@ pub(super) fn passes(traced: &Traced) -> Vec<Vec<Segment>> {
     let length = |pass: &Vec<Segment>| pass.iter().map(Segment::length).sum::<f64>();
     let longest = passes.iter().map(length).fold(0.0, f64::max);
     passes.retain(|pass| 2.0 * length(pass) > longest);
+    if !traced.blocks.iter().any(Block::is_offset) {
+        for later in (1..passes.len()).rev() {
+            if goes_back(&passes[later - 1], &passes[later], PARALLEL) {
+                passes.remove(later);
+            }
+        }
+    }
     passes
 }
 

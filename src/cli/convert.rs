@@ -165,7 +165,14 @@ fn summarise(arguments: &Arguments, target: Target, made: &Converted) {
     }
     let way = made.dropped.way();
     let corrections = made.corrections.iter().cloned();
-    let losses = way.into_iter().chain(corrections).chain(cuts.losses());
+    let format = match target {
+        Target::Program(format) => Some(format),
+        Target::Drawing => None,
+    };
+    let losses = way
+        .into_iter()
+        .chain(corrections)
+        .chain(cuts.losses(format));
     losses.for_each(|loss| output::say(&loss));
     // A drawing has none of it.
     if target != Target::Drawing {

@@ -269,8 +269,8 @@ impl Cuts {
         Some(say!(line_by_number, line + 1, reason))
     }
 
-    /// What the new program loses, in sentences.
-    pub(crate) fn losses(&self) -> Vec<String> {
+    /// What the new program loses, in sentences; a drawing has no stops at all.
+    pub(crate) fn losses(&self, format: Option<Format>) -> Vec<String> {
         let mut losses = Vec::new();
         if self.cuts.iter().any(|cut| cut.side.is_some()) && !self.corrections.is_empty() {
             let own: Vec<String> = self
@@ -287,10 +287,21 @@ impl Cuts {
         if let Some(taper) = &self.taper {
             losses.push(say!(not_written_the_taper, taper));
         }
-        if let Some(line) = self.stops.first() {
+        let lost = match format {
+            None => Some(0),
+            Some(format) => self.lost_stop(format),
+        };
+        if let Some(line) = lost.and_then(|at| self.stops.get(at)) {
             losses.push(say!(not_written_the_stop_before_a_tab, line + 1));
         }
         losses
+    }
+
+    /// The first stop within a contour that a language does not have, among all.
+    fn lost_stop(&self, format: Format) -> Option<usize> {
+        let is_lost = |cut: &&CutPath| cut.stops_in(format).len() < cut.stops.len();
+        let at = self.cuts.iter().position(|cut| is_lost(&cut))?;
+        Some(self.cuts.iter().take(at).map(|cut| cut.stops.len()).sum())
     }
 
     /// Places each contour of a 4B program where the part has it: its way in ends beside it, on the wire's path, at the
@@ -385,33 +396,61 @@ impl Cuts {
         };
     }
 
-    /// The cuts as paths of the wire in µm, to be written in another language.
+    /// The cuts as paths of the wire in µm, to be written in another language: a stop within one holds the part while
+    /// what is left of it is cut off.
     pub fn paths(&self) -> Vec<WirePath> {
-        let source = |cut: &CutPath, index: usize| match index {
-            _ if index < cut.lead_in => Source::LeadIn,
-            _ if index + cut.lead_out >= cut.segments.len() => Source::LeadOut,
+        self.paths_of(Format::Iso)
+    }
+
+    /// The same for one language.
+    fn paths_of(&self, format: Format) -> Vec<WirePath> {
+        let cuts = self.cuts.iter();
+        cuts.flat_map(|cut| cut.paths(format)).collect()
+    }
+}
+
+impl CutPath {
+    /// The stops within it that a language has.
+    fn stops_in(&self, format: Format) -> &[usize] {
+        match format {
+            Format::FourB if self.stops.len() > 1 => &[],
+            _ => &self.stops,
+        }
+    }
+
+    fn paths(&self, format: Format) -> impl Iterator<Item = WirePath> {
+        let source = |index: usize| match index {
+            _ if index < self.lead_in => Source::LeadIn,
+            _ if index + self.lead_out >= self.segments.len() => Source::LeadOut,
             _ => Source::Segment {
                 entity: EntityId(0),
                 segment: index,
             },
         };
-        let paths = self.cuts.iter().filter_map(|cut| {
-            let thread_hole = cut.segments.first()?.start();
-            let segments = cut
-                .segments
-                .iter()
-                .enumerate()
-                .map(|(index, &geometry)| PathSegment {
-                    geometry,
-                    source: source(cut, index),
-                })
-                .collect();
+        let piece = move |(index, &geometry): (usize, &Segment)| PathSegment {
+            geometry,
+            source: source(index),
+        };
+        let mut segments: Vec<PathSegment> = self.segments.iter().enumerate().map(piece).collect();
+        let thread_hole = self.segments.first().map(Segment::start);
+        let mut parts = Vec::new();
+        for stop in self.stops_in(format).iter().rev() {
+            if (1..segments.len()).contains(stop) {
+                parts.push(segments.split_off(*stop));
+            }
+        }
+        parts.push(segments);
+        let is_one = parts.len() == 1;
+        let parts = parts.into_iter().rev().enumerate();
+        parts.filter_map(move |(nth, segments)| {
             Some(WirePath {
-                side: cut.side,
-                ..WirePath::along(thread_hole, segments)
+                side: self.side,
+                cut_off: nth > 0,
+                // What comes back to its start behind a stop is not open.
+                counter_clockwise: (!is_one && self.closed).then_some(true),
+                ..WirePath::along(thread_hole?, segments)
             })
-        });
-        paths.collect()
+        })
     }
 }
 

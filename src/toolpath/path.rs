@@ -132,14 +132,20 @@ impl WirePath {
     }
 }
 
-/// Lengths in drawing units: of the cuts, with leads and all passes, and of the ways without a cut from each path to
-/// the next.
+/// Lengths in drawing units: of the cuts, with leads and all passes, and of the ways without a cut: from each path to
+/// the next, and back along what has been cut.
 pub(crate) fn lengths(paths: &[WirePath]) -> (f64, f64) {
-    let segments = paths.iter().flat_map(|path| &path.segments);
-    let cut = segments.map(|segment| segment.geometry.length()).sum();
+    let along = |is_way_back: bool| {
+        let own = paths
+            .iter()
+            .filter(move |path| path.is_way_back == is_way_back);
+        let segments = own.flat_map(|path| &path.segments);
+        // The sum of no numbers is -0.
+        segments.fold(0.0, |sum, segment| sum + segment.geometry.length())
+    };
     let pairs = paths.iter().zip(paths.iter().skip(1));
     let jumps = pairs.map(|(path, next)| (next.begin() - path.end()).norm());
-    (cut, jumps.fold(0.0, |sum, way| sum + way))
+    (along(false), jumps.fold(along(true), |sum, way| sum + way))
 }
 
 /// Why there is no path; a plain sentence for the user, in lower case without a full stop.

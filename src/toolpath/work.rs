@@ -4,7 +4,7 @@
 
 use super::containment::Nesting;
 use super::lead_form::largest_lead_angle;
-use super::path::WirePath;
+use super::path::{WirePath, lengths};
 use crate::drawing::{Drawing, EntityId, Outline, Role, wire_side};
 use crate::geometry::{Segment, Side};
 use crate::settings::{Effective, Use};
@@ -88,7 +88,9 @@ pub(crate) fn work(
                 .map(|(thickness, rate)| length * thickness / rate),
         }
     };
-    let cuts: Vec<WorkCut> = paths.iter().map(cut).collect();
+    // What goes back along what has been cut cuts nothing.
+    let cuts = paths.iter().filter(|path| !path.is_way_back);
+    let cuts: Vec<WorkCut> = cuts.map(cut).collect();
     let minutes: Option<f64> = cuts.iter().map(|cut| cut.minutes).sum();
     let minutes = minutes.filter(|_| !cuts.is_empty());
     let chosen: Vec<usize> = paths
@@ -108,7 +110,6 @@ pub(crate) fn work(
                 mass,
             })
     };
-    let jump = |pair: &[WirePath]| (pair[1].begin() - pair[0].end()).norm() * unit_mm;
     let angles = paths
         .iter()
         .filter_map(|path| largest_lead_angle(&path.segments));
@@ -120,8 +121,7 @@ pub(crate) fn work(
     ];
     Work {
         length: cuts.iter().map(|cut| cut.length).sum(),
-        // The sum of no numbers is -0.
-        jumps: paths.windows(2).map(jump).fold(0.0, |sum, way| sum + way),
+        jumps: lengths(paths).1 * unit_mm,
         minutes,
         cost: minutes
             .zip(settings.job.machine_rate)

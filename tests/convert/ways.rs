@@ -270,3 +270,42 @@ fn a_place_that_is_stated_anew_behind_a_stop_is_kept() {
         }
     }
 }
+
+/// A stop that holds the part while its tab is cut is one in each language, and is read back as one.
+#[test]
+fn a_stop_before_a_tab_is_kept() {
+    let square = |side: &str, lead: &str| {
+        format!(
+            "G92 X0 Y0\nG90\n{side}G01 X5. Y0.\nY5.\nX-5.\nY-5.\nX2.\nM00\nG01 X5.\nY0.\n{lead}X0.\nM02\n"
+        )
+    };
+    let by_path = square("", "");
+    let by_control = square("G41 D1\n", "G40\nG01 ");
+    let own = Effective::default();
+    let stops = |language: Language, text: &str| {
+        let trace = read(language, text, &own).trace();
+        let moves = |step: &&wedm::program::path::Step| step.moves();
+        let before = trace.steps.iter().take_while(moves).count();
+        let pauses = trace.steps.iter().filter(|step| !step.moves()).count();
+        // The end counts as one, too.
+        (before, pauses)
+    };
+    for (text, format, language) in [
+        (&by_path, Format::ThreeB, Language::ThreeB),
+        (&by_path, Format::Iso, Language::Iso),
+        (&by_control, Format::Iso, Language::Iso),
+        (&by_control, Format::FourB, Language::ThreeB),
+    ] {
+        let source = read(Language::Iso, text, &own);
+        let cuts = convert::cuts(&source);
+        assert_eq!(cuts.cuts.len(), 1, "{text}");
+        let new = written(format, &cuts.paths(), 1e-3, &own);
+        let (before, pauses) = stops(language, &new);
+        assert_eq!(pauses, 2, "{new}");
+        assert!(before >= 5, "{new}");
+        let again = convert::cuts(&read(language, &new, &own));
+        assert_eq!(again.cuts.len(), 1, "{new}");
+        assert!(again.cuts[0].closed, "{new}");
+        assert_eq!(again.paths().len(), 2, "{new}");
+    }
+}

@@ -86,7 +86,7 @@ impl Cuts {
     /// Writes the cuts as a program of a language, and proves it.
     pub(crate) fn write(&self, format: Format, settings: &Effective) -> Proved<ProvedProgram> {
         // µm are the unit of the cuts.
-        let paths = self.paths();
+        let paths = self.paths_of(format);
         if format != Format::Iso {
             return format.write(&paths, 1e-3, settings, &mut |_, _| true);
         }
@@ -105,7 +105,11 @@ impl Cuts {
             goes_on: cut.goes_on,
         };
         let cuts = self.cuts.iter().filter(|cut| !cut.segments.is_empty());
-        let kept: Vec<Kept> = cuts.map(kept).collect();
+        let kept = cuts.flat_map(|cut| {
+            let parts = cut.paths(format).skip(1).map(|_| Kept::NOTHING);
+            std::iter::once(kept(cut)).chain(parts)
+        });
+        let kept: Vec<Kept> = kept.collect();
         iso::write_keeping(&paths, &kept, 1e-3, settings)
     }
 

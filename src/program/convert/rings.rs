@@ -2,7 +2,7 @@
 
 use super::{CutPath, JOINED};
 use crate::geometry::{Bounds, Point, Segment};
-use crate::program::path::{lie_beside, tolerance};
+use crate::program::path::{goes_back, lie_beside, tolerance};
 
 /// The most blocks of a way in or out.
 const LEAD: usize = 2;
@@ -38,7 +38,11 @@ pub(super) fn passes(cuts: &[CutPath]) -> Option<(Vec<Ring>, usize)> {
     let cuts = cuts.get(..count).filter(|cuts| cuts.len() > 1)?;
     let wholes: Option<Vec<Ring>> = cuts.iter().map(whole).collect();
     let rings = wholes.filter(|rings| all_beside(rings)).or_else(|| {
-        let runs: Vec<&[Segment]> = cuts.iter().flat_map(runs).collect();
+        let mut runs: Vec<&[Segment]> = cuts.iter().flat_map(runs).collect();
+        // Under the control a pass the other way has the same coordinates.
+        if cuts.iter().all(|cut| cut.side.is_none()) {
+            runs = without_ways_back(&runs, near);
+        }
         let all = 0..runs.len();
         let with_tabs = all.filter_map(|run| with_tab(&runs, run, begin, near));
         let mut rings: Vec<Ring> = with_tabs.collect();
@@ -92,6 +96,18 @@ fn runs(cut: &CutPath) -> impl Iterator<Item = &[Segment]> {
         from = end;
         run
     })
+}
+
+/// Without those that go back along the one before: the next pass goes the same way.
+fn without_ways_back<'a>(runs: &[&'a [Segment]], near: f64) -> Vec<&'a [Segment]> {
+    let mut kept: Vec<&[Segment]> = Vec::with_capacity(runs.len());
+    let mut before: Option<&[Segment]> = None;
+    for &run in runs {
+        let is_way_back = before.is_some_and(|before| goes_back(before, run, near));
+        before = (!is_way_back).then_some(run);
+        kept.extend(before);
+    }
+    kept
 }
 
 /// A cut that closes by itself, without a stop.

@@ -17,6 +17,7 @@ mod size;
 mod tight;
 mod trace;
 mod way;
+mod way_back;
 
 pub(in crate::program) use behind_stops::{BehindStops, KnownTabs, goes_on};
 pub(in crate::program) use contour::{Ends, closing, not_closed};
@@ -38,3 +39,4 @@ pub use trace::{Kind, Step, Trace};
 pub(crate) use way::Writing;
 pub(crate) use way::tolerance;
 pub(in crate::program) use way::{HeldWay, Node, Totals, Way};
+pub(crate) use way_back::goes_back;

@@ -18,7 +18,7 @@ pub(crate) struct Kept {
 }
 
 impl Kept {
-    pub(super) const NOTHING: Kept = Kept {
+    pub(crate) const NOTHING: Kept = Kept {
         register: None,
         correction: None,
         goes_on: false,
