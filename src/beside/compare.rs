@@ -27,8 +27,8 @@ const LEAST: f64 = 2.5e-3;
 /// A program of ours is compared block by block, so that a change of 3 µm is found; for another writer's roundings
 /// there is room.
 pub fn compare(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
-    let (seen, is_ours) = compared(drawn, traced);
-    if is_ours || traced.mills {
+    let (seen, is_even) = compared(drawn, traced);
+    if is_even || traced.mills {
         return seen;
     }
     let uneven = uneven(drawn, traced);
@@ -52,7 +52,8 @@ pub fn compare(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
     Some(seen)
 }
 
-/// The same without the corrections of contours beside each other, and whether the program is as we write it.
+/// The same without the corrections of contours beside each other, and whether nothing is to be asked of these: the
+/// program is as we write it, or follows all of the drawing at one correction.
 fn compared(drawn: &Drawn, traced: &Traced) -> (Option<Comparison>, bool) {
     let known = against_reference(drawn, traced, &drawn.as_set());
     if traced.mills {
@@ -79,7 +80,8 @@ fn compared(drawn: &Drawn, traced: &Traced) -> (Option<Comparison>, bool) {
                 }
             }),
         };
-        return (seen.or_else(|| on_other_side(drawn, traced)), false);
+        let seen = seen.or_else(|| on_other_side(drawn, traced));
+        return (seen, layings.is_even);
     };
     let blocks = traced.blocks.len();
     // Of few blocks any may be as other settings have it; of many, a few may be as another writer rounds them.
@@ -104,7 +106,7 @@ fn compared(drawn: &Drawn, traced: &Traced) -> (Option<Comparison>, bool) {
         && is_of_contours(&known)
         && let Some(seen) = clean_or_slip(drawn, traced, &mut layings)
     {
-        return (Some(seen), false);
+        return (Some(seen), layings.is_even);
     }
     if !is_doubtful {
         let is_ours = known.comparison.differences.is_empty();

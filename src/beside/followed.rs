@@ -57,6 +57,8 @@ pub(super) struct Layings<'a> {
     traced: &'a Traced,
     known: Vec<Laying>,
     rest: Box<dyn Iterator<Item = Laying> + 'a>,
+    /// All of the program follows at one correction.
+    pub(super) is_even: bool,
 }
 
 impl<'a> Layings<'a> {
@@ -64,6 +66,7 @@ impl<'a> Layings<'a> {
         Layings {
             traced,
             known: Vec::new(),
+            is_even: false,
             rest: Box::new(std::iter::once(()).flat_map(|()| layings(drawn, traced))),
         }
     }
@@ -93,9 +96,13 @@ pub(super) fn followed(layings: &mut Layings) -> Option<Comparison> {
     {
         return Some(seen);
     }
+    layings.is_even = laying.courses.len() == 1;
     // Many are the way of its writer; a few somebody has changed.
     if SLIPS * walked.slips.len() <= walked.follows.len() {
         walked.unlike = std::mem::take(&mut walked.slips);
+        walked
+            .unlike
+            .retain(|one| !traced.counts || one.off >= CHANGED);
     }
     let Laying {
         drawn,
@@ -148,7 +155,7 @@ pub(super) fn but_one(layings: &mut Layings) -> Option<Comparison> {
     } = only;
     // A step that is rounded by itself is no change; an arc of which no arc can be made is one.
     let is_lost = traced.blocks.get(unlike.block).is_some_and(|it| it.is_lost);
-    let is_change = unlike.off >= CHANGED || traced.counts || is_lost;
+    let is_change = unlike.off >= CHANGED || is_lost;
     walked.unlike = Vec::from_iter(is_change.then_some(unlike));
     Tried::of(&repaired, walked, &[], (rounds, placement)).told(&drawn, &repaired)
 }

@@ -192,6 +192,8 @@ impl Members {
             let off = match found.whole {
                 true if is_one => numbers_apart(segment, &meant, (traced.counts, block.by_radius)),
                 true => 0.0,
+                // On another piece, which it has been found to follow.
+                false if length > meant.length() => 0.0,
                 // Where on its piece it ends is the program's own.
                 false => meant.distance_to(meant.start() + (segment.end() - segment.start())),
             };
