@@ -5,11 +5,12 @@
 //! cut in passes of its own, to and fro from where the wire stands. Of several passes that all go one way each goes back along what it has
 //! cut: the straight way from where the tab begins to the thread hole would cut off what hangs on it.
 
+use super::contours::Contours;
 use super::corners::Element;
 use super::entry::{Entry, path_point};
 use super::job::{Job, ROUNDING};
 use super::lead_form::{Landing, lead_in, lead_out};
-use super::leads::{Contours, Kerfs};
+use super::leads::Kerfs;
 use super::offset::normal;
 use super::path::{PathSegment, Refusal, Source, WirePath};
 use super::paths::{Pass, Unled};
