@@ -167,6 +167,11 @@ pub(crate) fn refuse(
             say(path, document, findings);
             complain(&Failure::of(path, say!(no_program_is_written)).0);
         }
+        Refusal::Parts(parts) => {
+            let command = format!("wedm pair {}", output::word(path));
+            let sentence = say!(parts_have_a_program_each, job::listed(parts), command);
+            complain(&Failure::of(path, sentence).0);
+        }
         Refusal::Sentence(sentence) | Refusal::Unproved(sentence, _) => {
             complain(&Failure::of(path, sentence).0);
         }

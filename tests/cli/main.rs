@@ -7,6 +7,7 @@ mod ends;
 mod fixes;
 mod holes;
 mod pages;
+mod parts;
 mod pictures;
 mod programs;
 mod reports;

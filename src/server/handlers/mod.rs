@@ -32,8 +32,7 @@ use super::context::RequestContext;
 use super::errors::{self, refused};
 use crate::document::{Document, Snapshot, Source};
 use crate::finding::Finding;
-use crate::job::{self, Refusal, Watch};
-use crate::toolpath::Planned;
+use crate::job::{self, Cut, Refusal, Watch};
 use std::sync::Arc;
 use tower_lsp::jsonrpc::{Error, Result};
 
@@ -77,16 +76,10 @@ impl Task {
         self.document.all_findings().to_vec()
     }
 
-    /// The wire's paths of all contours.
-    fn planned(&self, context: &RequestContext) -> Result<Planned> {
-        job::planned(
-            &self.snapshot,
-            &self.snapshot.settings,
-            None,
-            false,
-            context,
-        )
-        .map_err(|refusal| self.refused(context, &refusal))
+    /// The wire's paths, part for part of a pair.
+    fn cuts(&self, context: &RequestContext) -> Result<Vec<Cut>> {
+        let cuts = job::cuts(&self.snapshot, context);
+        cuts.map_err(|refusal| self.refused(context, &refusal))
     }
 
     fn refused(&self, context: &RequestContext, refusal: &Refusal) -> Error {
