@@ -5,6 +5,7 @@
 //! or knows who asked.
 
 mod convert;
+mod corners;
 pub(crate) mod drill;
 mod milling;
 mod pair;
@@ -12,6 +13,7 @@ mod shown;
 mod tabs;
 
 pub(crate) use convert::{Converted, Target, convert};
+pub(crate) use corners::is_of_program;
 pub use pair::pair;
 pub(crate) use pair::{Cut, cuts, programs};
 pub(crate) use shown::{picture, picture_of_program};
@@ -415,6 +417,7 @@ fn written(
         &holes,
     ));
     warnings.extend(picked_without_picks(settings, chosen.as_deref()));
+    warnings.extend(corners::cut_off(snapshot, &program));
     warnings.extend(tabs::none_kept(snapshot, &paths));
     warnings.extend(tabs::missed(snapshot, &paths));
     warnings.extend(toolpath::weak_tabs(

@@ -297,9 +297,7 @@ impl Job<'_> {
             .copied()
             .unwrap_or_default();
         let area = (outline.twice_area.abs() / 2.0 - cut_out).max(0.0) * self.unit_mm.powi(2);
-        let entities = outline.contour.pieces.iter();
-        let of = entities.filter_map(|piece| Some(&*self.drawing.get(piece.entity)?.handle));
-        let length_mm = settings.tab_of(of);
+        let length_mm = self.set_tab(unled.outline);
         if length_mm > 0.0 && !outline.contour.closed {
             let sentence = say!(an_open_contour_keeps_no_tab, self.name(unled.outline));
             let source = unled.walls.first().map(|wall| wall.source);
@@ -344,6 +342,13 @@ impl Job<'_> {
             })?;
         }
         Ok(self.units(overlap))
+    }
+
+    /// The length of its tab that the settings give an outline, mm.
+    pub(super) fn set_tab(&self, outline: usize) -> f64 {
+        let pieces = self.outlines[outline].contour.pieces.iter();
+        let of = pieces.filter_map(|piece| Some(&*self.drawing.get(piece.entity)?.handle));
+        self.settings.tab_of(of)
     }
 
     /// The length of a contour in drawing units; an error where `mm` is at least as long.

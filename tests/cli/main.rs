@@ -5,6 +5,7 @@ mod contradictions;
 mod electrode;
 mod ends;
 mod fixes;
+mod four_b;
 mod holes;
 mod pages;
 mod parts;

@@ -9,6 +9,7 @@ declare! {
     the_program_does_not_hold_its_proof(reason) => "the program does not pass its proof: {reason}";
     no_program_of_this_drawing(reason) => "no program could be proved for this drawing: {reason}";
     four_b_ends_with_an_open_contour => "4B cannot say where the wire is after an open contour: such a contour can only be the last of a program, cut in one pass; cut it by itself, or choose another format";
+    four_b_cuts_a_corner_off(depth, radius) => "4B holds an arc of R {radius:.3} mm in place of this corner: the wire cuts off {depth:.3} mm of it; ISO and 3B keep it";
     four_b_has_no_tab => "4B has one contour for all passes: it can have a tab only with a single pass, and no overlap; set tab or closing-overlap to 0, or choose another format";
     no_other_program(reason) => "no other program could be proved for this one, and none is written: {reason}";
     a_target_that_is_not_written(name, names) => "{name:?} is not written, expected dxf, {names}";

@@ -9,6 +9,7 @@ translate! {
     the_program_does_not_hold_its_proof(reason) => "程序没有通过校核：{reason}";
     no_program_of_this_drawing(reason) => "此图形得不出通过校核的程序：{reason}";
     four_b_ends_with_an_open_contour => "4B 程序说不出切完未封闭轮廓后丝在哪里：这样的轮廓只能是程序中的最后一个，并且只切一次；请单独切割，或换一种格式";
+    four_b_cuts_a_corner_off(depth, radius) => "4B 在这个拐角处写为 R {radius:.3} mm 的圆弧：电极丝切掉它 {depth:.3} mm；ISO 和 3B 保留拐角";
     four_b_has_no_tab => "4B 程序各次切割共用一个轮廓：只有一次切割时才有暂留段，没有重叠段；请把 tab 或 closing-overlap 设为 0，或换一种格式";
     no_other_program(reason) => "由它得不出通过校核的新程序，未写出任何程序：{reason}";
     a_target_that_is_not_written(name, names) => "不能写出 {name:?}，应为 dxf、{names}";

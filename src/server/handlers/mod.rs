@@ -66,6 +66,23 @@ impl Task {
         })
     }
 
+    /// All that is said is about the electrode, where one is set, also where a wire is.
+    fn mill(&mut self) {
+        let Ok(milled) = self.snapshot.settings.milled() else {
+            return;
+        };
+        let milled = Arc::new(milled);
+        let is_one = Arc::ptr_eq(&self.document, &self.subject);
+        Arc::make_mut(&mut self.subject).set_settings(milled.clone());
+        match is_one {
+            true => self.document = self.subject.clone(),
+            false => Arc::make_mut(&mut self.document).set_settings(milled),
+        }
+        if let Some(snapshot) = self.document.snapshot() {
+            self.snapshot = snapshot;
+        }
+    }
+
     fn unit_mm(&self) -> f64 {
         self.document.unit_mm()
     }
