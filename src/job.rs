@@ -82,7 +82,7 @@ impl Refusal {
             Refusal::Sentence(sentence)
             | Refusal::Unproved(sentence, _)
             | Refusal::Fault(sentence) => sentence.clone(),
-            Refusal::Parts(parts) => say!(parts_have_a_program_each, listed(parts), "wedm pair"),
+            Refusal::Parts(parts) => say!(parts_have_a_program_each, listed(parts)),
             Refusal::Errors(errors) if errors.len() == 1 => {
                 say!(an_error_stands_in_the_drawing).into()
             }

@@ -168,8 +168,8 @@ pub(crate) fn refuse(
             complain(&Failure::of(path, say!(no_program_is_written)).0);
         }
         Refusal::Parts(parts) => {
-            let command = format!("wedm pair {}", output::word(path));
-            let sentence = say!(parts_have_a_program_each, job::listed(parts), command);
+            let (parts, word) = (job::listed(parts), output::word(path));
+            let sentence = say!(parts_of_have_a_program_each, parts, word);
             complain(&Failure::of(path, sentence).0);
         }
         Refusal::Sentence(sentence) | Refusal::Unproved(sentence, _) => {

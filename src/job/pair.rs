@@ -47,9 +47,14 @@ pub(crate) struct Cut {
     pub(crate) places: Vec<usize>,
 }
 
-/// True where the drawing is a pair of which everything is set.
-fn is_pair(settings: &Effective) -> bool {
-    settings.fit().is_ok() && settings.pair_error().is_none()
+/// True where the drawing is a pair of which everything is set, and any contour of drawn parts has a partner.
+fn is_pair(snapshot: &Snapshot) -> bool {
+    let settings = &snapshot.settings;
+    let has_partners = || match settings.partners() {
+        Some(Partners::Drawn) => !roles_of_partners(snapshot).is_empty(),
+        _ => true,
+    };
+    settings.fit().is_ok() && settings.pair_error().is_none() && has_partners()
 }
 
 /// The paths of a drawing, part for part where it is a pair.
@@ -61,7 +66,7 @@ pub(crate) fn cuts(snapshot: &Snapshot, watch: &dyn Watch) -> Result<Vec<Cut>, R
     if let (Err(missing), true) = (settings.fit(), settings.pair.drawn_as.is_some()) {
         return Err(Refusal::Sentence(say!(a_pair_needs, missing.listed())));
     }
-    if !is_pair(settings) {
+    if !is_pair(snapshot) {
         return Ok(vec![whole(snapshot, watch)?]);
     }
     let by_control = settings.compensation == Compensation::Controller;
@@ -190,7 +195,7 @@ pub(super) fn alone(
     watch: &dyn Watch,
 ) -> Option<Result<Generated, Refusal>> {
     let settings = &snapshot.settings;
-    let (partners, _) = settings.fit().ok().filter(|_| is_pair(settings))?;
+    let (partners, _) = settings.fit().ok().filter(|_| is_pair(snapshot))?;
     let chosen = match wanted.chosen(snapshot) {
         Ok(chosen) => chosen,
         Err(refusal) => return Some(Err(refusal)),

@@ -17,7 +17,8 @@ declare! {
     a_drawing_is_no_program => "it is a drawing, expected a program (.3b, .iso)";
     a_program_is_no_drawing => "it is a program, expected a drawing (.dxf)";
     nothing_is_said_of_a_wire(format) => "no wire is set, only an electrode in [milling]: choose the format milling, or set correction or wire-diameter for {format}";
-    parts_have_a_program_each(parts, command) => "it is a pair, whose parts ({parts}) have a program each: `{command}` writes them";
+    parts_have_a_program_each(parts) => "it is a pair, whose parts ({parts}) have a program each: `wedm pair` writes them";
+    parts_of_have_a_program_each(parts, path) => "it is a pair, whose parts ({parts}) have a program each: `wedm pair {path}` writes them";
     holes_of_a_pair_are_csv => "the holes of a pair are written as .csv: in one drawing the hole of a part would be taken for that of the other, too";
     a_pair_is_not_milled => "a pair is cut by a wire: expected 3b, 4b or iso";
     the_electrode_wears_more_than_a_layer(wear) => "the electrode gets {wear:.2} layers shorter in each layer along this contour: the floor is uneven within one layer; a larger electrode or a shorter contour wears less";

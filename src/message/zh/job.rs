@@ -17,7 +17,8 @@ translate! {
     a_drawing_is_no_program => "这是图形，此处要程序（.3b、.iso）";
     a_program_is_no_drawing => "这是程序，此处要图形（.dxf）";
     nothing_is_said_of_a_wire(format) => "没有电极丝的数据，只有 [milling] 的电极：请选格式 milling，或为 {format} 设置 correction 或 wire-diameter";
-    parts_have_a_program_each(parts, command) => "这是一对零件（{parts}），每件各有自己的程序：由 `{command}` 写出";
+    parts_have_a_program_each(parts) => "这是一对零件（{parts}），每件各有自己的程序：由 `wedm pair` 写出";
+    parts_of_have_a_program_each(parts, path) => "这是一对零件（{parts}），每件各有自己的程序：由 `wedm pair {path}` 写出";
     holes_of_a_pair_are_csv => "成对零件的穿丝孔写为 .csv：放在同一张图里，一件的孔也会被当作另一件的";
     a_pair_is_not_milled => "成对的零件用电极丝切割：应为 3b、4b 或 iso";
     the_electrode_wears_more_than_a_layer(wear) => "沿此轮廓每铣一层，电极缩短 {wear:.2} 层：一层之内底面不平；电极粗一些或轮廓短一些，损耗就小";
