@@ -37,6 +37,9 @@ pub(crate) struct Part {
     handles: Option<Vec<String>>,
 }
 
+/// A part with its program, or why there is none.
+type Programmed = (Part, Result<Generated, Refusal>);
+
 /// What is cut of a drawing: one part of a pair, or all where it is none.
 pub(crate) struct Cut {
     pub(crate) part: Option<Part>,
@@ -151,7 +154,7 @@ pub(crate) fn programs(
     findings: &[Finding],
     wanted: &Wanted,
     watch: &dyn Watch,
-) -> Result<Vec<(Part, Result<Generated, Refusal>)>, Refusal> {
+) -> Result<Vec<Programmed>, Refusal> {
     let settings = &snapshot.settings;
     if wanted.format == Format::Milling {
         return Err(Refusal::Sentence(say!(a_pair_is_not_milled).into()));

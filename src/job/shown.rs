@@ -32,7 +32,7 @@ pub(crate) fn picture(
         Some(Share {
             title: part_title(cut.name()?),
             paths: planned.paths.len(),
-            settings: &*snapshot.settings,
+            settings: &snapshot.settings,
         })
     };
     let parts: Vec<Share> = all().filter_map(share).collect();

@@ -92,9 +92,8 @@ pub fn svg(view: &View) -> String {
     let others = findings.iter().filter(|finding| is_other(finding));
     let severities = others.map(|finding| finding.severity);
     let ways = |paths: &[WirePath]| {
-        paths
-            .windows(2)
-            .any(|pair| pair[0].end() != pair[1].begin())
+        let mut pairs = paths.iter().zip(paths.iter().skip(1));
+        pairs.any(|(path, next)| path.end() != next.begin())
     };
     let jumps = subject.parts.iter().any(|part| ways(part.paths));
     let shown = style::Shown {

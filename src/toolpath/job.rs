@@ -93,18 +93,23 @@ impl Job<'_> {
         if self.settings.workpieces.is_empty() {
             return vec![(outlines.to_vec(), known)];
         }
-        let mut parts: Vec<(u16, (Vec<usize>, Vec<T>))> = Vec::new();
+        let mut numbers: Vec<u16> = Vec::new();
+        let mut parts: Vec<(Vec<usize>, Vec<T>)> = Vec::new();
         for (&outline, known) in outlines.iter().zip(known) {
             let number = self.workpiece(outline);
-            match parts.iter_mut().find(|(part, _)| *part == number) {
+            let mut numbered = numbers.iter().zip(&mut parts);
+            match numbered.find(|(part, _)| **part == number) {
                 Some((_, (own, of_own))) => {
                     own.push(outline);
                     of_own.push(known);
                 }
-                None => parts.push((number, (vec![outline], vec![known]))),
+                None => {
+                    numbers.push(number);
+                    parts.push((vec![outline], vec![known]));
+                }
             }
         }
-        parts.into_iter().map(|(_, part)| part).collect()
+        parts
     }
 
     /// The walls of a contour.
