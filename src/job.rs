@@ -5,26 +5,30 @@
 //! or knows who asked.
 
 mod convert;
+mod corners;
 pub(crate) mod drill;
 mod milling;
 mod pair;
 mod repairs;
+mod shown;
 mod tabs;
 
 pub(crate) use convert::{Converted, Target, convert};
+pub(crate) use corners::is_of_program;
 pub use pair::pair;
+pub(crate) use pair::{Cut, cuts, programs};
 pub use repairs::ROUNDS;
 pub(crate) use repairs::{Repairs, fix_all};
+pub(crate) use shown::{picture, picture_of_program};
 
 use crate::analysis;
 use crate::document::{Document, Snapshot};
 use crate::drawing::Entity;
-use crate::finding::{self, Detail, Finding, Place, Severity, Telling};
+use crate::finding::{Detail, Finding, Place, Severity, Telling};
 use crate::fit::{self, Fit};
-use crate::picture::{self, View};
-use crate::program::{self, Format, ProofError, ProvedProgram};
+use crate::program::{Format, ProofError, ProvedProgram};
 use crate::rule::Rule;
-use crate::settings::{Effective, Order};
+use crate::settings::{Effective, Order, part_title};
 use crate::toolpath::{self, Finished, Planned, StartHole, Work, entities_of, plan_while};
 use std::collections::BTreeSet;
 
@@ -45,6 +49,8 @@ impl Watch for () {}
 #[derive(Debug)]
 pub enum Refusal {
     Sentence(String),
+    /// These parts of a pair have a program each.
+    Parts(Vec<String>),
     /// There are errors in what would be cut.
     Errors(Vec<Finding>),
     /// The refusals of the geometry, at their places.
@@ -62,7 +68,7 @@ impl Refusal {
     /// An error where the drawing is at fault, not where something is still to be set.
     fn severity(&self) -> Severity {
         match self {
-            Refusal::Sentence(_) | Refusal::Cancelled => Severity::Information,
+            Refusal::Sentence(_) | Refusal::Parts(_) | Refusal::Cancelled => Severity::Information,
             Refusal::Findings(findings) => {
                 let severities = findings.iter().map(|finding| finding.severity);
                 severities.min().unwrap_or(Severity::Error)
@@ -77,6 +83,7 @@ impl Refusal {
             Refusal::Sentence(sentence)
             | Refusal::Unproved(sentence, _)
             | Refusal::Fault(sentence) => sentence.clone(),
+            Refusal::Parts(parts) => say!(parts_have_a_program_each, listed(parts)),
             Refusal::Errors(errors) if errors.len() == 1 => {
                 say!(an_error_stands_in_the_drawing).into()
             }
@@ -95,7 +102,9 @@ impl Refusal {
             Refusal::Errors(findings)
             | Refusal::Findings(findings)
             | Refusal::Unproved(_, findings) => findings,
-            Refusal::Sentence(_) | Refusal::Fault(_) | Refusal::Cancelled => &[],
+            Refusal::Sentence(_) | Refusal::Parts(_) | Refusal::Fault(_) | Refusal::Cancelled => {
+                &[]
+            }
         }
     }
 
@@ -117,6 +126,12 @@ impl Refusal {
             }
         }
     }
+}
+
+/// The names of parts for people.
+pub(crate) fn listed(parts: &[String]) -> String {
+    let titles: Vec<String> = parts.iter().map(|part| part_title(part)).collect();
+    titles.join(say!(comma))
 }
 
 impl From<toolpath::Refusal> for Refusal {
@@ -145,51 +160,6 @@ pub(crate) fn check(document: &mut Document, limit: usize) -> (Vec<Finding>, usi
         });
     }
     (findings, count)
-}
-
-/// The wire's path of all contours, or why there is none, and the picture with it.
-pub(crate) fn picture(
-    snapshot: &Snapshot,
-    findings: &[Finding],
-    watch: &dyn Watch,
-) -> (Result<Planned, Refusal>, String) {
-    let settings = &snapshot.settings;
-    let planned = planned(snapshot, settings, None, false, watch);
-    let why = planned.as_ref().err().map(|refusal| {
-        let telling = Telling {
-            unit_mm: settings.unit_of(&snapshot.drawing).mm,
-            mills: settings.mills,
-        };
-        (refusal.severity(), refusal.sentence(telling))
-    });
-    let view = View {
-        name: settings.document.as_deref(),
-        drawing: &snapshot.drawing,
-        outlines: &snapshot.outlines,
-        findings,
-        paths: planned.as_ref().map_or(&[], |planned| &planned.paths),
-        holes: planned.as_ref().map_or(&[], |planned| &planned.holes),
-        why: why
-            .as_ref()
-            .map(|(severity, why)| (*severity, why.as_str())),
-        settings,
-    };
-    let svg = picture::svg(&view);
-    (planned, svg)
-}
-
-/// The picture of a program.
-pub(crate) fn picture_of_program(document: &Document, program: &program::Document) -> String {
-    let of = |finding: &Finding| {
-        let line = document
-            .text()?
-            .line_of(document.range_of(&finding.place)?.start);
-        Some((line, finding.severity, finding::sentence(finding, 1.0)))
-    };
-    let findings = document.all_findings();
-    let faults: Vec<_> = findings.iter().filter_map(of).collect();
-    let name = document.settings().document.as_deref();
-    picture::program_svg(&program.trace(), &faults, name, program.mills())
 }
 
 /// Whether the parts of a drawing fit, of which this is the snapshot; what its findings have shown of that is not worked out again.
@@ -287,7 +257,8 @@ pub struct Generated {
     pub left_out: Vec<Finding>,
 }
 
-/// Writes and proves the program of a drawing; `findings` are all of the drawing.
+/// Writes and proves the program of a drawing; `findings` are all of the drawing. Of a pair it is that of the part whose contours
+/// are wanted, where both are drawn.
 pub fn generate(
     snapshot: &Snapshot,
     findings: Vec<Finding>,
@@ -305,6 +276,9 @@ pub fn generate(
     }
     if let Some(sentence) = settings.pass_error() {
         return Err(Refusal::Sentence(sentence));
+    }
+    if let Some(made) = pair::alone(snapshot, &findings, wanted, watch) {
+        return made;
     }
     written(snapshot, findings, wanted, watch)
 }
@@ -406,6 +380,7 @@ fn written(
         &holes,
     ));
     warnings.extend(picked_without_picks(settings, chosen.as_deref()));
+    warnings.extend(corners::cut_off(snapshot, &program));
     warnings.extend(tabs::none_kept(snapshot, &paths));
     warnings.extend(tabs::missed(snapshot, &paths));
     warnings.extend(toolpath::weak_tabs(

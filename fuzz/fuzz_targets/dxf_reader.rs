@@ -54,6 +54,7 @@ fuzz_target!(|data: &[u8]| {
             outlines: &snapshot.outlines,
             findings: &findings,
             paths: &[],
+            parts: &[],
             holes: &[],
             why: None,
             settings: &snapshot.settings,

@@ -130,11 +130,12 @@ impl Analysis {
         index: usize,
         wire_side: Option<Side>,
     ) -> Option<(ContourSegment, SmallRadius)> {
-        let segment = self.chains.get(key)?.segment(drawing, index)?;
-        Some((
-            segment,
-            small_radius::check(&segment, wire_side, &self.limits)?,
-        ))
+        let contour = self.chains.get(key)?;
+        let segment = contour.segment(drawing, index)?;
+        let found = small_radius::check(&segment, wire_side, &self.limits)?;
+        let all = |at: usize| contour.segment(drawing, at);
+        let is_noise = small_radius::is_noise(contour, index, all, &self.limits);
+        (!is_noise).then_some((segment, found))
     }
 
     /// The replacement of the run with a tight arc, searched for on the side of its centre.

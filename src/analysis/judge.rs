@@ -1,8 +1,8 @@
 //! All findings of a drawing, put together from the observations for each report.
 
-use super::Analysis;
 use super::notable::{Counted, Kind, Notability, TightArc};
 use super::report::{Report, Tally};
+use super::{Analysis, electrode};
 use crate::drawing::{ContourKey, Drawing, EntityId, Role};
 use crate::finding::{Detail, Finding, NoFix, Place, Rule, Severity, Side, SmallRadius};
 use crate::rules::{CONTOUR_RULES, ContourRule, Outlook, units};
@@ -124,6 +124,9 @@ impl Analysis {
         if toolpath::is_stated(&self.settings) && report.shows_findings() {
             let outlines = self.outlines(drawing).clone();
             of_job.extend(toolpath::stated_faults(drawing, &outlines, &self.settings));
+        }
+        if report.shows_findings() {
+            of_job.extend(electrode::faults(drawing, self.segments, &self.settings));
         }
         if self.segments <= toolpath::MOST_SEGMENTS_SAID_TWICE && report.shows_findings() {
             let outlines = self.outlines(drawing).clone();

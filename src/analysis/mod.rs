@@ -7,6 +7,7 @@ mod contours;
 mod dead_ends;
 mod drafting;
 mod edited;
+mod electrode;
 mod end_index;
 mod ends;
 mod fit_fixes;

@@ -1,9 +1,9 @@
 //! A part of the drawing about an edit, in which the edit has the same effect as in the whole: to
 //! know whether a repair helps, only what is near it is looked at.
 
-use super::Analysis;
 use super::known::Known;
 use super::repair::{Tried, Wanted};
+use super::{Analysis, electrode};
 use crate::drawing::{Change, ContourKey, Drawing, DrawingEdit, EntityId, RUN};
 use crate::geometry::Bounds;
 use crate::rules::units;
@@ -140,6 +140,7 @@ impl Analysis {
             || !settings.workpieces.is_empty()
             || settings.start_hole.is_some()
             || toolpath::is_stated(settings)
+            || electrode::beside_wire(settings).is_some()
             || self.asked_partners().is_some()
             || self.pairs.uncompared() > 0
             || !self.vast.is_empty()

@@ -5,7 +5,7 @@ use super::output::{self, push_line, styled};
 use super::{Failure, Verdict, files};
 use crate::drawing::Role;
 use crate::message::readable;
-use crate::protocol::{Contours, ContoursContour, Direction};
+use crate::protocol::{ContourPiece, Contours, ContoursContour, Direction};
 use clap::Args;
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -40,7 +40,7 @@ fn list(contours: &Contours) -> String {
     for (index, contour) in contours.contours.iter().enumerate() {
         let heading = heading(index, contour, contours.units_to_mm);
         push_line(&mut text, styled(output::STRONG, heading));
-        for run in contour.segments.chunk_by(|a, b| a.handle == b.handle) {
+        for run in contour.segments.chunk_by(goes_on) {
             let (Some(first), Some(last)) = (run.first(), run.last()) else {
                 continue;
             };
@@ -64,6 +64,11 @@ fn list(contours: &Contours) -> String {
         text.push('\n');
     }
     text + &say!(contours, contours.contours.len()) + "\n"
+}
+
+/// In one row; the entities of a block all have the handle of its reference, and each its own segments.
+fn goes_on(one: &ContourPiece, next: &ContourPiece) -> bool {
+    one.handle == next.handle && one.segment != next.segment
 }
 
 /// The kind of a contour, or the wire's side.

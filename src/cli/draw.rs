@@ -8,10 +8,9 @@ use crate::disk::ending_of;
 use crate::document::{Document, Snapshot};
 use crate::drawing::{Drawing, Entity, Geometry};
 use crate::dxf;
-use crate::job;
+use crate::job::{self, Cut};
 use crate::message::readable;
 use crate::picture::Image;
-use crate::toolpath::WirePath;
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -46,16 +45,16 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     }
     let snapshot = opened.snapshot()?;
     let findings = opened.document.all_findings();
-    let (planned, svg) = job::picture(&snapshot, &findings, &());
-    if let Err(refusal) = &planned {
+    let (cuts, svg) = job::picture(&snapshot, &findings, &());
+    if let Err(refusal) = &cuts {
         let note = styled(output::NOTE, say!(note));
         let reason = refusal.sentence(opened.document.telling());
         output::say(&say!(drawn_without_the_path, note, readable(&reason)));
     }
     let picture = match form_of(arguments.output.as_deref()) {
         None => {
-            let paths = planned.unwrap_or_default().paths;
-            dxf::write(&with_paths(&snapshot, &paths)).map_err(Failure)?
+            let cuts = cuts.unwrap_or_default();
+            dxf::write(&with_paths(&snapshot, &cuts)).map_err(Failure)?
         }
         Some(form) => form.of_svg(&svg).map_err(Failure)?,
     };
@@ -81,27 +80,28 @@ fn draw_program(arguments: &Arguments, document: &Document) -> Result<Verdict, F
     Ok(Verdict::Clean)
 }
 
-/// Layer of the wire's path in a new drawing; for the passes after the first their number follows.
+/// Layer of the wire's path in a new drawing; for the passes after the first their number follows, and the name of the part of a pair.
 const WIRE: &str = "WIRE";
 
 /// A new drawing of the contours as they are, with the wire's path as LINE, ARC and CIRCLE on layers of its own.
-fn with_paths(snapshot: &Snapshot, paths: &[WirePath]) -> Drawing {
+fn with_paths(snapshot: &Snapshot, cuts: &[Cut]) -> Drawing {
     let mut drawing = Drawing::new(Some(snapshot.settings.unit_of(&snapshot.drawing)));
     for (_, entity) in snapshot.drawing.entities() {
         drawing.push(entity.clone());
     }
-    let pieces = paths.iter().flat_map(|path| {
-        let layer = match path.pass {
-            1 => WIRE.to_owned(),
-            pass => format!("{WIRE}{pass}"),
-        };
-        path.segments
-            .iter()
-            .map(move |segment| (segment, layer.clone()))
-    });
-    for (segment, layer) in pieces {
-        let geometry = Geometry::of_segment(&segment.geometry);
-        drawing.push(Entity::new(WIRE, layer, geometry));
+    for cut in cuts {
+        let part = cut.name().map(|name| format!("-{name}"));
+        let part = part.unwrap_or_default();
+        for path in &cut.planned.paths {
+            let layer = match path.pass {
+                1 => format!("{WIRE}{part}"),
+                pass => format!("{WIRE}{pass}{part}"),
+            };
+            for segment in &path.segments {
+                let geometry = Geometry::of_segment(&segment.geometry);
+                drawing.push(Entity::new(WIRE, layer.clone(), geometry));
+            }
+        }
     }
     drawing
 }

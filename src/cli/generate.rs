@@ -12,6 +12,7 @@ use crate::protocol::{Milling, Work};
 use crate::toolpath;
 use clap::Args;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 #[derive(Args, Debug)]
 #[command(after_help = "\
@@ -48,8 +49,15 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         output::refuse_input(target, path)?;
     }
     let format = ending::format(arguments.format, target)?;
-    let (mut opened, snapshot) =
+    let (mut opened, mut snapshot) =
         files::drawing_to_use(&arguments.path, target, &arguments.common, &last)?;
+    // Where a wire is set, too, all that is said is about the electrode.
+    if format == Format::Milling
+        && let Ok(milled) = opened.document.settings().milled()
+    {
+        opened.document.set_settings(Arc::new(milled));
+        snapshot = opened.snapshot()?;
+    }
     let document = &opened.document;
     let wanted = Wanted {
         format,
@@ -71,7 +79,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         ) || matches!(
             finding.detail,
             Detail::OffsetCollapse { point: true, .. } | Detail::NoPartner { .. }
-        )
+        ) || job::is_of_program(finding)
     };
     let said: Vec<Finding> = made.warnings.iter().filter(of_program).cloned().collect();
     report::say(path, document, &said);

@@ -36,8 +36,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         let count = arguments.paths.len();
         return Err(Failure(say!(holes_of_several_drawings_are_csv, count)));
     }
-    let mut csv = drill::HEAD.to_owned();
-    let (mut drawn, mut count, mut any_errors) = (None, 0, false);
+    let mut list = drill::List::default();
+    let (mut drawn, mut any_errors) = (None, false);
     for path in &arguments.paths {
         let last = arguments.common.settings_with(&arguments.program);
         let target = arguments.output.as_deref();
@@ -52,30 +52,28 @@ pub(super) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         any_errors |= said
             .iter()
             .any(|finding| finding.severity == crate::finding::Severity::Error);
-        let planned = match job::planned(&snapshot, &snapshot.settings, None, false, &()) {
-            Ok(planned) => planned,
+        let cuts = match job::cuts(&snapshot, &()) {
+            Ok(cuts) => cuts,
             Err(refusal) => {
                 let advice = |errors| say!(no_holes_of_a_drawing_with, path.display(), errors);
                 return report::refuse(path, &opened.document, &refusal, advice);
             }
         };
-        let holes = drill::drilled(planned.holes);
-        count += holes.len();
-        csv += &drill::rows(&path.to_string_lossy(), &snapshot, &holes);
+        list.add(&path.to_string_lossy(), &cuts);
         if is_dxf {
             let source = opened.document.source();
-            drawn = Some(drill::as_dxf(source, &snapshot, &holes).map_err(Failure)?);
+            drawn = Some(drill::as_dxf(source, &snapshot, &cuts).map_err(Failure)?);
         }
     }
     let is_new = drawn.as_ref().is_some_and(|drawn| drawn.is_new);
-    let bytes = drawn.map_or_else(|| csv.into_bytes(), |drawn| drawn.bytes);
+    let bytes = drawn.map_or_else(|| list.csv().into_bytes(), |drawn| drawn.bytes);
     output::write(arguments.output.as_deref(), &bytes)?;
     if let Some(target) = &arguments.output {
         output::say(&say!(
             the_holes_are_written,
             styled(output::GOOD, say!(written)),
             output::name(target),
-            say!(holes, count)
+            say!(holes, list.count())
         ));
         if is_new {
             output::say(say!(the_holes_are_in_a_new_drawing));

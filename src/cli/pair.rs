@@ -101,6 +101,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
             say!(blocks, program.blocks),
             lengths(program.length, program.jumps, say!(comma))
         ));
+        let mut said = part.made.warnings.clone();
+        said.retain(job::is_of_program);
+        report::say(path, document, &said);
         if let Some(line) = output::offsets(program) {
             output::say(&line);
         }

@@ -167,6 +167,11 @@ pub(crate) fn refuse(
             say(path, document, findings);
             complain(&Failure::of(path, say!(no_program_is_written)).0);
         }
+        Refusal::Parts(parts) => {
+            let (parts, word) = (job::listed(parts), output::word(path));
+            let sentence = say!(parts_of_have_a_program_each, parts, word);
+            complain(&Failure::of(path, sentence).0);
+        }
         Refusal::Sentence(sentence) | Refusal::Unproved(sentence, _) => {
             complain(&Failure::of(path, sentence).0);
         }

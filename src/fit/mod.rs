@@ -274,9 +274,7 @@ fn side_of(outline: &Outline, role: Role) -> Result<Side, Refusal> {
 
 /// The workpiece of a contour: that of the layer of its first entity.
 pub(crate) fn workpiece_of(drawing: &Drawing, contour: &Contour, settings: &Effective) -> u16 {
-    let first = contour.pieces.first();
-    let entity = first.and_then(|piece| drawing.get(piece.entity));
-    entity.map_or(0, |entity| settings.workpieces.of_layer(&entity.layer))
+    settings.workpieces.of_contour(drawing, contour)
 }
 
 pub(crate) fn name_of(drawing: &Drawing, contour: &Contour, settings: &Effective) -> Arc<str> {

@@ -1,13 +1,24 @@
 //! The thread holes for the drill: rows of a list, and a drawing with the holes.
 
+use super::Cut;
 use crate::document::{Snapshot, Source};
 use crate::drawing::{Drawing, Entity, Geometry, START_HOLES};
 use crate::dxf::{self, Added};
 use crate::geometry::Point;
 use crate::toolpath::StartHole;
 
-/// The names of the columns.
-pub(crate) const HEAD: &str = "drawing,x_mm,y_mm,diameter_mm,contour,hole\n";
+/// The drill list of some drawings, as CSV.
+#[derive(Default)]
+pub(crate) struct List {
+    rows: Vec<Row>,
+}
+
+/// The hole of a contour: the part of a pair that is threaded there, and the cells before and behind that.
+struct Row {
+    part: Option<String>,
+    before: String,
+    behind: &'static str,
+}
 
 /// The holes that are drilled: not those that were found where there is no room for any, which is an error of the drawing.
 pub(crate) fn drilled(mut holes: Vec<StartHole>) -> Vec<StartHole> {
@@ -15,28 +26,62 @@ pub(crate) fn drilled(mut holes: Vec<StartHole>) -> Vec<StartHole> {
     holes
 }
 
-/// A row of CSV for each hole, in mm; without a diameter where the settings have none.
-pub(crate) fn rows(name: &str, snapshot: &Snapshot, holes: &[StartHole]) -> String {
+impl List {
+    /// A row for each hole of a drawing, in mm; without a diameter where the settings have none.
+    pub(crate) fn add(&mut self, name: &str, cuts: &[Cut]) {
+        for cut in cuts {
+            let holes = drilled(cut.planned.holes.clone());
+            let row = |hole: &StartHole| row(name, cut, hole);
+            self.rows.extend(holes.iter().map(row));
+        }
+    }
+
+    /// How many there are.
+    pub(crate) fn count(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// The list; it has a column for the part where a drawing is a pair.
+    pub(crate) fn csv(&self) -> String {
+        let has_parts = self.rows.iter().any(|row| row.part.is_some());
+        let head = if has_parts { HEAD_OF_PARTS } else { HEAD };
+        let line = |row: &Row| match (has_parts, &row.part) {
+            (false, _) => format!("{},{}\n", row.before, row.behind),
+            (true, part) => {
+                let part = cell(part.as_deref().unwrap_or_default());
+                format!("{},{},{part}\n", row.before, row.behind)
+            }
+        };
+        let lines = self.rows.iter().map(line);
+        [head.to_owned()].into_iter().chain(lines).collect()
+    }
+}
+
+/// The names of the columns, and those of a list with pairs.
+const HEAD: &str = "drawing,x_mm,y_mm,diameter_mm,contour,hole\n";
+const HEAD_OF_PARTS: &str = "drawing,x_mm,y_mm,diameter_mm,contour,hole,part\n";
+
+fn row(name: &str, cut: &Cut, hole: &StartHole) -> Row {
+    let snapshot = &cut.snapshot;
     let unit_mm = snapshot.settings.unit_of(&snapshot.drawing).mm;
     let diameter = snapshot.settings.start_hole;
     let diameter = diameter.map_or_else(String::new, |diameter| diameter.to_string());
     // A coordinate that rounds to zero has no sign.
     let mm = |along: f64| (along * unit_mm * 1e4).round() / 1e4 + 0.0;
-    let contour_of = |hole: &StartHole| {
-        let outline = snapshot.outlines.get(hole.outline);
-        outline.map_or("?", |outline| outline.name(&snapshot.drawing))
-    };
-    let row = |hole: &StartHole| {
-        format!(
-            "{},{:.4},{:.4},{diameter},{},{}\n",
-            cell(name),
-            mm(hole.at.x),
-            mm(hole.at.y),
-            cell(contour_of(hole)),
-            if hole.is_given { "given" } else { "found" }
-        )
-    };
-    holes.iter().map(row).collect()
+    let outline = snapshot.outlines.get(hole.outline);
+    let contour = outline.map_or("?", |outline| outline.name(&snapshot.drawing));
+    let before = format!(
+        "{},{:.4},{:.4},{diameter},{}",
+        cell(name),
+        mm(hole.at.x),
+        mm(hole.at.y),
+        cell(contour),
+    );
+    Row {
+        part: cut.name().map(str::to_owned),
+        before,
+        behind: if hole.is_given { "given" } else { "found" },
+    }
 }
 
 /// A cell of CSV: in quotes where it has to be.
@@ -71,12 +116,14 @@ fn drawn(snapshot: &Snapshot, holes: &[StartHole]) -> Drawing {
     drawing
 }
 
-/// The holes as DXF: in the text of the drawing, of which everything else stays; where there is none, in a new drawing of what was read.
-pub(crate) fn as_dxf(
-    source: &Source,
-    snapshot: &Snapshot,
-    holes: &[StartHole],
-) -> Result<InDxf, String> {
+/// The holes as DXF, but those of a pair: in the text of the drawing, of which everything else stays; where there is none, in a new drawing of what was read.
+pub(crate) fn as_dxf(source: &Source, snapshot: &Snapshot, cuts: &[Cut]) -> Result<InDxf, String> {
+    // A mark in the drawing is one for every part that is cut along its contour.
+    if cuts.iter().any(|cut| cut.part.is_some()) {
+        return Err(say!(holes_of_a_pair_are_csv).into());
+    }
+    let holes = cuts.iter().flat_map(|cut| cut.planned.holes.clone());
+    let holes = &drilled(holes.collect());
     let unit = snapshot.settings.unit_of(&snapshot.drawing);
     let diameter = snapshot.settings.start_hole;
     let places: Vec<Point> = holes.iter().map(|hole| hole.at).collect();

@@ -24,7 +24,10 @@ pub(super) fn figure(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
         "{}",
         frame.opening_of_drawing(
             subject.unit_mm,
-            (!subject.paths.is_empty()).then(|| subject.mm(lengths(subject.paths).0))
+            (!subject.paths.is_empty()).then(|| {
+                let cut = subject.parts.iter().map(|part| lengths(part.paths).0);
+                subject.mm(cut.sum())
+            })
         )
     ));
     areas(sheet, frame, subject);
@@ -238,8 +241,13 @@ fn wire(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
     let is_lead = |source: &Source| matches!(source, Source::LeadIn | Source::LeadOut);
     let mut before = None;
     let mut drawn: FxHashSet<String> = FxHashSet::default();
-    for (path, correction) in subject.paths.iter().zip(&subject.corrections) {
-        if let Some(end) = before.replace(path.end()) {
+    let parts = subject.parts.iter();
+    let of_part = parts.flat_map(|part| {
+        let paths = part.paths.iter().enumerate();
+        paths.map(move |(index, path)| (path, part.title, index == 0))
+    });
+    for ((path, part, is_first), correction) in of_part.zip(&subject.corrections) {
+        if let Some(end) = before.replace(path.end()).filter(|_| !is_first) {
             jump(sheet, frame, subject, end, path.begin());
         }
         let distance = subject.mm(*correction);
@@ -250,6 +258,9 @@ fn wire(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
         };
         if path.pass > 1 || subject.paths.iter().any(|path| path.pass > 1) {
             label += &say!(of_pass, path.pass);
+        }
+        if let Some(part) = part {
+            label = say!(of_a_part, part, label);
         }
         // Runs of one kind: the way round the contour is one line, the leads are others.
         for run in path

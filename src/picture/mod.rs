@@ -30,7 +30,7 @@ use crate::finding::{Detail, Finding, Severity};
 use crate::settings::Effective;
 use crate::toolpath::{StartHole, WirePath, lengths};
 use sheet::{FIGURE_TOP, Frame, MARGIN, SHEET_WIDTH};
-use subject::{Subject, is_other};
+use subject::{PartPaths, Subject, is_other};
 
 /// The contents of a picture.
 pub struct View<'a> {
@@ -42,6 +42,8 @@ pub struct View<'a> {
     pub findings: &'a [Finding],
     /// In the order in which they are cut.
     pub paths: &'a [WirePath],
+    /// Of a pair what of the paths is of which part, in their order; else nothing.
+    pub parts: &'a [Share<'a>],
     /// Where the wire is threaded for them.
     pub holes: &'a [StartHole],
     /// Why there are none, and how severe that is.
@@ -49,11 +51,21 @@ pub struct View<'a> {
     pub settings: &'a Effective,
 }
 
+/// One part of a pair among the paths.
+pub struct Share<'a> {
+    /// Its name for people.
+    pub title: String,
+    /// How many of the paths are its own.
+    pub paths: usize,
+    /// Those that it is cut under.
+    pub settings: &'a Effective,
+}
+
 /// The drawing with its faults and the paths of the wire as one SVG.
 ///
 /// Every arc that is too tight is marked, and the first ones are enlarged with the circle of the correction. The kerf,
 /// and what the wire leaves of an area that it should cut, are to scale: the half width is the wire's radius and the
-/// spark gap, else the last correction. All figures in texts are in mm. The y axis points up, as in the drawing. A
+/// spark gap, else the last correction; of a pair, whose parts are cut out of other plates, there are only the paths. All figures in texts are in mm. The y axis points up, as in the drawing. A
 /// drawing without geometry gives a sheet that says so.
 pub fn svg(view: &View) -> String {
     let View {
@@ -79,8 +91,11 @@ pub fn svg(view: &View) -> String {
     let title = titled(view.name, what);
     let others = findings.iter().filter(|finding| is_other(finding));
     let severities = others.map(|finding| finding.severity);
-    let mut pairs = paths.iter().zip(paths.iter().skip(1));
-    let jumps = pairs.any(|(path, next)| path.end() != next.begin());
+    let ways = |paths: &[WirePath]| {
+        let mut pairs = paths.iter().zip(paths.iter().skip(1));
+        pairs.any(|(path, next)| path.end() != next.begin())
+    };
+    let jumps = subject.parts.iter().any(|part| ways(part.paths));
     let shown = style::Shown {
         part: view.outlines.iter().any(|outline| outline.contour.closed),
         faults: !faults.is_empty(),
@@ -147,14 +162,25 @@ fn alert(view: &View, faults: &[subject::Fault]) -> (Severity, String) {
     (worst.unwrap_or(Severity::Information), parts.join(" · "))
 }
 
-/// Correction, contours, extents and lengths, as far as they are known.
+/// Corrections, contours, extents and lengths, as far as they are known.
 fn facts(subject: &Subject) -> String {
-    let of_path = || subject.corrections.first().copied();
     let first = subject.faults.first();
-    let correction = first.map(|fault| fault.detail.required).or_else(of_path);
+    let tight = first.map(|fault| vec![fault.detail.required]);
     let mut facts = Vec::new();
-    if let Some(correction) = correction {
-        facts.push(say!(correction_mm, subject.mm(correction)));
+    for part in &subject.parts {
+        let own = tight.clone().filter(|_| part.title.is_none());
+        let corrections = own.unwrap_or_else(|| part.corrections.clone());
+        let listed: Vec<String> = corrections
+            .iter()
+            .map(|correction| format!("{:.3}", subject.mm(*correction)))
+            .collect();
+        if !listed.is_empty() {
+            let said = say!(correction_mm, listed.join(" / "));
+            facts.push(match part.title {
+                Some(title) => say!(of_a_part, title, said),
+                None => said,
+            });
+        }
     }
     facts.push(say!(contours, subject.outlines.len()));
     let extents = subject.extents();
@@ -164,8 +190,15 @@ fn facts(subject: &Subject) -> String {
     let segments = contours.flat_map(|contour| contour.segments(subject.drawing));
     let contour: f64 = segments.map(|segment| segment.geometry.length()).sum();
     facts.push(say!(contour_length, subject.mm(contour)));
-    if !subject.paths.is_empty() {
-        let (cut, jumps) = lengths(subject.paths);
+    // There is no room for those of several parts.
+    if let [
+        PartPaths {
+            title: None, paths, ..
+        },
+    ] = subject.parts[..]
+        && !paths.is_empty()
+    {
+        let (cut, jumps) = lengths(paths);
         facts.push(crate::message::lengths(
             subject.mm(cut),
             subject.mm(jumps),

@@ -4,8 +4,10 @@ use super::View;
 use crate::drawing::{Drawing, EntityId, Outline};
 use crate::finding::{Detail, Finding, Place, Severity, SmallRadius};
 use crate::geometry::{Arc, Bounds, Point};
+use crate::settings::Effective;
 use crate::toolpath::WirePath;
 use rustc_hash::FxHashSet;
+use std::collections::BTreeMap;
 
 /// Everything shown.
 pub(super) struct Subject<'a> {
@@ -20,12 +22,23 @@ pub(super) struct Subject<'a> {
     pub(crate) paths: &'a [WirePath],
     /// For each path the distance of the wire's centre from the contour, drawing units.
     pub(crate) corrections: Vec<f64>,
-    /// For each path the half width of its kerf, drawing units; `None` where the control offsets it.
+    /// The paths of each part of a pair; else all of them as one.
+    pub(crate) parts: Vec<PartPaths<'a>>,
+    /// For each path the half width of its kerf, drawing units; `None` where the control offsets it, and for the parts of a pair.
     pub(crate) half_kerfs: Vec<Option<f64>>,
     pub(crate) drill: Drill,
     /// The paths are those of an electrode.
     pub(crate) mills: bool,
     pub(crate) unit_mm: f64,
+}
+
+/// The paths of one part of a pair, or all that there are.
+pub(super) struct PartPaths<'a> {
+    /// Its name for people; nothing where the drawing is no pair.
+    pub(crate) title: Option<&'a str>,
+    pub(crate) paths: &'a [WirePath],
+    /// Of each pass, drawing units.
+    pub(crate) corrections: Vec<f64>,
 }
 
 /// The start holes that are drilled.
@@ -60,19 +73,45 @@ impl<'a> Subject<'a> {
             outlines,
             findings,
             paths,
+            parts,
             holes,
             settings,
             ..
         } = *view;
         let unit_mm = settings.unit_of(drawing).mm;
-        let corrections = paths.iter().map(|path| path.correction);
-        let last = corrections.fold(f64::INFINITY, f64::min);
+        let last = paths.iter().map(|path| path.correction);
+        let last = last.fold(f64::INFINITY, f64::min);
         let half_kerf = |path: &WirePath| {
             let known = settings.half_kerf(path.pass.saturating_sub(1));
             let half = known.map_or(last, |half| half / unit_mm);
-            (path.side.is_none() && half.is_finite() && half > 0.0).then_some(half)
+            let is_shown = parts.is_empty() && path.side.is_none();
+            (is_shown && half.is_finite() && half > 0.0).then_some(half)
         };
-        let correction = |path: &WirePath| path.offset(settings, unit_mm) / unit_mm;
+        let own = |title, paths: &'a [WirePath], settings: &Effective| {
+            let correction = |path: &WirePath| path.offset(settings, unit_mm) / unit_mm;
+            let each: Vec<f64> = paths.iter().map(correction).collect();
+            let passes = paths.iter().zip(&each);
+            let passes: BTreeMap<usize, f64> =
+                passes.map(|(path, own)| (path.pass, *own)).rev().collect();
+            let corrections = passes.into_values().collect();
+            let part = PartPaths {
+                title,
+                paths,
+                corrections,
+            };
+            (part, each)
+        };
+        let mut rest = paths;
+        let mut of_parts: Vec<(PartPaths, Vec<f64>)> = Vec::new();
+        for part in parts {
+            let (these, next) = rest.split_at_checked(part.paths).unwrap_or((rest, &[]));
+            of_parts.push(own(Some(part.title.as_str()), these, part.settings));
+            rest = next;
+        }
+        if parts.is_empty() {
+            of_parts.push(own(None, rest, settings));
+        }
+        let (of_parts, corrections): (Vec<_>, Vec<_>) = of_parts.into_iter().unzip();
         let drill = Drill {
             radius: settings.start_hole.map(|diameter| diameter / 2.0 / unit_mm),
             impossible: holes
@@ -91,7 +130,8 @@ impl<'a> Subject<'a> {
             findings,
             faults: tight_arcs(drawing, findings),
             paths,
-            corrections: paths.iter().map(correction).collect(),
+            parts: of_parts,
+            corrections: corrections.concat(),
             half_kerfs: paths.iter().map(half_kerf).collect(),
             drill,
             unit_mm,

@@ -24,6 +24,7 @@ fn drawn(
         outlines,
         findings,
         paths,
+        parts: &[],
         holes: &[],
         why: None,
         settings,

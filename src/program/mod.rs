@@ -38,4 +38,4 @@ pub(crate) use layout::format_saying;
 pub use refactor::{Offer, Proposal};
 pub use refactorings::{offers, refactorings, scaled};
 pub(crate) use whereabouts::{Stand, Whereabouts};
-pub(crate) use write::{ProofError, ProvedProgram};
+pub(crate) use write::{CutCorner, ProofError, ProvedProgram};

@@ -30,8 +30,20 @@ pub struct ProvedProgram {
     pub(crate) offsets: Vec<(String, f64)>,
     /// What the corners of the program leave of the part, in drawing units, where it holds others than the path.
     pub(crate) corners: Option<Finished>,
+    /// The corners that the wire goes round and cuts off, in the order of the cut.
+    pub(crate) cut_corners: Vec<CutCorner>,
     /// The totals of milling, for an electrode.
     pub milled: Option<Milled>,
+}
+
+/// A corner of a part in place of which the program holds an arc.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct CutCorner {
+    /// What the piece behind it follows.
+    pub(crate) source: Source,
+    /// How far it is cut off, and the radius of the arc, mm.
+    pub(crate) depth: f64,
+    pub(crate) radius: f64,
 }
 
 impl ProvedProgram {

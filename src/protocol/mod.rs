@@ -26,7 +26,7 @@ mod work;
 
 pub(crate) use change::{DrawingChange, apply, changes_of};
 pub use contours::Contours;
-pub(crate) use contours::{ContoursContour, Direction};
+pub(crate) use contours::{ContourPiece, ContoursContour, Direction};
 pub(crate) use data::FindingData;
 pub(crate) use diagnostic::{
     CodeDescription, Diagnostic, Location, Position, Range, RelatedInformation, severity_number,

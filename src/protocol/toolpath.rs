@@ -21,9 +21,26 @@ pub(crate) struct Toolpath {
     /// Where the wire is threaded, in the order of the cuts.
     #[serde(default)]
     pub(crate) holes: Vec<StartHole>,
-    /// What the paths come to on the machine.
+    /// What the paths come to on the machine; of a pair that of each part is in `parts`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) work: Option<Work>,
+    /// The parts of a pair, where the drawing is one of which everything is set.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(crate) parts: Vec<ToolpathPart>,
+}
+
+/// One part of a pair, cut by the correction that `wedm/pair` gives it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "camelCase")]
+pub(crate) struct ToolpathPart {
+    /// `punch`, `plate`, `stripper`, `holder`, or the name of a workpiece.
+    pub(crate) part: String,
+    /// The correction of each pass, mm; below 0 for passes on the other side of the drawn outline, where not all run there.
+    pub(crate) corrections: Vec<f64>,
+    /// The wire runs on the other side of the drawn outline.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub(crate) other_side: bool,
+    pub(crate) work: Work,
 }
 
 /// The path for one contour in one pass.
@@ -32,6 +49,9 @@ pub(crate) struct Toolpath {
 pub(crate) struct ToolpathPath {
     /// Index of the contour in the reply of `wedm/contours`.
     pub(crate) contour: usize,
+    /// The part of a pair that it cuts.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) part: Option<String>,
     /// 1-based number of the pass.
     pub(crate) pass: usize,
     /// Which way a closed contour is gone round in this pass.
@@ -92,7 +112,51 @@ impl Toolpath {
                 .map(|hole| StartHole::new(drawing, outlines, settings, hole))
                 .collect(),
             work: Some(Work::new(drawing, outlines, &work)),
+            parts: Vec::new(),
         }
+    }
+
+    /// The same as those of a part of a pair; `places` are those of its outlines among all of the drawing.
+    pub(crate) fn of_part(
+        self,
+        part: &str,
+        corrections: &[f64],
+        other_side: bool,
+        places: &[usize],
+    ) -> Toolpath {
+        let name = || Some(part.to_owned());
+        let path = |path: ToolpathPath| ToolpathPath {
+            contour: places.get(path.contour).copied().unwrap_or_default(),
+            part: name(),
+            ..path
+        };
+        let hole = |hole: StartHole| StartHole {
+            part: name(),
+            ..hole
+        };
+        let part = self.work.map(|work| ToolpathPart {
+            part: part.to_owned(),
+            corrections: corrections.to_vec(),
+            other_side,
+            work,
+        });
+        Toolpath {
+            units_to_mm: self.units_to_mm,
+            paths: self.paths.into_iter().map(path).collect(),
+            holes: self.holes.into_iter().map(hole).collect(),
+            work: None,
+            parts: part.into_iter().collect(),
+        }
+    }
+
+    /// Several in one reply.
+    pub(crate) fn together(each: impl Iterator<Item = Toolpath>) -> Option<Toolpath> {
+        each.reduce(|mut all, next| {
+            all.paths.extend(next.paths);
+            all.holes.extend(next.holes);
+            all.parts.extend(next.parts);
+            all
+        })
     }
 }
 
@@ -119,6 +183,7 @@ fn one_path(drawing: &Drawing, path: &WirePath) -> ToolpathPath {
     });
     ToolpathPath {
         contour: path.outline,
+        part: None,
         pass: path.pass,
         direction: path.counter_clockwise.map(|is| match is {
             true => Direction::Ccw,

@@ -20,6 +20,9 @@ pub(crate) struct StartHole {
     pub diameter: Option<f64>,
     /// By the settings or by a mark in the drawing; else it was found.
     pub given: bool,
+    /// The part of a pair that is threaded there.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub part: Option<String>,
 }
 
 /// What the cuts come to. Where a key is not set that something would need, it is left out and the key is `missing`.
@@ -117,6 +120,7 @@ impl StartHole {
             at: hole.at.into(),
             diameter: settings.start_hole,
             given: hole.is_given,
+            part: None,
         }
     }
 }

@@ -53,6 +53,7 @@ pub(super) fn refusal(document: &Document, refusal: &Refusal, encoding: Encoding
         Refusal::Cancelled => Error::request_cancelled(),
         Refusal::Fault(sentence) => internal(sentence),
         Refusal::Sentence(sentence) => refused(sentence),
+        Refusal::Parts(_) => refused(refusal.sentence(document.telling())),
         Refusal::Errors(_) | Refusal::Findings(_) | Refusal::Unproved(..) => refused_with(
             refusal.sentence(document.telling()),
             convert::diagnostics(document, refusal.findings(), encoding),

@@ -111,6 +111,19 @@ pub(super) fn idle(settings: &Settings) -> Vec<PassFault> {
         let key = "program.tab-stop";
         complain(key, say!(a_stop_needs_a_tab, key, "program.tab"));
     }
+    let job = settings.job.clone().unwrap_or_default();
+    let for_minutes = [
+        ("job.thickness", job.thickness.is_none()),
+        ("passes.rates", passes.rates.is_none()),
+    ];
+    let missing = for_minutes
+        .into_iter()
+        .filter(|(_, is_missing)| *is_missing);
+    let missing: Vec<&str> = missing.map(|(key, _)| key).collect();
+    if job.machine_rate.is_some() && !missing.is_empty() {
+        let (key, and) = ("job.machine-rate", say!(and));
+        complain(key, say!(a_rate_needs_minutes, key, missing.join(and)));
+    }
     if milling.step.is_some() && milling.wear_compensation() != WearCompensation::Linear {
         let (key, other) = ("milling.step", "milling.wear-compensation");
         complain(key, say!(a_step_needs_linear_feed, key, other));

@@ -2,6 +2,7 @@
 
 use super::Settings;
 use super::by_name::ByName;
+use crate::drawing::{Contour, Drawing};
 
 /// Parts by the layers they are drawn on.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -35,6 +36,13 @@ impl Workpieces {
     /// The number of the part that a layer belongs to, from 1; 0 for none.
     pub(crate) fn of_layer(&self, layer: &str) -> u16 {
         self.by_layer.get(layer).unwrap_or(0)
+    }
+
+    /// The number of the part that a contour belongs to: that of the layer of its first entity.
+    pub(crate) fn of_contour(&self, drawing: &Drawing, contour: &Contour) -> u16 {
+        let first = contour.pieces.first();
+        let entity = first.and_then(|piece| drawing.get(piece.entity));
+        entity.map_or(0, |entity| self.of_layer(&entity.layer))
     }
 
     /// The name of a part by its number.

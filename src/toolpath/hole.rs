@@ -2,8 +2,9 @@
 
 use super::clearance::Walls;
 use super::containment::Places;
+use super::contours::Contours;
 use super::job::Job;
-use super::leads::{Contours, HOLE_CLEAR, finding};
+use super::leads::{HOLE_CLEAR, finding};
 use super::requested::Requested;
 use crate::drawing::{Drawing, Outline, are_twins, winding};
 use crate::finding::{Finding, Place, Rule, Severity};
@@ -70,11 +71,24 @@ impl Job<'_> {
     fn hole_faults(&self) -> Option<Vec<Finding>> {
         let reach = self.hole_reach()?;
         let chosen = self.chosen(None, Order::AsDrawn, &Places::default()).ok()?;
-        let wanted = self.wanted(&chosen.outlines).ok()?;
-        let contours = Contours::new(self.drawing, self.outlines);
         let mut faults = Vec::new();
+        let wanted = self.wanted(&chosen.outlines).ok()?;
+        for (outlines, wanted) in self.by_workpiece(&chosen.outlines, wanted) {
+            faults.extend(self.hole_faults_of_part(&outlines, wanted, reach));
+        }
+        Some(faults)
+    }
+
+    fn hole_faults_of_part(
+        &self,
+        outlines: &[usize],
+        wanted: Vec<Requested>,
+        reach: f64,
+    ) -> Vec<Finding> {
+        let mut faults = Vec::new();
+        let contours = Contours::about(self, outlines);
         let mut given: Vec<(Point, usize)> = Vec::new();
-        for (&index, Requested { thread, .. }) in chosen.outlines.iter().zip(wanted) {
+        for (&index, Requested { thread, .. }) in outlines.iter().zip(wanted) {
             let outline = &self.outlines[index];
             if !outline.contour.closed && outline.wire_side().is_none() {
                 continue;
@@ -95,7 +109,7 @@ impl Job<'_> {
             }
         }
         faults.extend(self.holes_that_meet(given));
-        Some(faults)
+        faults
     }
 
     /// The distance of a start hole's centre from every contour, drawing units. `None` where no diameter is set, and

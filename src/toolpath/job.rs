@@ -76,6 +76,42 @@ impl Job<'_> {
         outline.map_or("?", |outline| outline.name(self.drawing))
     }
 
+    /// The number of the workpiece that an outline lies in; 0 for none.
+    pub(super) fn workpiece(&self, outline: usize) -> u16 {
+        let (outline, workpieces) = (self.outlines.get(outline), &self.settings.workpieces);
+        outline.map_or(0, |outline| {
+            workpieces.of_contour(self.drawing, &outline.contour)
+        })
+    }
+
+    /// Outlines, each with what is known of it, by the workpieces that they lie in, in the order of the first of each.
+    pub(super) fn by_workpiece<T>(
+        &self,
+        outlines: &[usize],
+        known: Vec<T>,
+    ) -> Vec<(Vec<usize>, Vec<T>)> {
+        if self.settings.workpieces.is_empty() {
+            return vec![(outlines.to_vec(), known)];
+        }
+        let mut numbers: Vec<u16> = Vec::new();
+        let mut parts: Vec<(Vec<usize>, Vec<T>)> = Vec::new();
+        for (&outline, known) in outlines.iter().zip(known) {
+            let number = self.workpiece(outline);
+            let mut numbered = numbers.iter().zip(&mut parts);
+            match numbered.find(|(part, _)| **part == number) {
+                Some((_, (own, of_own))) => {
+                    own.push(outline);
+                    of_own.push(known);
+                }
+                None => {
+                    numbers.push(number);
+                    parts.push((vec![outline], vec![known]));
+                }
+            }
+        }
+        parts
+    }
+
     /// The walls of a contour.
     pub(crate) fn walls(&self, contour: &Contour) -> Vec<Wall> {
         let segment = |at: usize| contour.segment(self.drawing, at);

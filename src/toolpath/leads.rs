@@ -3,6 +3,7 @@
 //! A lead cuts as the path does: it keeps clear of every contour, its own and all others, and of what is cut along the others.
 
 use super::clearance::Walls;
+use super::contours::Contours;
 use super::corners::Element;
 use super::entry::Entry;
 use super::job::{Job, ROUNDING};
@@ -10,11 +11,9 @@ use super::lead_form::{Landing, Way};
 use super::offset::Wall;
 use super::path::{Refusal, Source};
 use super::requested::Requested;
-use crate::drawing::{Drawing, EntityId, Outline};
 use crate::finding::{Detail, Finding, Place, Rule, Severity};
-use crate::geometry::{Bounds, Grid, Point, Segment};
+use crate::geometry::{Point, Segment};
 use crate::settings::Lead;
-use std::sync::OnceLock;
 
 /// mm that a start hole keeps from what the wire cuts.
 pub(super) const HOLE_CLEAR: f64 = 0.1;
@@ -24,84 +23,6 @@ const MOST_HALVED: usize = 64;
 
 /// How often the part of a lead beyond the path is halved, where the last of the longer ones does not fit.
 const HALVED_BEYOND: u32 = 4;
-
-/// The walls of all contours.
-pub(super) struct Contours<'a> {
-    drawing: &'a Drawing,
-    outlines: &'a [Outline],
-    /// Once somebody has asked what is near.
-    known: OnceLock<WallsOf>,
-    /// The closed ones that are cut, once somebody has asked what lies in an area.
-    closed: OnceLock<Grid<usize>>,
-}
-
-struct WallsOf {
-    walls: Walls,
-    /// By wall: the outline, and the segment of the drawing.
-    of: Vec<(usize, EntityId, usize)>,
-}
-
-impl Contours<'_> {
-    pub(crate) fn new<'a>(drawing: &'a Drawing, outlines: &'a [Outline]) -> Contours<'a> {
-        Contours {
-            drawing,
-            outlines,
-            known: OnceLock::new(),
-            closed: OnceLock::new(),
-        }
-    }
-
-    /// The closed outlines that are cut whose boxes lie within an area, with their boxes, in their order.
-    pub(crate) fn within(&self, area: &Bounds) -> Vec<(usize, Bounds)> {
-        let closed = self.closed.get_or_init(|| {
-            let mut closed = Grid::default();
-            for (index, Outline { contour, .. }) in self.outlines.iter().enumerate() {
-                if contour.closed && contour.double_of.is_none() {
-                    closed.insert(index, contour.bounds(self.drawing));
-                }
-            }
-            closed
-        });
-        let mut within = Vec::new();
-        closed.near(area, |index, about| {
-            within.extend((about.merged(area) == *area).then_some((index, *about)));
-        });
-        within.sort_unstable_by_key(|(index, _)| *index);
-        within
-    }
-
-    fn known(&self) -> &WallsOf {
-        self.known.get_or_init(|| {
-            let (mut segments, mut of) = (Vec::new(), Vec::new());
-            let is_cut = |(_, outline): &(usize, &Outline)| outline.contour.double_of.is_none();
-            for (index, outline) in self.outlines.iter().enumerate().filter(is_cut) {
-                for segment in outline.contour.segments(self.drawing) {
-                    segments.push(segment.geometry);
-                    of.push((index, segment.entity, segment.segment));
-                }
-            }
-            // Those that make the paths of other contours may wait for it.
-            WallsOf {
-                walls: Walls::by_one_core(segments),
-                of,
-            }
-        })
-    }
-
-    pub(crate) fn walls(&self) -> &Walls {
-        &self.known().walls
-    }
-
-    /// The outline that a wall is of.
-    pub(crate) fn outline_of(&self, wall: usize) -> usize {
-        self.known().of[wall].0
-    }
-
-    pub(crate) fn place_of(&self, wall: usize) -> Place {
-        let (_, entity, segment) = self.known().of[wall];
-        Place::Segment { entity, segment }
-    }
-}
 
 /// The wire's paths along all contours that are cut, without their leads.
 pub(super) struct Kerfs {

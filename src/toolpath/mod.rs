@@ -8,6 +8,7 @@ mod at_limit;
 mod clearance;
 mod containment;
 mod contour_path;
+mod contours;
 mod cores;
 mod corners;
 mod crowd;
@@ -75,11 +76,12 @@ use crate::drawing::{Drawing, EntityId, Outline};
 use crate::finding::{Detail, Finding, Rule, Severity};
 use crate::geometry::Point;
 use crate::settings::{Compensation, Effective, LengthSetting, Order};
-use containment::Nesting;
+use containment::{Nesting, Places};
 use contour_path::{Fault, Laid};
+use contours::Contours;
 use job::Job;
-use leads::Contours;
 use order::Chosen;
+use requested::Requested;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// The paths of all `outlines`, or of those that hold one of `handles`, in machining order.
@@ -102,6 +104,18 @@ pub struct Planned {
     pub(crate) finished: Option<Finished>,
     /// Where the wire is threaded, in the order of the cuts.
     pub holes: Vec<StartHole>,
+}
+
+impl Planned {
+    /// What is planned behind it.
+    pub(crate) fn add(&mut self, next: Planned) {
+        self.paths.extend(next.paths);
+        self.holes.extend(next.holes);
+        self.finished = match (self.finished.take(), next.finished) {
+            (Some(before), Some(next)) => Some(before.merged(next)),
+            (before, next) => before.or(next),
+        };
+    }
 }
 
 /// One contour among the cuts.
@@ -184,38 +198,57 @@ pub(crate) fn plan_while(
             finished: None,
         });
     }
-    let wanted = job.wanted(&chosen)?;
     if let LengthSetting::ByHandle(tabs) = &settings.tab {
         for handle in tabs.keys() {
             job.outline_of(handle)?;
         }
     }
-    let cut_out = match settings.job.slug_limit {
-        Some(_) => Nesting::new(drawing, outlines, &chosen).cut_out(outlines, &chosen),
-        None => FxHashMap::default(),
-    };
-    let job = Job {
+    let mut job = Job {
         picks,
-        cut_out,
         finishes,
         goes_on,
         ..job
     };
+    let (mut all, mut faults) = (Planned::default(), Vec::new());
+    let wanted = job.wanted(&chosen)?;
+    for (chosen, wanted) in job.by_workpiece(&chosen, wanted) {
+        if settings.job.slug_limit.is_some() {
+            job.cut_out = Nesting::new(drawing, outlines, &chosen).cut_out(outlines, &chosen);
+        }
+        match of_workpiece(&job, (&chosen, &wanted), &places) {
+            Ok(planned) => all.add(planned),
+            Err(Refusal::Findings(findings)) => faults.extend(findings),
+            Err(refusal) => return Err(refusal),
+        }
+    }
+    match faults.is_empty() {
+        true => Ok(all),
+        false => Err(Refusal::Findings(faults)),
+    }
+}
+
+/// The paths of contours that lie in one workpiece.
+fn of_workpiece(
+    job: &Job,
+    (chosen, wanted): (&[usize], &[Requested]),
+    places: &Places,
+) -> Result<Planned, Refusal> {
+    let settings = job.settings;
     job.go_on()?;
-    let contours = Contours::new(drawing, outlines);
+    let contours = Contours::about(job, chosen);
     let (
         Planned {
             paths, finished, ..
         },
         mut findings,
     ) = match settings.compensation {
-        Compensation::None => job.as_drawn_all(&chosen, &wanted, &contours)?,
+        Compensation::None => job.as_drawn_all(chosen, wanted, &contours)?,
         Compensation::Path | Compensation::Controller => {
-            job.offset_all(&chosen, &wanted, &contours)?
+            job.offset_all(chosen, wanted, &contours)?
         }
     };
     let paths = if settings.order == Order::Nearest {
-        job.by_nearest(paths, &places)
+        job.by_nearest(paths, places)
     } else {
         paths
     };
@@ -224,7 +257,7 @@ pub(crate) fn plan_while(
     if findings.is_empty() {
         let is_given: FxHashMap<usize, bool> = chosen
             .iter()
-            .zip(&wanted)
+            .zip(wanted)
             .map(|(&outline, wanted)| (outline, wanted.thread.is_some()))
             .collect();
         let hole = |path: &WirePath| {

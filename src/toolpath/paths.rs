@@ -3,6 +3,7 @@
 use super::Planned;
 use super::clearance::Walls;
 use super::contour_path::{Along, Fault, Laid};
+use super::contours::Contours;
 use super::cores::each;
 use super::corners::{Element, elements};
 use super::entry::{Entry, default_entry, path_point};
@@ -10,7 +11,7 @@ use super::finished::{Finished, Kerf, finished};
 use super::hole::Holes;
 use super::job::{Job, ROUNDING};
 use super::lead_form::Landing;
-use super::leads::{Contours, Kerfs, fault};
+use super::leads::{Kerfs, fault};
 use super::offset::Wall;
 use super::order::directed;
 use super::path::{Refusal, Source, WirePath};

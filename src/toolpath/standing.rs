@@ -43,7 +43,7 @@ impl Job<'_> {
             let handle = self.name(path.outline);
             let sentence = say!(
                 nothing_of_the_tab_is_left_standing,
-                neck.tab,
+                self.set_tab(path.outline),
                 handle,
                 neck.cut
             );
@@ -74,8 +74,8 @@ pub(crate) fn weak_tabs(
     let thin = necks(settings, unit_mm, paths).filter(|(_, neck)| is_thin(neck));
     let mut found: Vec<Finding> = thin
         .map(|(path, neck)| {
-            let Neck { width, tab, .. } = neck;
-            let sentence = say!(the_tab_stands_by_a_neck, tab, handle(path), width);
+            let tab = job.set_tab(path.outline);
+            let sentence = say!(the_tab_stands_by_a_neck, tab, handle(path), neck.width);
             said(neck.source, sentence)
         })
         .collect();

@@ -5,11 +5,12 @@
 //! cut in passes of its own, to and fro from where the wire stands. Of several passes that all go one way each goes back along what it has
 //! cut: the straight way from where the tab begins to the thread hole would cut off what hangs on it.
 
+use super::contours::Contours;
 use super::corners::Element;
 use super::entry::{Entry, path_point};
 use super::job::{Job, ROUNDING};
 use super::lead_form::{Landing, lead_in, lead_out};
-use super::leads::{Contours, Kerfs};
+use super::leads::Kerfs;
 use super::offset::normal;
 use super::path::{PathSegment, Refusal, Source, WirePath};
 use super::paths::{Pass, Unled};
@@ -296,9 +297,7 @@ impl Job<'_> {
             .copied()
             .unwrap_or_default();
         let area = (outline.twice_area.abs() / 2.0 - cut_out).max(0.0) * self.unit_mm.powi(2);
-        let entities = outline.contour.pieces.iter();
-        let of = entities.filter_map(|piece| Some(&*self.drawing.get(piece.entity)?.handle));
-        let length_mm = settings.tab_of(of);
+        let length_mm = self.set_tab(unled.outline);
         if length_mm > 0.0 && !outline.contour.closed {
             let sentence = say!(an_open_contour_keeps_no_tab, self.name(unled.outline));
             let source = unled.walls.first().map(|wall| wall.source);
@@ -343,6 +342,13 @@ impl Job<'_> {
             })?;
         }
         Ok(self.units(overlap))
+    }
+
+    /// The length of its tab that the settings give an outline, mm.
+    pub(super) fn set_tab(&self, outline: usize) -> f64 {
+        let pieces = self.outlines[outline].contour.pieces.iter();
+        let of = pieces.filter_map(|piece| Some(&*self.drawing.get(piece.entity)?.handle));
+        self.settings.tab_of(of)
     }
 
     /// The length of a contour in drawing units; an error where `mm` is at least as long.

@@ -1,11 +1,12 @@
 //! Where a contour is threaded, and the leads between the thread hole and its path.
 
 use super::contour_path::goes_out_and_back;
+use super::contours::Contours;
 use super::corners::Element;
 use super::entry::{circle_center, nearest};
 use super::hole::Holes;
 use super::job::{Job, ROUNDING};
-use super::leads::{Contours, Kerfs, Surroundings, Threading, thread_hole};
+use super::leads::{Kerfs, Surroundings, Threading, thread_hole};
 use super::offset::Wall;
 use super::path::{PathSegment, Refusal, Source, WirePath};
 use super::paths::{Pass, Unled};

@@ -73,3 +73,54 @@ fn a_page_of_milling_is_about_the_electrode() {
         }
     }
 }
+
+/// Where a wire is set, too, an electrode that is larger than its slot is found, and no program for the wire is refused for it.
+#[test]
+fn an_electrode_beside_a_wire_is_held_against_the_drawing() {
+    let desk = Desk::new();
+    let large = MILLED.replace("= 1.0", "= 9.0");
+    let found = |settings: &str| {
+        desk.write("wedm.toml", settings);
+        let checked = desk.run("check fine.dxf --output concise");
+        let line = checked.stdout.lines().next().unwrap_or_default().to_owned();
+        (checked.code, line)
+    };
+    let circle = "0\nCIRCLE\n5\n2A\n8\n0\n10\n0\n20\n0\n40\n4\n";
+    let header = "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n";
+    let text = format!("{header}0\nSECTION\n2\nENTITIES\n{circle}0\nENDSEC\n0\nEOF\n");
+    desk.write("fine.dxf", text);
+    let (code, alone) = found(&large);
+    assert!(
+        code == Some(1) && alone.contains("the electrode overcuts"),
+        "{alone}"
+    );
+    for wire in [
+        "correction = 0.1\n",
+        "wire-diameter = 0.18\ngap = 0.01\n",
+        "[passes]\ncorrections = [0.15, 0.1]\n",
+    ] {
+        let settings = match wire.starts_with('[') {
+            true => format!("{large}{wire}"),
+            false => format!("{wire}{large}"),
+        };
+        let (code, line) = found(&settings);
+        assert!(
+            code == Some(1)
+                && line.contains("error[settings]: [milling]: ")
+                && line.contains("the electrode overcuts"),
+            "{wire}: {line}"
+        );
+        let refused = desk.run("generate fine.dxf --format milling");
+        assert!(
+            refused.code == Some(1)
+                && refused.stderr.contains("electrode")
+                && !refused.stderr.contains("wire"),
+            "{refused:?}"
+        );
+        let cut = desk.run("generate fine.dxf --format 3b");
+        assert_eq!(cut.code, Some(0), "{wire}: {cut:?}");
+        desk.write("wedm.toml", settings.replace("= 9.0", "= 1.0"));
+        let fits = desk.run("check fine.dxf");
+        assert_eq!(fits.code, Some(0), "{wire}: {fits:?}");
+    }
+}

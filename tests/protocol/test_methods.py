@@ -86,6 +86,7 @@ CASES = [
     Case("wedm/inspect", DXF, {"unitsToMm": 1.0, "entities": [{"handle": "2A", "layer": "DIE", "segments": some({"radius": near(0.05), "verdict": "small-radius"})}]}),
     Case("wedm/inspect", CAD, {"entities": [{"handle": "2A"}]}, {"handle": "2A"}),
     Case("wedm/contours", CAD, {"contours": [{"closed": True, "direction": "ccw", "role": "opening", "gaps": []}, {"handle": None}]}),
+    Case("wedm/toolpath", DXF, {"paths": some({"contour": 0, "part": "plate"}), "holes": some({"part": "punch"}), "parts": [{"part": "punch", "corrections": [near(0.1)]}, {"part": "plate", "work": {"cuts": some({"pass": 1})}}]}, {"options": PAIR}),
     Case("wedm/toolpath", "cad:clean", {"paths": [{"contour": 0, "pass": 1, "correction": near(0.1)}]}),
     Case("wedm/picture", CAD, {"svg": text("<svg", 'data-handle="2A"')}),
     Case("wedm/export", CAD, {"data": text("iVBORw0KGgo")}, {"format": "png"}),

@@ -78,6 +78,8 @@ pub const CONTRADICTIONS: &[Contradiction] = &[
     row(OPEN, "side = \"left\"\nprogram.tab = 3\n", "lead-in", "contour A0 is open"),
     row(ONE, "side = \"punch\"\nprogram.tab.ZZ = 3\n", "settings", "the handle ZZ"),
     row(NESTED, "side = \"auto\"\nprogram.tab = 1\njob.slug-limit = 1\n", "settings", "expected job.thickness"),
+    row(ONE, "side = \"opening\"\njob.machine-rate = 60\n", "settings", "expected job.thickness and passes.rates as well"),
+    row(ONE, "side = \"opening\"\njob.thickness = 40\njob.machine-rate = 60\n", "settings", "expected passes.rates as well"),
     row(ONE, "side = \"opening\"\njob.thickness = 40\njob.slug-limit = 100\n", "settings", "no effect without program.tab"),
     row(ONE, "side = \"opening\"\njob.thickness = 40\njob.slug-limit = 100\nprogram.tab = 0\n", "settings", "no effect without program.tab"),
     row(ONE, "side = \"punch\"\nprogram.tab-stop = \"\"\nprogram.tab = 3\n", "settings", "program.tab-stop"),

@@ -826,9 +826,13 @@ export interface Toolpath {
    */
   holes?: StartHole[];
   /**
-   * What the paths come to on the machine.
+   * What the paths come to on the machine; of a pair that of each part is in `parts`.
    */
   work?: Work;
+  /**
+   * The parts of a pair, where the drawing is one of which everything is set.
+   */
+  parts?: ToolpathPart[];
 }
 /**
  * The path for one contour in one pass.
@@ -838,6 +842,10 @@ export interface ToolpathPath {
    * Index of the contour in the reply of `wedm/contours`.
    */
   contour: number;
+  /**
+   * The part of a pair that it cuts.
+   */
+  part?: string;
   /**
    * 1-based number of the pass.
    */
@@ -902,6 +910,10 @@ export interface StartHole {
    * By the settings or by a mark in the drawing; else it was found.
    */
   given: boolean;
+  /**
+   * The part of a pair that is threaded there.
+   */
+  part?: string;
 }
 /**
  * What the cuts come to. Where a key is not set that something would need, it is left out and the key is `missing`.
@@ -975,6 +987,24 @@ export interface Slug {
    * g of steel: 7.85 g/cm³ × area × `job.thickness`.
    */
   mass: number;
+}
+/**
+ * One part of a pair, cut by the correction that `wedm/pair` gives it.
+ */
+export interface ToolpathPart {
+  /**
+   * `punch`, `plate`, `stripper`, `holder`, or the name of a workpiece.
+   */
+  part: string;
+  /**
+   * The correction of each pass, mm; below 0 for passes on the other side of the drawn outline, where not all run there.
+   */
+  corrections: number[];
+  /**
+   * The wire runs on the other side of the drawn outline.
+   */
+  otherSide?: boolean;
+  work: Work;
 }
 /**
  * Result of `wedm/picture`.

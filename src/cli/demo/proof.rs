@@ -105,6 +105,7 @@ pub(crate) fn of(
         outlines: &snapshot.outlines,
         findings: &faults,
         paths: &planned,
+        parts: &[],
         holes: &[],
         why: None,
         settings: &snapshot.settings,

@@ -88,6 +88,14 @@ pub(super) fn more(count: usize, shown: usize) -> String {
     }
 }
 
+/// A part of the page under its heading; empty without content.
+pub(super) fn section(title: &str, content: String) -> String {
+    match content.is_empty() {
+        true => content,
+        false => format!("<h2>{}</h2>\n{content}", text(title)),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -4,6 +4,7 @@ mod html;
 mod index;
 mod job;
 mod page;
+mod share;
 
 use super::options::{Common, Program};
 use super::output::{self, styled};

@@ -5,18 +5,17 @@ use super::super::files::Opened;
 use super::super::report::{self, Row};
 use super::super::{Failure, output};
 use super::INDEX;
-use super::html::{self, Cell, cell, more, number, table, text};
+use super::html::{self, Cell, cell, more, number, section, table, text};
 use super::index::{Line, counts, span};
 use super::job as of_job;
-use crate::analysis;
+use super::share::Share;
 use crate::document::Snapshot;
 use crate::finding::{Rule, Severity};
-use crate::job::{self, Generated, Wanted, drill};
-use crate::message::{lengths, spoken};
+use crate::job::{self, Wanted};
+use crate::message::spoken;
 use crate::program::Format;
-use crate::protocol::{Contours, Fit, Inspection, Milling, SegmentKind, StartHole, Work};
+use crate::protocol::{Contours, Fit, Inspection, Milling, SegmentKind};
 use crate::settings::Effective;
-use crate::toolpath::{self, WirePath};
 use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
 use std::sync::Arc;
@@ -25,8 +24,7 @@ use std::sync::Arc;
 const MOST_ARCS: usize = 100;
 const MOST_OF_A_RULE: usize = 50;
 const MOST_CONTOURS: usize = 500;
-/// The most lines of a program, and bytes of a picture: no browser shows more at ease.
-const MOST_LINES: usize = 10_000;
+/// The most bytes of a picture: no browser shows more at ease.
 const LARGEST_PICTURE: usize = 4 * 1024 * 1024;
 /// The same for milled contours.
 const MOST_MILLED: usize = 500;
@@ -42,18 +40,12 @@ pub(super) struct Page {
     contours: Contours,
     arcs: Vec<ListedArc>,
     rows: Vec<Row>,
-    paths: Vec<WirePath>,
-    /// For each path the distance of the wire's centre from the contour, mm.
-    corrections: Vec<f64>,
-    holes: Vec<StartHole>,
-    /// The totals of the paths, if there are any.
-    work: Option<Work>,
+    /// The parts of a pair; else all as one.
+    parts: Vec<Share>,
     /// The fit, if a clearance is set, or why it is unknown.
     fit: Option<Result<Fit, String>>,
     /// The layers of an electrode, and their results.
     milling: Vec<String>,
-    /// The program, or why there is none.
-    program: Result<Generated, String>,
     format: Format,
 }
 
@@ -78,9 +70,7 @@ impl Page {
         let rows = report::rows(&opened.path, &mut opened.document);
         let unit_mm = opened.document.unit_mm();
         let findings = opened.document.all_findings();
-        let (planned, picture) = job::picture(&snapshot, &findings, &());
-        let planned = planned.unwrap_or_default();
-        let paths = planned.paths;
+        let (cuts, picture) = job::picture(&snapshot, &findings, &());
         let arcs = arcs_of(Inspection::of(&opened.document, None), unit_mm);
         let wanted = Wanted {
             format,
@@ -88,8 +78,8 @@ impl Page {
             layers: None,
             force: false,
         };
-        let program = job::generate(&snapshot, findings.to_vec(), &wanted, &())
-            .map_err(|refusal| refusal.sentence(opened.document.telling()));
+        let telling = opened.document.telling();
+        let parts = Share::all(&snapshot, cuts, &findings, &wanted, telling);
         let count = |severity| rows.iter().filter(|row| row.severity == severity).count();
         let (errors, warnings) = (count(Severity::Error), count(Severity::Warning));
         let Snapshot {
@@ -98,30 +88,23 @@ impl Page {
             settings,
             ..
         } = &snapshot;
-        // An electrode goes its way once for each layer, which the program counts.
-        let work = match (format, &program) {
-            (Format::Milling, Ok(made)) => Some(made.work.clone()),
-            (Format::Milling, Err(_)) => None,
-            _ => (!paths.is_empty()).then(|| analysis::work(drawing, outlines, settings, &paths)),
-        };
-        let work = work.map(|work| Work::new(drawing, outlines, &work));
-        let hole = |hole| StartHole::new(drawing, outlines, settings, hole);
-        let correction = |path: &WirePath| path.offset(settings, unit_mm);
-        let milled = program
-            .as_ref()
-            .ok()
-            .and_then(|made| made.program.milled.as_ref());
-        let milling = milled.map(|milled| Milling::new(&snapshot, milled).told(MOST_MILLED));
+        let made = || parts.iter().filter_map(|part| part.program.as_ref().ok());
+        let mut milled = made().filter_map(|made| made.program.milled.as_ref());
+        let milling = milled.next();
+        let milling = milling.map(|milled| Milling::new(&snapshot, milled).told(MOST_MILLED));
+        let minutes = |part: &Share| part.work.as_ref()?.minutes;
+        // Of a pair whose parts do not all have a program no sum is told.
+        let blocks: Option<usize> = parts.iter().map(|part| part.blocks()).sum();
         Ok(Page {
             line: Line {
-                minutes: work.as_ref().and_then(|work| work.minutes),
+                minutes: parts.iter().map(minutes).sum(),
                 name: output::name(&opened.path),
                 contours: outlines.len(),
                 smallest_mm: arcs.first().map(|arc| arc.radius_mm),
                 errors,
                 warnings,
                 notes: rows.len() - errors - warnings,
-                blocks: program.as_ref().ok().map(|made| made.program.blocks),
+                blocks,
             },
             unit_mm,
             made_with: made_with(settings, format),
@@ -129,13 +112,9 @@ impl Page {
             contours: Contours::new(drawing, outlines, settings),
             arcs,
             rows,
-            corrections: paths.iter().map(correction).collect(),
-            paths,
-            holes: drill::drilled(planned.holes).iter().map(hole).collect(),
-            work,
             fit: of_job::fit(&opened.document, &snapshot, unit_mm),
             milling: milling.unwrap_or_default(),
-            program,
+            parts,
             format,
         })
     }
@@ -157,26 +136,26 @@ impl Page {
             section(say!(head_contours), self.contour_table()),
             section(say!(head_findings), self.findings()),
             section(say!(head_radius_list), self.radius_list()),
-            section(say!(head_passes), self.passes()),
-            section(
-                say!(head_time_and_material),
-                self.work
-                    .as_ref()
-                    .map(of_job::time_and_material)
-                    .unwrap_or_default(),
-            ),
-            section(
-                say!(head_start_holes),
-                of_job::drill_list(&self.holes, self.unit_mm),
-            ),
+            self.of_all(Share::way),
             section(
                 say!(head_fit),
                 self.fit.as_ref().map(of_job::fit_part).unwrap_or_default(),
             ),
             section(say!(head_milling), of_job::facts(&self.milling)),
-            section(say!(head_program), self.program()),
+            self.of_all(Share::text),
+            self.parts
+                .iter()
+                .map(|part| part.of_part(self.format, self.unit_mm))
+                .collect(),
         ];
         html::page(spoken().tag(), name, &parts.concat())
+    }
+
+    /// A section of a drawing that is no pair, whose parts follow behind all others.
+    fn of_all(&self, html: fn(&Share, Format, f64) -> String) -> String {
+        let all = self.parts.iter().filter(|part| !part.is_part());
+        all.map(|part| html(part, self.format, self.unit_mm))
+            .collect()
     }
 
     /// The picture, unless no page could hold it.
@@ -289,105 +268,6 @@ impl Page {
         let shown = self.arcs.iter().take(MOST_ARCS).map(row);
         table(&heads, shown) + &more(self.arcs.len(), MOST_ARCS)
     }
-
-    /// The path of the wire, pass by pass.
-    fn passes(&self) -> String {
-        // The layers of an electrode have a section of their own.
-        if self.format == Format::Milling {
-            return String::new();
-        }
-        let mut passes: BTreeMap<(bool, usize), (f64, f64, usize)> = BTreeMap::new();
-        for (path, correction) in self.paths.iter().zip(&self.corrections) {
-            let length: f64 = path
-                .segments
-                .iter()
-                .map(|segment| segment.geometry.length())
-                .sum();
-            let pass = passes.entry((path.cut_off, path.pass)).or_default();
-            *pass = (*correction, pass.1 + length, pass.2 + 1);
-        }
-        let mut minutes: BTreeMap<(bool, usize), f64> = BTreeMap::new();
-        for cut in self.work.iter().flat_map(|work| &work.cuts) {
-            if let Some(own) = cut.minutes {
-                *minutes.entry((cut.cut_off, cut.pass)).or_default() += own;
-            }
-        }
-        let heads = [
-            say!(column_pass),
-            say!(column_correction),
-            say!(column_contours),
-            say!(column_length_with_leads),
-            say!(column_minutes),
-        ];
-        let columns = heads.len() - usize::from(minutes.is_empty());
-        let row = |((cut_off, pass), (correction, length, count)): (_, (f64, f64, usize))| {
-            let name: String = match (cut_off, pass) {
-                (false, pass) => usize::to_string(&pass),
-                (true, pass) => say!(cut_off_in_pass, pass),
-            };
-            let minutes = minutes.get(&(cut_off, pass));
-            let mut cells = vec![
-                cell(name),
-                number(format!("{correction:.4}")),
-                number(count),
-                number(format!("{:.3}", length * self.unit_mm)),
-                number(
-                    minutes
-                        .map(|minutes| format!("{minutes:.2}"))
-                        .unwrap_or_default(),
-                ),
-            ];
-            cells.truncate(columns);
-            cells
-        };
-        table(&heads[..columns], passes.into_iter().map(row))
-    }
-
-    fn program(&self) -> String {
-        match &self.program {
-            Err(reason) => format!("<p class=\"error\">{}</p>\n", text(reason)),
-            Ok(made) => {
-                let program = &made.program;
-                // 4B holds the part's contour, whose length is another one than the wire's way.
-                let [length, jumps] = match self.format {
-                    Format::FourB => {
-                        let (cut, jumps) = toolpath::lengths(&self.paths);
-                        [cut, jumps].map(|length| length * self.unit_mm)
-                    }
-                    _ => [program.length, program.jumps],
-                };
-                let facts = say!(
-                    a_program_and_its_proof,
-                    self.format.title(),
-                    say!(blocks, program.blocks),
-                    say!(contours, made.contours),
-                    lengths(length, jumps, say!(comma)),
-                    program.deviation
-                );
-                let finished = made.finished.as_ref().map(|finished| {
-                    say!(
-                        the_finished_part_deviates,
-                        finished.uncut,
-                        finished.at.x,
-                        finished.at.y,
-                        finished.overcut
-                    )
-                });
-                let offsets = output::offsets(program);
-                let offsets = offsets.map(|line| format!("<p>{}</p>\n", text(line)));
-                let lines: Vec<String> = program.text.lines().take(MOST_LINES).map(text).collect();
-                let left_out = more(program.text.lines().count(), MOST_LINES);
-                format!(
-                    "<p>{}</p>\n{}<p class=\"faint\">{}</p>\n<details><summary>{}</summary>\n<pre>{}</pre>\n{left_out}</details>\n",
-                    text(facts),
-                    offsets.unwrap_or_default(),
-                    text(finished.unwrap_or_default()),
-                    text(say!(its_text)),
-                    lines.join("\n")
-                )
-            }
-        }
-    }
 }
 
 /// The version that made a page, and the settings that decide where the wire runs.
@@ -420,14 +300,6 @@ fn arcs_of(inspection: Option<Inspection>, unit_mm: f64) -> Vec<ListedArc> {
     }
     arcs.sort_by(|one, other| one.radius_mm.total_cmp(&other.radius_mm));
     arcs
-}
-
-/// A part of the page under its heading; empty without content.
-fn section(title: &str, content: String) -> String {
-    match content.is_empty() {
-        true => content,
-        false => format!("<h2>{}</h2>\n{content}", text(title)),
-    }
 }
 
 fn class_of(severity: Severity) -> &'static str {

@@ -290,6 +290,7 @@ declare! {
     i_and_j_are_taken_from_the_center_to_the_start => "the arcs fit two readings of I and J: they are taken as leading from the centre to the start";
     i_and_j_are_taken_as_the_centers_coordinates => "the arcs fit two readings of I and J: they are taken as the centre's own coordinates";
     of_pass(pass) => " of pass {pass}";
+    for_milling(finding) => "[milling]: {finding}";
     arc_r_mm_is_below_the_correction_mm(radius, required, pass) => "arc R {radius} mm is below the correction {required} mm{pass}";
     the_wire_overcuts_the_contour_by_mm(overcut, tool) => ": {tool} overcuts the contour by {overcut} mm";
     or_leaves_stock(stock_left) => ", or leaves {stock_left} mm where the control trims";

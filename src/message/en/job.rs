@@ -9,6 +9,7 @@ declare! {
     the_program_does_not_hold_its_proof(reason) => "the program does not pass its proof: {reason}";
     no_program_of_this_drawing(reason) => "no program could be proved for this drawing: {reason}";
     four_b_ends_with_an_open_contour => "4B cannot say where the wire is after an open contour: such a contour can only be the last of a program, cut in one pass; cut it by itself, or choose another format";
+    four_b_cuts_a_corner_off(depth, radius) => "4B holds an arc of R {radius:.3} mm in place of this corner: the wire cuts off {depth:.3} mm of it; ISO and 3B keep it";
     four_b_has_no_tab => "4B has one contour for all passes: it can have a tab only with a single pass, and no overlap; set tab or closing-overlap to 0, or choose another format";
     no_other_program(reason) => "no other program could be proved for this one, and none is written: {reason}";
     a_target_that_is_not_written(name, names) => "{name:?} is not written, expected dxf, {names}";
@@ -16,6 +17,9 @@ declare! {
     a_drawing_is_no_program => "it is a drawing, expected a program (.3b, .iso)";
     a_program_is_no_drawing => "it is a program, expected a drawing (.dxf)";
     nothing_is_said_of_a_wire(format) => "no wire is set, only an electrode in [milling]: choose the format milling, or set correction or wire-diameter for {format}";
+    parts_have_a_program_each(parts) => "it is a pair, whose parts ({parts}) have a program each: `wedm pair` writes them";
+    parts_of_have_a_program_each(parts, path) => "it is a pair, whose parts ({parts}) have a program each: `wedm pair {path}` writes them";
+    holes_of_a_pair_are_csv => "the holes of a pair are written as .csv: in one drawing the hole of a part would be taken for that of the other, too";
     a_pair_is_not_milled => "a pair is cut by a wire: expected 3b, 4b or iso";
     the_electrode_wears_more_than_a_layer(wear) => "the electrode gets {wear:.2} layers shorter in each layer along this contour: the floor is uneven within one layer; a larger electrode or a shorter contour wears less";
     the_step_is_longer(step, length) => "milling.step is {step} mm, longer than a layer of this contour, {length:.3} mm: expected a shorter step";

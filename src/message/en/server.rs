@@ -136,7 +136,8 @@ declare! {
     failed_for(method, reason) => "{method} failed: {reason}";
     invalid_json(reason) => "invalid JSON: {reason}";
     lead_in_and_lead_out => "lead-in and lead-out";
-    correction_mm(correction) => "correction {correction:.3} mm";
+    correction_mm(correction) => "correction {correction} mm";
+    of_a_part(part, what) => "{part}: {what}";
     the_electrode => "electrode";
     the_wire => "wire";
     step_in_line(number, line, what, x, y) => "{number}line {line} · {what} · to {x:.3}, {y:.3}";

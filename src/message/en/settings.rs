@@ -69,6 +69,7 @@ declare! {
     a_step_needs_linear_feed(key, other) => "{key} has no effect unless {other} is linear";
     a_hole_narrower_than_the_wire(key, hole, other, wire) => "{key} is {hole}, expected more than {other}, {wire}: the wire does not go through the hole";
     a_mass_needs_a_height(key) => "{key} is the mass of a slug: expected job.thickness as well";
+    a_rate_needs_minutes(key, missing) => "{key} has no effect: a cost needs the minutes of the cuts; expected {missing} as well";
     a_limit_needs_a_tab(key) => "{key} has no effect without program.tab: expected the length, mm, that an opening with a heavier slug leaves standing";
     a_contour_of_two_roles(name, role, by, other, other_by) => "contour {name} is given two roles: {role} by {by}, which decides, and {other} by {other_by}";
     its_color => "its colour";

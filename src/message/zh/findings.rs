@@ -285,6 +285,7 @@ translate! {
     i_and_j_are_taken_from_the_center_to_the_start => "圆弧符合 I 和 J 的两种写法：按从圆心到起点处理";
     i_and_j_are_taken_as_the_centers_coordinates => "圆弧符合 I 和 J 的两种写法：按圆心坐标处理";
     of_pass(pass) => "（第 {pass} 次切割）";
+    for_milling(finding) => "铣削 [milling]：{finding}";
     arc_r_mm_is_below_the_correction_mm(radius, required, pass) => "圆弧 R {radius} mm 小于补偿量 {required} mm{pass}";
     the_wire_overcuts_the_contour_by_mm(overcut, tool) => "：{tool}过切轮廓 {overcut} mm";
     or_leaves_stock(stock_left) => "，或在控制系统修剪处残留 {stock_left} mm";

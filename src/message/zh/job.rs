@@ -9,6 +9,7 @@ translate! {
     the_program_does_not_hold_its_proof(reason) => "程序没有通过校核：{reason}";
     no_program_of_this_drawing(reason) => "此图形得不出通过校核的程序：{reason}";
     four_b_ends_with_an_open_contour => "4B 程序说不出切完未封闭轮廓后丝在哪里：这样的轮廓只能是程序中的最后一个，并且只切一次；请单独切割，或换一种格式";
+    four_b_cuts_a_corner_off(depth, radius) => "4B 在这个拐角处写为 R {radius:.3} mm 的圆弧：电极丝切掉它 {depth:.3} mm；ISO 和 3B 保留拐角";
     four_b_has_no_tab => "4B 程序各次切割共用一个轮廓：只有一次切割时才有暂留段，没有重叠段；请把 tab 或 closing-overlap 设为 0，或换一种格式";
     no_other_program(reason) => "由它得不出通过校核的新程序，未写出任何程序：{reason}";
     a_target_that_is_not_written(name, names) => "不能写出 {name:?}，应为 dxf、{names}";
@@ -16,6 +17,9 @@ translate! {
     a_drawing_is_no_program => "这是图形，此处要程序（.3b、.iso）";
     a_program_is_no_drawing => "这是程序，此处要图形（.dxf）";
     nothing_is_said_of_a_wire(format) => "没有电极丝的数据，只有 [milling] 的电极：请选格式 milling，或为 {format} 设置 correction 或 wire-diameter";
+    parts_have_a_program_each(parts) => "这是一对零件（{parts}），每件各有自己的程序：由 `wedm pair` 写出";
+    parts_of_have_a_program_each(parts, path) => "这是一对零件（{parts}），每件各有自己的程序：由 `wedm pair {path}` 写出";
+    holes_of_a_pair_are_csv => "成对零件的穿丝孔写为 .csv：放在同一张图里，一件的孔也会被当作另一件的";
     a_pair_is_not_milled => "成对的零件用电极丝切割：应为 3b、4b 或 iso";
     the_electrode_wears_more_than_a_layer(wear) => "沿此轮廓每铣一层，电极缩短 {wear:.2} 层：一层之内底面不平；电极粗一些或轮廓短一些，损耗就小";
     the_step_is_longer(step, length) => "milling.step 是 {step} mm，比此轮廓一层的长度 {length:.3} mm 还长：步长应更短";

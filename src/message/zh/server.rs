@@ -136,7 +136,8 @@ translate! {
     failed_for(method, reason) => "{method} 失败：{reason}";
     invalid_json(reason) => "JSON 无效：{reason}";
     lead_in_and_lead_out => "引入线和引出线";
-    correction_mm(correction) => "补偿量 {correction:.3} mm";
+    correction_mm(correction) => "补偿量 {correction} mm";
+    of_a_part(part, what) => "{part}：{what}";
     the_electrode => "电极";
     the_wire => "电极丝";
     step_in_line(number, line, what, x, y) => "{number}第 {line} 行 · {what} · 到 {x:.3}, {y:.3}";

@@ -73,6 +73,7 @@ translate! {
     a_step_needs_linear_feed(key, other) => "{other} 不是 linear 时，{key} 不起作用";
     a_hole_narrower_than_the_wire(key, hole, other, wire) => "{key} 是 {hole}，应大于 {other} {wire}：丝穿不过这个孔";
     a_mass_needs_a_height(key) => "{key} 是废料的质量：应同时设置 job.thickness";
+    a_rate_needs_minutes(key, missing) => "{key} 不起作用：算费用需要切割的分钟数；还应设置 {missing}";
     a_limit_needs_a_tab(key) => "没有 program.tab，{key} 不起作用：应设废料更重的型孔暂留段的长度，mm";
     a_contour_of_two_roles(name, role, by, other, other_by) => "轮廓 {name} 有两个角色：{by} 定为 {role}，以它为准；{other_by} 定为 {other}";
     its_color => "其颜色";

@@ -32,22 +32,22 @@ pub(super) fn wire_step(turn: f64, correction: f64) -> f64 {
 }
 
 /// How far the corners of a part lie from the transitions in their place, at most, µm, and where: those that the wire runs
-/// inside of, and those that it goes round.
-#[derive(Clone, Copy, Debug, Default)]
+/// inside of, and each of those that it goes round, before its segment.
+#[derive(Clone, Debug, Default)]
 pub(super) struct CutCorners {
     pub(super) inside: Option<(f64, Point)>,
-    pub(super) outside: f64,
+    pub(super) outside: Vec<(f64, Source)>,
 }
 
 impl CutCorners {
-    fn take(&mut self, corner: Point, arc: &Arc, side: Side) {
+    fn take(&mut self, corner: Point, source: Source, arc: &Arc, side: Side) {
         let away = (corner - arc.center).norm() - arc.radius;
         match is_concave(arc, side) {
             true if self.inside.is_none_or(|(worst, _)| away > worst) => {
                 self.inside = Some((away, corner));
             }
             true => {}
-            false => self.outside = self.outside.max(away),
+            false => self.outside.push((away, source)),
         }
     }
 }
@@ -145,9 +145,8 @@ pub(super) fn rounded(
             Unwritable::BeginsInCorner { at: mm(entry) },
         ));
     }
-    let contour = with_transitions(&contour, radius, correction, &mut |corner, arc| {
-        corners.take(corner, arc, side);
-    })?;
+    let made_at = &mut |corner, source, arc: &Arc| corners.take(corner, source, arc, side);
+    let contour = with_transitions(&contour, radius, correction, made_at)?;
     // The lines and arcs are those of the part, begun where the wire is.
     let beside = left_normal(first.geometry.start_tangent()) * (side.sign() * correction);
     let (Some(from), Some(to)) = (snap(entry), snap(entry + beside)) else {
@@ -257,12 +256,12 @@ fn sizes(radius: f64, angle: f64) -> impl Iterator<Item = f64> {
 }
 
 /// Transition arcs of `radius`, or just as much more as makes them sound on the grid, at the corners between lines and
-/// arcs alike. Each corner is made from the two pieces as they are drawn; `made_at` gets it with its arc.
+/// arcs alike. Each corner is made from the two pieces as they are drawn; `made_at` gets it with what the piece behind it follows, and its arc.
 fn with_transitions(
     contour: &[PathSegment],
     radius: f64,
     correction: f64,
-    made_at: &mut dyn FnMut(Point, &Arc),
+    made_at: &mut dyn FnMut(Point, Source, &Arc),
 ) -> Proved<Vec<PathSegment>> {
     let corners = each(contour.len().saturating_sub(1), AT_A_TIME, |nth| {
         let [before, behind] = [nth, nth + 1].map(|nth| &contour[nth].geometry);
@@ -295,7 +294,7 @@ fn with_transitions(
             };
             return Err(unwritable(behind.source, fault));
         };
-        made_at(behind.geometry.start(), &arc);
+        made_at(behind.geometry.start(), behind.source, &arc);
         rounded.push(until(leaves));
         rounded.push(PathSegment {
             geometry: Segment::Arc(arc),

@@ -16,8 +16,8 @@ use crate::program::grid::point_of;
 use crate::program::notes::Notes;
 use crate::program::path::{Kind, Step, is_tight_in_four_b};
 use crate::program::write::{
-    Piece, ProofError, Proved, ProvedProgram, Writer, cuts, does_not_stop, nothing_to_write, room,
-    scaled, walk, way,
+    CutCorner, Piece, ProofError, Proved, ProvedProgram, Writer, cuts, does_not_stop,
+    nothing_to_write, room, scaled, walk, way,
 };
 use crate::settings::Effective;
 use crate::toolpath::{Finished, PathSegment, Source, WirePath, each};
@@ -94,6 +94,16 @@ pub(crate) fn write_four_b(
     let corrections = settings.each_correction().into_iter();
     blocks.made.offsets = corrections.map(|mm| (String::new(), mm)).collect();
     blocks.made.corners = left_in(&corners, settings, unit_mm * 1000.0);
+    let rest = rest(settings);
+    blocks.made.cut_corners = corners
+        .outside
+        .iter()
+        .map(|&(away, source)| CutCorner {
+            source,
+            depth: (away - rest) / 1000.0,
+            radius: radius / 1000.0,
+        })
+        .collect();
     blocks.finish(cuts(&paths))
 }
 
@@ -101,9 +111,21 @@ pub(crate) fn write_four_b(
 /// of each pass, and takes half its kerf.
 fn left_in(corners: &CutCorners, settings: &Effective, scale: f64) -> Option<Finished> {
     let (inside, at) = corners.inside.unzip();
-    if inside.is_none() && corners.outside <= 0.0 {
+    let outside = corners.outside.iter().map(|(away, _)| *away);
+    let outside = outside.fold(0.0, f64::max);
+    if inside.is_none() && outside <= 0.0 {
         return None;
     }
+    let rest = rest(settings);
+    Some(Finished {
+        uncut: (inside.unwrap_or(0.0) + rest).max(0.0) / scale,
+        at: at.unwrap_or_else(Point::origin) / scale,
+        overcut: (outside - rest).max(0.0) / scale,
+    })
+}
+
+/// What all passes leave along the path, µm.
+fn rest(settings: &Effective) -> f64 {
     let corrections = settings.each_correction();
     let rest = corrections.iter().enumerate().map(|(pass, correction)| {
         let half = settings.half_kerf(pass);
@@ -111,12 +133,7 @@ fn left_in(corners: &CutCorners, settings: &Effective, scale: f64) -> Option<Fin
         let last = (pass + 1 == corrections.len()).then_some(*correction);
         Some((correction - half.or(last)?) * 1000.0)
     });
-    let rest = rest.flatten().fold(f64::INFINITY, f64::min);
-    Some(Finished {
-        uncut: (inside.unwrap_or(0.0) + rest).max(0.0) / scale,
-        at: at.unwrap_or_else(Point::origin) / scale,
-        overcut: (corners.outside - rest).max(0.0) / scale,
-    })
+    rest.flatten().fold(f64::INFINITY, f64::min)
 }
 
 /// A part's closed contour as 4B holds it, without leads, at its drawn place and in the drawing's unit; `None` where it

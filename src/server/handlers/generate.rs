@@ -29,8 +29,11 @@ pub(super) fn wanted<'a>(params: &'a Generate, task: &Task) -> Result<Wanted<'a>
 pub(in crate::server) fn generate(context: &RequestContext, params: Generate) -> Result<Program> {
     // An unknown format is reported whatever the document is.
     Format::of(&params.format).map_err(Error::invalid_params)?;
-    let task = Task::of(context)?;
+    let mut task = Task::of(context)?;
     let wanted = wanted(&params, &task)?;
+    if wanted.format == Format::Milling {
+        task.mill();
+    }
     let made = job::generate(&task.snapshot, findings(&task), &wanted, context);
     context.check()?;
     let made = made.map_err(|refusal| task.refused(context, &refusal))?;

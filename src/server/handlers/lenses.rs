@@ -3,9 +3,12 @@
 
 use super::Task;
 use crate::analysis::largest_wire;
+use crate::document::Snapshot;
 use crate::ide::SymbolKind;
 use crate::ide::program::symbols;
+use crate::job::Cut;
 use crate::server::context::RequestContext;
+use crate::settings::part_title;
 use crate::toolpath;
 use ls_types::{CodeLens, CodeLensParams, Command};
 use serde_json::json;
@@ -67,21 +70,31 @@ fn of_drawing(context: &RequestContext) -> Option<Vec<CodeLens>> {
     let (drawing, outlines) = (&task.snapshot.drawing, &task.snapshot.outlines);
     let settings = &task.snapshot.settings;
     let segments: usize = outlines.iter().map(|outline| outline.contour.len()).sum();
-    let planned = (segments <= LAID).then(|| task.planned(context).ok());
-    let cut = planned.flatten().map(|planned| {
-        let work = toolpath::work(drawing, outlines, settings, &planned.paths);
+    let cuts = (segments <= LAID).then(|| task.cuts(context).ok());
+    let told = |cut: Cut| {
+        let Snapshot {
+            drawing,
+            outlines,
+            settings,
+        } = &cut.snapshot;
+        let work = toolpath::work(drawing, outlines, settings, &cut.planned.paths);
         let minutes = work.minutes.map(|minutes| say!(and_minutes, minutes));
-        say!(
+        let told = say!(
             cut_of,
-            say!(contours, planned.holes.len()),
+            say!(contours, cut.planned.holes.len()),
             work.length,
             match work.jumps > 0.0 {
                 true => say!(and_jumps, work.jumps),
                 false => String::new(),
             },
             minutes.unwrap_or_default()
-        )
-    });
+        );
+        match cut.name() {
+            Some(name) => say!(of_a_part, part_title(name), told),
+            None => told,
+        }
+    };
+    let cuts = cuts.flatten().into_iter().flatten().map(told);
     let wire = (segments <= LAID).then(|| largest_wire(drawing, outlines, settings, &|_| true));
     let wire = wire.flatten().map(|largest| match largest.facing {
         Some(_) => say!(
@@ -91,7 +104,7 @@ fn of_drawing(context: &RequestContext) -> Option<Vec<CodeLens>> {
         ),
         None => say!(largest_wire, largest.diameter, largest.radius),
     });
-    let title = cut.into_iter().chain(wire).collect::<Vec<_>>().join("; ");
+    let title = cuts.chain(wire).collect::<Vec<_>>().join("; ");
     (!title.is_empty()).then(|| {
         let command = Command {
             title,

@@ -32,8 +32,7 @@ use super::context::RequestContext;
 use super::errors::{self, refused};
 use crate::document::{Document, Snapshot, Source};
 use crate::finding::Finding;
-use crate::job::{self, Refusal, Watch};
-use crate::toolpath::Planned;
+use crate::job::{self, Cut, Refusal, Watch};
 use std::sync::Arc;
 use tower_lsp::jsonrpc::{Error, Result};
 
@@ -67,6 +66,23 @@ impl Task {
         })
     }
 
+    /// All that is said is about the electrode, where one is set, also where a wire is.
+    fn mill(&mut self) {
+        let Ok(milled) = self.snapshot.settings.milled() else {
+            return;
+        };
+        let milled = Arc::new(milled);
+        let is_one = Arc::ptr_eq(&self.document, &self.subject);
+        Arc::make_mut(&mut self.subject).set_settings(milled.clone());
+        match is_one {
+            true => self.document = self.subject.clone(),
+            false => Arc::make_mut(&mut self.document).set_settings(milled),
+        }
+        if let Some(snapshot) = self.document.snapshot() {
+            self.snapshot = snapshot;
+        }
+    }
+
     fn unit_mm(&self) -> f64 {
         self.document.unit_mm()
     }
@@ -77,16 +93,10 @@ impl Task {
         self.document.all_findings().to_vec()
     }
 
-    /// The wire's paths of all contours.
-    fn planned(&self, context: &RequestContext) -> Result<Planned> {
-        job::planned(
-            &self.snapshot,
-            &self.snapshot.settings,
-            None,
-            false,
-            context,
-        )
-        .map_err(|refusal| self.refused(context, &refusal))
+    /// The wire's paths, part for part of a pair.
+    fn cuts(&self, context: &RequestContext) -> Result<Vec<Cut>> {
+        let cuts = job::cuts(&self.snapshot, context);
+        cuts.map_err(|refusal| self.refused(context, &refusal))
     }
 
     fn refused(&self, context: &RequestContext, refusal: &Refusal) -> Error {

@@ -180,6 +180,8 @@ class WirePath(Value):
     pass_number: int = 1
     # For a closed contour.
     direction: Direction | None = None
+    # Of a pair.
+    part: str | None = None
 
     @property
     def cuts_off(self) -> bool:
@@ -208,6 +210,8 @@ class StartHole(Value):
     at: Point
     given: bool
     diameter: float | None = None
+    # Of a pair.
+    part: str | None = None
 
 
 @dataclass(frozen=True)
@@ -268,11 +272,24 @@ class Work(Value):
 
 
 @dataclass(frozen=True)
+class ToolpathPart(Value):
+    """A part of a pair: its corrections, mm, one for each pass, and what its cuts come to. ``other_side``: the wire runs on the other
+    side of the drawn outline."""
+
+    part: str
+    corrections: list[float]
+    work: Work
+    other_side: bool = False
+
+
+@dataclass(frozen=True)
 class Toolpath(Tabled):
     units_to_mm: float
     paths: list[WirePath]
     holes: list[StartHole] = field(default_factory=list)
+    # Of a pair that of each part is in `parts`.
     work: Work | None = None
+    parts: list[ToolpathPart] = field(default_factory=list)
 
     def rows(self) -> list[dict[str, Any]]:
         """A row for each path."""

@@ -1,0 +1,101 @@
+//! The contours that the wire may meet on its way to one of them: those in the same workpiece.
+
+use super::clearance::Walls;
+use super::job::Job;
+use crate::drawing::{Contour, Drawing, EntityId, Outline};
+use crate::finding::Place;
+use crate::geometry::{Bounds, Grid};
+use crate::settings::Workpieces;
+use std::sync::OnceLock;
+
+/// The walls of all contours that lie in one workpiece: no wire meets those of another.
+pub(super) struct Contours<'a> {
+    drawing: &'a Drawing,
+    outlines: &'a [Outline],
+    /// The part that they are of, where there are several.
+    part: Option<(&'a Workpieces, u16)>,
+    /// Once somebody has asked what is near.
+    known: OnceLock<WallsOf>,
+    /// The closed ones that are cut, once somebody has asked what lies in an area.
+    closed: OnceLock<Grid<usize>>,
+}
+
+struct WallsOf {
+    walls: Walls,
+    /// By wall: the outline, and the segment of the drawing.
+    of: Vec<(usize, EntityId, usize)>,
+}
+
+impl Contours<'_> {
+    /// Those that lie in the workpiece of the first of `chosen`.
+    pub(crate) fn about<'a>(job: &Job<'a>, chosen: &[usize]) -> Contours<'a> {
+        let workpieces = &job.settings.workpieces;
+        let first = chosen.first().filter(|_| !workpieces.is_empty());
+        Contours {
+            drawing: job.drawing,
+            outlines: job.outlines,
+            part: first.map(|&first| (workpieces, job.workpiece(first))),
+            known: OnceLock::new(),
+            closed: OnceLock::new(),
+        }
+    }
+
+    /// It is cut, and lies in the workpiece.
+    fn is_met(&self, contour: &Contour) -> bool {
+        let is_of = |(workpieces, part): (&Workpieces, u16)| {
+            workpieces.of_contour(self.drawing, contour) == part
+        };
+        contour.double_of.is_none() && self.part.is_none_or(is_of)
+    }
+
+    /// The closed outlines that are cut whose boxes lie within an area, with their boxes, in their order.
+    pub(crate) fn within(&self, area: &Bounds) -> Vec<(usize, Bounds)> {
+        let closed = self.closed.get_or_init(|| {
+            let mut closed = Grid::default();
+            for (index, Outline { contour, .. }) in self.outlines.iter().enumerate() {
+                if contour.closed && self.is_met(contour) {
+                    closed.insert(index, contour.bounds(self.drawing));
+                }
+            }
+            closed
+        });
+        let mut within = Vec::new();
+        closed.near(area, |index, about| {
+            within.extend((about.merged(area) == *area).then_some((index, *about)));
+        });
+        within.sort_unstable_by_key(|(index, _)| *index);
+        within
+    }
+
+    fn known(&self) -> &WallsOf {
+        self.known.get_or_init(|| {
+            let (mut segments, mut of) = (Vec::new(), Vec::new());
+            let is_met = |(_, outline): &(usize, &Outline)| self.is_met(&outline.contour);
+            for (index, outline) in self.outlines.iter().enumerate().filter(is_met) {
+                for segment in outline.contour.segments(self.drawing) {
+                    segments.push(segment.geometry);
+                    of.push((index, segment.entity, segment.segment));
+                }
+            }
+            // Those that make the paths of other contours may wait for it.
+            WallsOf {
+                walls: Walls::by_one_core(segments),
+                of,
+            }
+        })
+    }
+
+    pub(crate) fn walls(&self) -> &Walls {
+        &self.known().walls
+    }
+
+    /// The outline that a wall is of.
+    pub(crate) fn outline_of(&self, wall: usize) -> usize {
+        self.known().of[wall].0
+    }
+
+    pub(crate) fn place_of(&self, wall: usize) -> Place {
+        let (_, entity, segment) = self.known().of[wall];
+        Place::Segment { entity, segment }
+    }
+}
