@@ -7,9 +7,12 @@ use super::offset::Wall;
 use super::path::Refusal;
 use crate::geometry::Segment;
 
-/// A path farther away by this, mm, is as good: beside it every such arc is too tight, and its neighbours are cut with
-/// each other.
-const BESIDE: f64 = 3e-6;
+/// An arc whose radius is this near to the correction, mm, is at the limit.
+const LIMIT: f64 = 3e-6;
+
+/// A path farther away by one of these, mm, is as good: beside it every such arc is too tight, and its neighbours are
+/// cut with each other. Where one meets another arc of the contour, the next does not.
+const BESIDE: [f64; 3] = [3e-6, 8e-6, 2e-5];
 
 impl Job<'_> {
     /// The path along a contour, as `laid_within` has it, of which nothing has been proved before.
@@ -32,21 +35,22 @@ impl Job<'_> {
         known: Known,
     ) -> Result<Outcome, Refusal> {
         let laid = self.laid_at(walls, own, along, known)?;
-        let beside = self.units(BESIDE);
-        if matches!(laid, Ok(Laid::Path(_)))
-            || !walls.iter().any(|wall| along.is_at_limit(wall, beside))
-        {
+        let limit = self.units(LIMIT);
+        let is_at_limit = || walls.iter().any(|wall| along.is_at_limit(wall, limit));
+        if matches!(laid, Ok(Laid::Path(_))) || !is_at_limit() {
             return Ok(laid);
         }
-        let wider = Along {
-            correction: along.correction + beside,
-            ..along
-        };
-        let other = self.laid_at(walls, own, wider, Known::default())?;
-        Ok(match other {
-            Ok(Laid::Path(_)) => other,
-            _ => laid,
-        })
+        for beside in BESIDE {
+            let wider = Along {
+                correction: along.correction + self.units(beside),
+                ..along
+            };
+            let other = self.laid_at(walls, own, wider, Known::default())?;
+            if matches!(other, Ok(Laid::Path(_))) {
+                return Ok(other);
+            }
+        }
+        Ok(laid)
     }
 }
 

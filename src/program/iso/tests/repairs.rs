@@ -315,7 +315,7 @@ fn ways_between_passes_are_no_spurs_in_any_number_of_contours() {
     for contours in [1, 32, 33, 200] {
         assert_eq!(spurs(&text(contours, "")), 0, "{contours} contours");
         let x = 50 * (contours - 1);
-        let spur = format!("G01 X{x}. Y2.\nX{0}. Y2.\nX{x}. Y2.\nX{x}. Y1.\n", x + 3);
+        let spur = format!("G01 X{x}. Y2.\nX{0}. Y2.\nX{x}. Y2.\nX{x}. Y4.\n", x + 3);
         assert_eq!(spurs(&text(contours, &spur)), 1, "{contours} contours");
     }
 }
