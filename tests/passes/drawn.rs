@@ -55,9 +55,10 @@ fn passes_and_their_tabs_are_drawn_as_closed_contours() {
                 contours.push((entity.layer.to_string(), size(0), size(1)));
             }
         }
-        // One way up to a tab, each pass goes back as it came, and no block says that it cuts nothing then.
+        // One way up to a tab, each pass goes back as it came. Under the control no block says that it cuts nothing then:
+        // a pass the other way has the same coordinates.
         let count = corrections.len();
-        let goes_back = tab > 0 && sequence == "one-way";
+        let goes_back = tab > 0 && sequence == "one-way" && compensation == "controller";
         let keeps_tab = goes_back && (role == Role::Punch || !limit.is_empty());
         let runs: Vec<f64> = (0..count)
             .flat_map(|pass| {

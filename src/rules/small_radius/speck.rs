@@ -7,9 +7,15 @@ use crate::geometry::Segment;
 /// At most this many specks beside each other are passed over.
 const MOST_BESIDE: usize = 8;
 
+/// A speck is no longer than this share of the correction, whatever the resolution.
+const SMALLEST: f64 = 0.05;
+
 /// An arc whose ends lie nearer to each other than the resolution, and which nowhere leaves its chord by that.
 fn is_speck(segment: &Segment, limits: &Limits) -> bool {
-    let resolution = limits.tolerances.resolution;
+    let resolution = limits
+        .tolerances
+        .resolution
+        .min(SMALLEST * limits.correction);
     let chord = (segment.end() - segment.start()).norm();
     let height = match segment {
         Segment::Line(_) => 0.0,
