@@ -8,7 +8,8 @@ import { t } from "../words";
 export async function saved(targets: readonly vscode.Uri[]): Promise<boolean> {
   const changed = vscode.workspace.textDocuments.filter((document) => document.isDirty && isRead(document, targets));
   for (const document of changed) {
-    if (!(await document.save())) {
+    // False where VS Code has saved it by itself meanwhile, too.
+    if (!(await document.save()) && document.isDirty) {
       void vscode.window.showErrorMessage(t("Wire EDM: {0} must be saved first.", vscode.workspace.asRelativePath(document.uri)));
       return false;
     }
