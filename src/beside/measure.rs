@@ -3,7 +3,7 @@
 use super::drawn::Drawn;
 use super::traced::{Block, Traced};
 use crate::geometry::{Bounds, Segment, Vector, left_normal};
-use crate::program::path::goes_back;
+use crate::program::path::without_ways_back;
 use std::ops::Range;
 
 /// The largest distance between the boxes of passes of one contour, µm.
@@ -157,14 +157,10 @@ pub(super) fn passes(traced: &Traced) -> Vec<Vec<Segment>> {
     let length = |pass: &Vec<Segment>| pass.iter().map(Segment::length).sum::<f64>();
     let longest = passes.iter().map(length).fold(0.0, f64::max);
     passes.retain(|pass| 2.0 * length(pass) > longest);
-    if !traced.blocks.iter().any(Block::is_offset) {
-        for later in (1..passes.len()).rev() {
-            if goes_back(&passes[later - 1], &passes[later], PARALLEL) {
-                passes.remove(later);
-            }
-        }
+    match traced.blocks.iter().any(Block::is_offset) {
+        true => passes,
+        false => without_ways_back(passes, PARALLEL),
     }
-    passes
 }
 
 /// How much nearer to the wall each pass runs than the first, µm: the distance that most of its length beside the first

@@ -418,6 +418,13 @@ impl CutPath {
         }
     }
 
+    /// The segments from each of some stops to the next.
+    fn runs(&self, stops: &[usize]) -> impl Iterator<Item = Range<usize>> {
+        let ends = stops.iter().copied().chain([self.segments.len()]);
+        let runs = ends.scan(0, |from, end| Some(std::mem::replace(from, end)..end));
+        runs.filter(|run| !run.is_empty())
+    }
+
     fn paths(&self, format: Format) -> impl Iterator<Item = WirePath> {
         let source = |index: usize| match index {
             _ if index < self.lead_in => Source::LeadIn,
@@ -427,28 +434,24 @@ impl CutPath {
                 segment: index,
             },
         };
-        let piece = move |(index, &geometry): (usize, &Segment)| PathSegment {
-            geometry,
-            source: source(index),
-        };
-        let mut segments: Vec<PathSegment> = self.segments.iter().enumerate().map(piece).collect();
-        let thread_hole = self.segments.first().map(Segment::start);
-        let mut parts = Vec::new();
-        for stop in self.stops_in(format).iter().rev() {
-            if (1..segments.len()).contains(stop) {
-                parts.push(segments.split_off(*stop));
-            }
-        }
-        parts.push(segments);
-        let is_one = parts.len() == 1;
-        let parts = parts.into_iter().rev().enumerate();
-        parts.filter_map(move |(nth, segments)| {
+        let stops = self.stops_in(format);
+        let is_one = self.runs(stops).count() == 1;
+        self.runs(stops).enumerate().filter_map(move |(nth, run)| {
+            let piece = |index: usize| {
+                Some(PathSegment {
+                    geometry: *self.segments.get(index)?,
+                    source: source(index),
+                })
+            };
             Some(WirePath {
                 side: self.side,
                 cut_off: nth > 0,
                 // What comes back to its start behind a stop is not open.
                 counter_clockwise: (!is_one && self.closed).then_some(true),
-                ..WirePath::along(thread_hole?, segments)
+                ..WirePath::along(
+                    self.segments.first()?.start(),
+                    run.filter_map(piece).collect(),
+                )
             })
         })
     }

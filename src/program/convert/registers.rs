@@ -104,10 +104,12 @@ impl Cuts {
             }),
             goes_on: cut.goes_on,
         };
-        let cuts = self.cuts.iter().filter(|cut| !cut.segments.is_empty());
-        let kept = cuts.flat_map(|cut| {
-            let parts = cut.paths(format).skip(1).map(|_| Kept::NOTHING);
-            std::iter::once(kept(cut)).chain(parts)
+        let kept = self.cuts.iter().flat_map(|cut| {
+            let runs = cut.runs(cut.stops_in(format)).enumerate();
+            runs.map(move |(nth, _)| match nth {
+                0 => kept(cut),
+                _ => Kept::NOTHING,
+            })
         });
         let kept: Vec<Kept> = kept.collect();
         iso::write_keeping(&paths, &kept, 1e-3, settings)

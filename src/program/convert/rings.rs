@@ -2,7 +2,7 @@
 
 use super::{CutPath, JOINED};
 use crate::geometry::{Bounds, Point, Segment};
-use crate::program::path::{goes_back, lie_beside, tolerance};
+use crate::program::path::{lie_beside, tolerance, without_ways_back};
 
 /// The most blocks of a way in or out.
 const LEAD: usize = 2;
@@ -41,7 +41,7 @@ pub(super) fn passes(cuts: &[CutPath]) -> Option<(Vec<Ring>, usize)> {
         let mut runs: Vec<&[Segment]> = cuts.iter().flat_map(runs).collect();
         // Under the control a pass the other way has the same coordinates.
         if cuts.iter().all(|cut| cut.side.is_none()) {
-            runs = without_ways_back(&runs, near);
+            runs = without_ways_back(runs, near);
         }
         let all = 0..runs.len();
         let with_tabs = all.filter_map(|run| with_tab(&runs, run, begin, near));
@@ -89,25 +89,8 @@ impl Ring {
 
 /// The moves of a cut from stop to stop.
 fn runs(cut: &CutPath) -> impl Iterator<Item = &[Segment]> {
-    let ends = cut.stops.iter().copied().chain([cut.segments.len()]);
-    let mut from = 0;
-    ends.filter_map(move |end| {
-        let run = cut.segments.get(from..end);
-        from = end;
-        run
-    })
-}
-
-/// Without those that go back along the one before: the next pass goes the same way.
-fn without_ways_back<'a>(runs: &[&'a [Segment]], near: f64) -> Vec<&'a [Segment]> {
-    let mut kept: Vec<&[Segment]> = Vec::with_capacity(runs.len());
-    let mut before: Option<&[Segment]> = None;
-    for &run in runs {
-        let is_way_back = before.is_some_and(|before| goes_back(before, run, near));
-        before = (!is_way_back).then_some(run);
-        kept.extend(before);
-    }
-    kept
+    let runs = cut.runs(&cut.stops);
+    runs.filter_map(|run| cut.segments.get(run))
 }
 
 /// A cut that closes by itself, without a stop.

@@ -39,4 +39,4 @@ pub use trace::{Kind, Step, Trace};
 pub(crate) use way::Writing;
 pub(crate) use way::tolerance;
 pub(in crate::program) use way::{HeldWay, Node, Totals, Way};
-pub(crate) use way_back::goes_back;
+pub(crate) use way_back::without_ways_back;

@@ -2,10 +2,23 @@
 
 use crate::geometry::Segment;
 
+/// Runs without those that go back along the one before.
+pub(crate) fn without_ways_back<R: AsRef<[Segment]>>(runs: Vec<R>, near: f64) -> Vec<R> {
+    let mut kept: Vec<R> = Vec::with_capacity(runs.len());
+    let mut is_behind_way_back = false;
+    for run in runs {
+        let before = kept.last().filter(|_| !is_behind_way_back);
+        is_behind_way_back =
+            before.is_some_and(|before| goes_back(before.as_ref(), run.as_ref(), near));
+        kept.extend((!is_behind_way_back).then_some(run));
+    }
+    kept
+}
+
 /// Whether a run retraces the one before, block for block, within `near`, in the unit of both. Of two passes beside the
 /// same contour in opposite directions, each at its own correction, none does; under the control's correction, where
 /// both have the same coordinates, it says nothing.
-pub(crate) fn goes_back(before: &[Segment], run: &[Segment], near: f64) -> bool {
+fn goes_back(before: &[Segment], run: &[Segment], near: f64) -> bool {
     let is_back = |one: &Segment, other: &Segment| {
         let pairs = [
             (one.start(), other.end()),
@@ -44,5 +57,8 @@ mod tests {
         let beside = [line([14.0, 4.0], [10.0, 0.0]), back[1]];
         assert!(!goes_back(&there, &beside, 0.1), "the chord of the arc");
         assert!(!goes_back(&[], &[], 1e-6));
+        let runs = vec![&there[..], &back[..], &there[..], &beside[..]];
+        let kept = without_ways_back(runs, 1e-6);
+        assert_eq!(kept, [&there[..], &there[..], &beside[..]]);
     }
 }
