@@ -33,6 +33,8 @@ pub(crate) struct Part {
     pub(crate) is_other_side: bool,
     /// The drawing under the settings of the part, with the contours of that alone where it is drawn.
     pub(crate) snapshot: Snapshot,
+    /// The same drawing judged.
+    analysis: Analysis,
     /// The contours that the part is cut along, where that are not all.
     handles: Option<Vec<String>>,
 }
@@ -50,14 +52,20 @@ pub(crate) struct Cut {
     pub(crate) places: Vec<usize>,
 }
 
-/// True where the drawing is a pair of which everything is set, and any contour of drawn parts has a partner.
-fn is_pair(snapshot: &Snapshot) -> bool {
+/// The parts of a pair, or what is missing for that.
+fn partners(settings: &Effective) -> Result<Partners, Refusal> {
+    let fit = settings.fit();
+    let (partners, _) =
+        fit.map_err(|missing| Refusal::Sentence(say!(a_pair_needs, missing.listed())))?;
+    Ok(partners)
+}
+
+/// The same where the drawing is a pair of which everything is set, and any contour of drawn parts has a partner.
+fn partners_in(snapshot: &Snapshot) -> Option<Partners> {
     let settings = &snapshot.settings;
-    let has_partners = || match settings.partners() {
-        Some(Partners::Drawn) => !roles_of_partners(snapshot).is_empty(),
-        _ => true,
-    };
-    settings.fit().is_ok() && settings.pair_error().is_none() && has_partners()
+    let (partners, _) = settings.fit().ok()?;
+    let has_partners = || partners != Partners::Drawn || !roles_of_partners(snapshot).is_empty();
+    (settings.pair_error().is_none() && has_partners()).then_some(partners)
 }
 
 /// The paths of a drawing, part for part where it is a pair.
@@ -66,14 +74,14 @@ pub(crate) fn cuts(snapshot: &Snapshot, watch: &dyn Watch) -> Result<Vec<Cut>, R
     if settings.mills || settings.pair_error().is_some() {
         return Ok(vec![whole(snapshot, watch)?]);
     }
-    if let (Err(missing), true) = (settings.fit(), settings.pair.drawn_as.is_some()) {
-        return Err(Refusal::Sentence(say!(a_pair_needs, missing.listed())));
+    if settings.pair.drawn_as.is_some() {
+        partners(settings)?;
     }
-    if !is_pair(snapshot) {
+    let Some(partners) = partners_in(snapshot) else {
         return Ok(vec![whole(snapshot, watch)?]);
-    }
+    };
     let by_control = settings.compensation == Compensation::Controller;
-    let parts = parts(snapshot, by_control, false)?.into_iter();
+    let parts = parts(snapshot, partners, by_control, false)?.into_iter();
     let cut = |part: Part| {
         let own = part.snapshot.clone();
         let planned = planned(&own, &own.settings, part.handles.as_deref(), false, watch)?;
@@ -159,17 +167,15 @@ pub(crate) fn programs(
     if wanted.format == Format::Milling {
         return Err(Refusal::Sentence(say!(a_pair_is_not_milled).into()));
     }
-    if let Err(missing) = settings.fit() {
-        return Err(Refusal::Sentence(say!(a_pair_needs, missing.listed())));
-    }
+    let partners = partners(settings)?;
     if let Some(sentence) = settings.pair_error().or_else(|| settings.pass_error()) {
         return Err(Refusal::Sentence(sentence));
     }
     refuse_errors_of_all(findings, wanted)?;
     let by_control =
         settings.compensation == Compensation::Controller || wanted.format == Format::FourB;
-    let parts = parts(snapshot, by_control, wanted.force)?.into_iter();
-    let made = parts.map(|part| {
+    let parts = parts(snapshot, partners, by_control, wanted.force)?.into_iter();
+    let made = parts.map(|mut part| {
         let made = part.program(wanted, watch);
         (part, made)
     });
@@ -198,7 +204,7 @@ pub(super) fn alone(
     watch: &dyn Watch,
 ) -> Option<Result<Generated, Refusal>> {
     let settings = &snapshot.settings;
-    let (partners, _) = settings.fit().ok().filter(|_| is_pair(snapshot))?;
+    let partners = partners_in(snapshot)?;
     let chosen = match wanted.chosen(snapshot) {
         Ok(chosen) => chosen,
         Err(refusal) => return Some(Err(refusal)),
@@ -232,7 +238,7 @@ pub(super) fn alone(
             match names.as_slice() {
                 [] => None,
                 [name] => Some(refuse_errors_of_all(findings, wanted).and_then(|()| {
-                    let mut parts = parts(snapshot, false, wanted.force)?.into_iter();
+                    let mut parts = parts(snapshot, partners, false, wanted.force)?.into_iter();
                     let part = parts.find(|part| part.name == *name);
                     let none = || Refusal::Sentence(say!(no_path_can_be_made).into());
                     part.ok_or_else(none)?.program(wanted, watch)
@@ -244,11 +250,13 @@ pub(super) fn alone(
 }
 
 /// The parts of a pair of which everything is set; `by_control`: the control offsets them. `force`: also where no contour has a partner.
-fn parts(snapshot: &Snapshot, by_control: bool, force: bool) -> Result<Vec<Part>, Refusal> {
+fn parts(
+    snapshot: &Snapshot,
+    partners: Partners,
+    by_control: bool,
+    force: bool,
+) -> Result<Vec<Part>, Refusal> {
     let settings = &snapshot.settings;
-    let (partners, _) = settings
-        .fit()
-        .map_err(|missing| Refusal::Sentence(say!(a_pair_needs, missing.listed())))?;
     match partners {
         Partners::CutTwice(drawn_as) => {
             let part = |of: Use| {
@@ -330,9 +338,8 @@ impl Part {
         };
         settings.severities.insert(Rule::PassOrder, None);
         let settings = Arc::new(settings);
-        let outlines = Analysis::new(&drawing, settings.clone())
-            .outlines(&drawing)
-            .clone();
+        let analysis = Analysis::new(&drawing, settings.clone());
+        let outlines = analysis.outlines(&drawing).clone();
         Part {
             name: name.to_owned(),
             corrections,
@@ -342,16 +349,16 @@ impl Part {
                 drawing,
                 settings,
             },
+            analysis,
             handles: None,
         }
     }
 
-    fn program(&self, wanted: &Wanted, watch: &dyn Watch) -> Result<Generated, Refusal> {
+    fn program(&mut self, wanted: &Wanted, watch: &dyn Watch) -> Result<Generated, Refusal> {
         let Snapshot {
             drawing, settings, ..
         } = &self.snapshot;
-        let mut analysis = Analysis::new(drawing, settings.clone());
-        let (mut findings, _) = analysis.findings(drawing, usize::MAX);
+        let (mut findings, _) = self.analysis.findings(drawing, usize::MAX);
         // The fit decides whether the wire leaves too much in a tight arc.
         if settings.compensation == Compensation::Path {
             findings.retain(|finding| finding.rule != Rule::SmallRadius);
