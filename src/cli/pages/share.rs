@@ -154,7 +154,9 @@ impl Share {
             return String::new();
         }
         let mut passes: BTreeMap<(bool, usize), (f64, f64, usize)> = BTreeMap::new();
-        for (path, correction) in self.paths.iter().zip(&self.corrections) {
+        let paths = self.paths.iter().zip(&self.corrections);
+        // What goes back along what has been cut has no minutes either.
+        for (path, correction) in paths.filter(|(path, _)| !path.is_way_back) {
             let length: f64 = path
                 .segments
                 .iter()
