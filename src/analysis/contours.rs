@@ -7,7 +7,6 @@ use crate::drawing::{
     nesting_depths,
 };
 use crate::finding::{Aside, Side};
-use crate::fit;
 use crate::geometry::Bounds;
 use crate::settings::Effective;
 use std::collections::BTreeMap;
@@ -78,7 +77,7 @@ impl Analysis {
         }
         let mut parts: BTreeMap<u16, Vec<usize>> = BTreeMap::new();
         for (at, (contour, _)) in contours.iter().enumerate() {
-            let part = fit::workpiece_of(drawing, contour, &self.settings);
+            let part = self.settings.workpieces.of_contour(drawing, contour);
             parts.entry(part).or_default().push(at);
         }
         let mut depths = vec![0; contours.len()];

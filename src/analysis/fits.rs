@@ -416,7 +416,7 @@ impl Analysis {
         };
         match self.settings.fit() {
             Ok((Partners::CutTwice(_), _)) => wire_side.is_none(),
-            Ok((Partners::Drawn, _)) => fit::workpiece_of(drawing, contour, &self.settings) != 0,
+            Ok((Partners::Drawn, _)) => self.settings.workpieces.of_contour(drawing, contour) != 0,
             Err(_) => false,
         }
     }

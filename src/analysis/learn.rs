@@ -6,7 +6,6 @@ use super::known::Known;
 use super::notable::{Notability, Notable};
 use super::{Analysis, MANY};
 use crate::drawing::{ContourIndex, ContourKey, Drawing, EntityId, Piece, RUN, stated_role};
-use crate::fit;
 use crate::rules::{AtHand, CONTOUR_RULES, NEIGHBOURS, Outlook, units};
 use rayon::prelude::*;
 use rustc_hash::FxHashSet;
@@ -97,7 +96,7 @@ impl Analysis {
             let mut known = Known::new(
                 index,
                 stated,
-                fit::workpiece_of(drawing, contour, &self.settings),
+                self.settings.workpieces.of_contour(drawing, contour),
             );
             known.check(drawing, contour, &self.limits, &self.settings, all, at_hand);
             Some(Arc::new(known))

@@ -272,12 +272,7 @@ fn side_of(outline: &Outline, role: Role) -> Result<Side, Refusal> {
         .ok_or_else(|| Refusal::Sentence(say!(no_path_can_be_made).into()))
 }
 
-/// The workpiece of a contour: that of the layer of its first entity.
-pub(crate) fn workpiece_of(drawing: &Drawing, contour: &Contour, settings: &Effective) -> u16 {
-    settings.workpieces.of_contour(drawing, contour)
-}
-
 pub(crate) fn name_of(drawing: &Drawing, contour: &Contour, settings: &Effective) -> Arc<str> {
-    let number = workpiece_of(drawing, contour, settings);
+    let number = settings.workpieces.of_contour(drawing, contour);
     settings.workpieces.name(number).unwrap_or_default().into()
 }

@@ -1,7 +1,6 @@
 //! Which drawn contours are partners: one lies in the other, and both run beside each other everywhere.
 
 use super::change::Change;
-use super::workpiece_of;
 use crate::drawing::{Contour, Drawing, Outline};
 use crate::geometry::{Bounds, Segment};
 use crate::settings::Effective;
@@ -65,7 +64,7 @@ pub(crate) fn partners(
                 && outline.contour.double_of.is_none()
         })
         .filter_map(|(index, outline)| {
-            let workpiece = workpiece_of(drawing, &outline.contour, settings);
+            let workpiece = settings.workpieces.of_contour(drawing, &outline.contour);
             if workpiece == 0 {
                 return None;
             }
@@ -133,7 +132,7 @@ pub(crate) fn partners(
     }
     let is_drawn = |number: u16| {
         let mut contours = outlines.iter();
-        contours.any(|outline| workpiece_of(drawing, &outline.contour, settings) == number)
+        contours.any(|outline| settings.workpieces.of_contour(drawing, &outline.contour) == number)
     };
     let names = settings.workpieces.names().iter().zip(1..);
     let missing = names.filter(|(_, number)| !is_drawn(*number));
