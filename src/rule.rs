@@ -90,9 +90,9 @@ struct Row {
 rules! {
     SmallRadius "small-radius" Error an_arc_is_tighter_than_the_correction_the_wire_cannot_follow_it Drawing ThreeB FourB Iso;
     SharpCorner "sharp-corner" Warning a_corner_that_the_wire_leaves_rounded Drawing;
-    NarrowSlot "narrow-slot" Error a_slot_narrower_than_the_wire_s_way_through_it Drawing;
-    LostPocket "lost-pocket" Error the_offset_loses_a_part_of_the_outline Drawing;
-    OffsetCollapse "offset-collapse" Error nothing_is_left_of_the_outline_at_this_correction Drawing;
+    NarrowSlot "narrow-slot" Error a_slot_narrower_than_the_wire_s_way_through_it Drawing ThreeB FourB Iso;
+    LostPocket "lost-pocket" Error the_offset_loses_a_part_of_the_outline Drawing ThreeB FourB Iso;
+    OffsetCollapse "offset-collapse" Error nothing_is_left_of_the_outline_at_this_correction Drawing ThreeB FourB Iso;
     OpenContour "open-contour" Error a_contour_that_does_not_close Drawing;
     Gap "gap" Warning two_ends_that_belong_together_do_not_meet Drawing;
     DuplicateEntity "duplicate-entity" Warning two_entities_lie_in_the_same_place Drawing;

@@ -14,6 +14,8 @@ told! {
     Path { segments: usize, most: usize } => say!(the_correction_is_too_large_for_a_path, segments, most);
     /// Too much of a contour of this many blocks lies in one place: not all crossings were looked for.
     Crossings { blocks: usize } => say!(so_much_of_the_way_lies_on_one_place, blocks);
+    /// A contour of this many blocks is too long to look at all that the offset of the control loses of it.
+    Losses { blocks: usize } => say!(so_long_a_contour_is_not_searched_for_narrow_places, blocks);
     /// A reference to a block would draw this many copies and segments: `most` is the limit for all references of a
     /// file.
     Reference { copies: u64, segments: u64, most: u64 }

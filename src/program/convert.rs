@@ -15,7 +15,7 @@ use self::switches::Parted;
 use super::document::Document;
 use super::format::Format;
 use super::iso::{self, Offset};
-use super::path::{Follower, Kind, tolerance};
+use super::path::{Follower, Kind, MOST_BY_BULGE, tolerance};
 use super::three_b::StatedPoint;
 use crate::drawing::EntityId;
 use crate::finding::Side;
@@ -23,11 +23,8 @@ use crate::geometry::{Arc, Point, Segment, left_normal};
 use crate::settings::Effective;
 use crate::toolpath::{PathSegment, Source, WirePath};
 use rustc_hash::FxHashMap;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 use std::ops::Range;
-
-/// A bulge does not hold arcs well that turn by more than this, nearly full circles, rad.
-const MOST_BY_BULGE: f64 = TAU * 0.75;
 
 /// Ends are joined within this many times the tolerance of closing.
 const JOINED: f64 = 2.0;

@@ -200,6 +200,9 @@ impl FindingData {
         }
         self.start = Some(stand.start.into());
         self.end = stand.end.map(Into::into);
+        if let (Detail::LostPocket { near }, None) = (detail, self.handle.as_ref()) {
+            self.at = Some((stand.start + near.coords).into());
+        }
         let Detail::Program(fault) = detail else {
             return;
         };
@@ -285,6 +288,7 @@ fn left_out(what: &NotJudged) -> Option<usize> {
         | NotJudged::Path {
             segments: count, ..
         }
+        | NotJudged::Losses { blocks: count }
         | NotJudged::Crossings { blocks: count } => Some(count),
         NotJudged::Reference { copies, .. } => usize::try_from(copies).ok(),
         NotJudged::Curve { arcs, .. } => Some(arcs),

@@ -241,6 +241,7 @@ declare! {
     thousands_of_entities_lie_on_each_other(count) => "thousands of entities lie on or across each other: stretches of contours from here on that were not compared with what is near them: {count}";
     the_correction_is_so_large_beside_the_segments(contours) => "the correction is so large compared with the segments that what the offset loses was not looked for; contours left out from here on: {contours}";
     the_correction_is_too_large_for_a_path(segments, most) => "the correction is so large compared with the {segments} segments of this contour that no path is laid: on average more than {most} of them lie in a square of twice the correction; check the correction and the unit";
+    so_long_a_contour_is_not_searched_for_narrow_places(blocks) => "in a contour of {blocks} blocks, places that are too narrow for the offset of the control are not looked for; `wedm convert` makes a drawing of the program, in which they are found";
     so_much_of_the_way_lies_on_one_place(blocks) => "so much of the way of these {blocks} blocks lies in one place that crossings were not looked for in all of it";
     this_insert_draws_too_much(copies, segments, most) => "this INSERT draws {copies} copies, {segments} segments in all, more than the {most} that the references of a file may come to: nothing is drawn for it";
     this_curve_would_take_too_many_arcs(arcs, most) => "this curve would take {arcs} arcs, more than are left of the {most} that all curves of a drawing may take: it is not drawn";

@@ -1,8 +1,9 @@
 //! A program as a drawing: contours, the ways to them, and the ways between them on layers of their own.
 
-use super::{Cuts, MOST_BY_BULGE, rings};
-use crate::drawing::{Drawing, Entity, Geometry, Unit, Vertex};
+use super::{Cuts, rings};
+use crate::drawing::{Drawing, Entity, Geometry, Unit};
 use crate::geometry::{Point, Segment};
+use crate::program::path::polyline;
 
 /// Layers of a drawing made from a program.
 const CUT: &str = "CUT";
@@ -69,30 +70,4 @@ fn push_line(drawing: &mut Drawing, layer: &str, [start, end]: [Point; 2]) {
         end: end / 1e3,
     };
     drawing.push(Entity::new(layer, layer, geometry));
-}
-
-/// The segments as a polyline in mm; arcs near a full turn, which a bulge does not hold well, in two halves.
-fn polyline(segments: &[Segment], closed: bool) -> Option<Geometry> {
-    let last = segments.last()?;
-    let mut vertices = Vec::with_capacity(segments.len() + 1);
-    let mut push = |at: Point, bulge: f64| {
-        vertices.push(Vertex {
-            point: at / 1e3,
-            bulge,
-        })
-    };
-    for segment in segments {
-        match segment {
-            Segment::Arc(arc) if arc.sweep.abs() > MOST_BY_BULGE => {
-                let bulge = (arc.sweep / 8.0).tan();
-                push(arc.start, bulge);
-                push(arc.point_at(0.5), bulge);
-            }
-            segment => push(segment.start(), segment.bulge()),
-        }
-    }
-    if !closed {
-        push(last.end(), 0.0);
-    }
-    (vertices.len() >= 2).then_some(Geometry::Polyline { closed, vertices })
 }

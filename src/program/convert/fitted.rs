@@ -1,8 +1,7 @@
 //! The pieces of a step between the nodes of a cut: arcs whose centre is rounded are fitted to their ends.
 
-use super::MOST_BY_BULGE;
 use crate::geometry::{Arc, Point, Segment, Vector};
-use crate::program::path::Step;
+use crate::program::path::{MOST_BY_BULGE, Step};
 use std::f64::consts::PI;
 
 /// The distances of an arc's ends from its centre may differ by this much, µm: that is the rounding of its numbers. What

@@ -4,14 +4,14 @@
 use super::cut::{BytesAt, JoinedCut};
 use super::document::Document;
 use super::moves::{Move, Place, apart, micrometres};
-use super::part::Part;
+use super::part::{Part, WireSide};
 use super::stretch::Stretch;
 use crate::geometry::{Point, Segment};
 use crate::program::chunks::Reread;
 use crate::program::contours::{Contour, Followed, PartAt};
 use crate::program::path::{
-    self, BehindStops, Blocks, Ends, HasCuts, HeldWay, KnownTabs, Lay, Node, PartedWay, Way,
-    Writing, goes_on, mixed, pieces_of,
+    self, BehindStops, Blocks, ControlOffset, Ends, HasCuts, HeldWay, KnownTabs, Lay, Node,
+    PartedWay, Way, Writing, goes_on, mixed, pieces_of,
 };
 use std::borrow::Cow;
 use std::cell::OnceCell;
@@ -58,6 +58,18 @@ impl HasCuts for Document {
 
     fn is_doubtful(&self, cut: &JoinedCut) -> bool {
         !cut.sum.whole || cut.sum.faulty
+    }
+
+    /// With the correction of its first moves.
+    fn control_offset(&self, cut: &JoinedCut) -> Option<ControlOffset> {
+        let WireSide::One(side) = cut.sum.side else {
+            return None;
+        };
+        let [first, second] = &cut.sum.first;
+        Some(ControlOffset {
+            side,
+            correction: self.correction(second.offset.or(first.offset)),
+        })
     }
 }
 

@@ -155,6 +155,13 @@ impl Document {
         }
     }
 
+    /// The correction in a place of the control's table, µm: from the program's own table, else the settings.
+    pub(super) fn correction(&self, offset: Option<Offset>) -> f64 {
+        let stated = offset.and_then(|offset| self.table.get(&offset));
+        let of_settings = self.limits.correction * 1e3;
+        stated.map_or(of_settings, |&value| (value as f64 / 1e3).abs())
+    }
+
     /// Whether its words stand apart.
     pub(super) fn is_parted(&self) -> bool {
         *self.is_parted.get_or_init(|| is_parted(&self.text))

@@ -9,6 +9,7 @@ use super::behind_stops::KnownTabs;
 use super::crossing::{
     BESIDE, Crossing, MOST_PAIRS, Tangle, come_near, margin, most_looks, near_each_other,
 };
+use super::offset_losses::{ControlOffset, Loss, losses};
 use super::parted::{Blocks, Part, PartedWay, SLACK, micrometres};
 use super::passes::{Before, MOST_PASSES, passes};
 use super::way::Way;
@@ -47,17 +48,27 @@ impl Known {
         self.used = [0, 0];
     }
 
-    /// The crossings of a cut with this many parts, by its mark: its way is only asked for where nothing is known yet.
+    /// The crossings of a cut with this many parts, by its mark, and what the offset of the control loses of it: its way
+    /// is only asked for where nothing is known yet.
     pub(crate) fn crossings<'a>(
         &mut self,
         mark: u64,
+        offset: Option<ControlOffset>,
         parts: usize,
         way: impl FnOnce() -> PartedWay<'a>,
     ) -> Arc<Found> {
+        let mark = offset.map_or(mark, |offset| offset.mixed_into(mark));
         let found = match self.found.get(&mark) {
             Some(found) => found.clone(),
             None => {
-                let found = Arc::new(self.search(&way()));
+                let way = way();
+                let mut found = self.search(&way);
+                if let Some(offset) = offset.filter(|_| found.is_clean()) {
+                    let losses = losses(&way, offset);
+                    found.is_too_long = losses.is_none();
+                    found.losses = losses.unwrap_or_default();
+                }
+                let found = Arc::new(found);
                 self.found.insert(mark, found.clone());
                 found
             }
@@ -108,7 +119,7 @@ impl Known {
         Found {
             crossings: all,
             is_crowded,
-            pairs: 0,
+            ..Found::default()
         }
     }
 
@@ -173,16 +184,25 @@ pub(crate) struct Found {
     pub(crate) crossings: Vec<Crossing>,
     /// Too much lies on one place to look at all of it.
     pub(crate) is_crowded: bool,
+    /// What the offset of the control loses of it.
+    pub(super) losses: Vec<Loss>,
+    /// It has too many blocks to look for that.
+    is_too_long: bool,
     /// Pairs of parts that were compared.
     pairs: usize,
 }
 
 impl Found {
     pub(crate) fn is_clean(&self) -> bool {
-        self.crossings.is_empty() && !self.is_crowded
+        !self.crosses() && self.losses.is_empty() && !self.is_too_long
     }
 
-    /// The crossings to report of a way, whose last block stands at some bytes of the text.
+    /// It crosses itself, as far as is known.
+    pub(crate) fn crosses(&self) -> bool {
+        !self.crossings.is_empty() || self.is_crowded
+    }
+
+    /// The crossings and losses to report of a way, whose last block stands at some bytes of the text.
     pub(crate) fn findings(
         &self,
         way: &PartedWay<'_>,
@@ -209,10 +229,26 @@ impl Found {
                 ..Finding::of(fault, own)
             });
         }
-        if let Some(range) = last.filter(|_| self.is_crowded) {
-            let what = NotJudged::Crossings {
-                blocks: way.count(),
+        for loss in &self.losses {
+            let Some(own) = way.range(loss.block) else {
+                continue;
             };
+            let other = loss.other.and_then(|other| way.range(other));
+            findings.push(Finding {
+                related: other
+                    .map(|range| Place::Text { range })
+                    .into_iter()
+                    .collect(),
+                ..Finding::in_text(loss.rule, own, loss.detail.clone()).with(loss.severity)
+            });
+        }
+        let blocks = way.count();
+        let left_out = [
+            (self.is_crowded, NotJudged::Crossings { blocks }),
+            (self.is_too_long, NotJudged::Losses { blocks }),
+        ];
+        for (_, what) in left_out.into_iter().filter(|(is_it, _)| *is_it) {
+            let Some(range) = last.clone() else { break };
             let finding = Finding::in_text(Rule::NotJudged, range, Detail::NotJudged(what));
             findings.push(finding.with(Severity::Information));
         }
@@ -354,9 +390,9 @@ fn search(way: &PartedWay<'_>, known: &mut Known) -> Found {
     }
     if near.is_empty() {
         return Found {
-            crossings: Vec::new(),
             is_crowded,
             pairs: gone,
+            ..Found::default()
         };
     }
     let (found, is_all) = Tangle {
@@ -372,6 +408,7 @@ fn search(way: &PartedWay<'_>, known: &mut Known) -> Found {
         crossings: found,
         is_crowded: is_crowded || !is_all,
         pairs: gone,
+        ..Found::default()
     }
 }
 

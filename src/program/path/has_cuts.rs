@@ -3,6 +3,7 @@
 use super::contour::{Ends, closing, goes_round, not_closed};
 use super::crossings::{Found, Known};
 use super::lay::Lay;
+use super::offset_losses::ControlOffset;
 use super::parted::PartedWay;
 use crate::finding::{Finding, Severity};
 use crate::text::SourceText;
@@ -46,6 +47,9 @@ pub(crate) trait HasCuts {
     /// It has a fault, so the way after it is not the intended one; or it cuts nothing.
     fn is_doubtful(&self, cut: &Self::Cut) -> bool;
 
+    /// The offset that the control makes of a cut; `None` where it runs as it is written, or nothing is known of it.
+    fn control_offset(&self, cut: &Self::Cut) -> Option<ControlOffset>;
+
     fn is_closed(&self, cut: &Self::Cut) -> bool {
         let by_way = || closing(&self.way(cut)).is_some_and(|closing| closing.closed);
         self.ends(cut).close() || self.only_lay(cut).map_or_else(by_way, |lay| lay.closes)
@@ -68,7 +72,7 @@ pub(crate) trait HasCuts {
         })
     }
 
-    /// What is said of a cut that crosses itself in these places.
+    /// What is said of a cut that crosses itself in these places, or of which an offset loses these.
     fn crosses_itself(&self, cut: &Self::Cut, found: &Found, text: &SourceText) -> Vec<Finding> {
         found.findings(&self.way(cut), self.last_block(cut), text)
     }
@@ -78,11 +82,17 @@ pub(crate) trait HasCuts {
         self.ends(cut).blocks <= FRAGMENT
     }
 
-    /// Where a cut crosses itself, as is known or found; `None` for one that does not, by its parts, or that is doubtful.
+    /// Where a cut crosses itself, and what the control's offset loses of it, as is known or found; `None` for one that
+    /// does not cross itself, by its parts, or that is doubtful.
     fn crossings(&self, known: &mut Known, cut: &Self::Cut) -> Option<Arc<Found>> {
         let is_short = self.ends(cut).blocks < FEWEST_CROSSING;
         let crosses_nothing = || self.only_lay(cut).is_some_and(|lay| !lay.may_cross());
-        let is_asked = !is_short && !self.is_doubtful(cut) && !crosses_nothing();
-        is_asked.then(|| known.crossings(self.mark(cut), self.part_count(cut), || self.way(cut)))
+        if is_short || self.is_doubtful(cut) {
+            return None;
+        }
+        let offset = self.control_offset(cut);
+        let is_asked = offset.is_some() || !crosses_nothing();
+        let way = || self.way(cut);
+        is_asked.then(|| known.crossings(self.mark(cut), offset, self.part_count(cut), way))
     }
 }

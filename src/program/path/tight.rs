@@ -1,7 +1,7 @@
 //! Arcs of a part's contour that the wire cannot follow at its distance: `small-radius` in programs.
 
 /// Radii within half a µm of the correction are as large as it: programs count in µm.
-const ROUNDING: f64 = 0.5;
+pub(super) const ROUNDING: f64 = 0.5;
 
 /// Lengths of programs in those that people read.
 pub(crate) const UM_IN_MM: f64 = 1000.0;

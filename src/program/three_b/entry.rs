@@ -5,6 +5,7 @@ use super::block::{self, Block, CountingAxis, Motion, PartArc};
 use super::decode::meant;
 use super::machine::travel;
 use super::words::Word;
+use crate::finding::Side;
 use crate::geometry::Point;
 use crate::program::path::Node;
 use std::ops::Range;
@@ -119,6 +120,17 @@ impl BlockEntry {
     /// The additional part of a 4B block.
     pub(crate) fn part(&self) -> Option<PartArc> {
         self.extra.as_ref().and_then(|extra| extra.part)
+    }
+
+    /// The side of travel on which the wire runs, as an arc of 4B says it.
+    pub(crate) fn side_of_wire(&self) -> Option<Side> {
+        let turns_left = match self.motion {
+            Motion::Line(_) => return None,
+            Motion::Clockwise(_) => false,
+            Motion::CounterClockwise(_) => true,
+        };
+        let is_left = self.part()?.concave == turns_left;
+        Some(if is_left { Side::Left } else { Side::Right })
     }
 
     pub(crate) fn stated_end(&self) -> Option<StatedPoint> {

@@ -1,6 +1,6 @@
 //! Arcs that the wire cannot follow at its distance, upright or leaning.
 
-use super::super::block::{Motion, Offset};
+use super::super::block::Motion;
 use super::super::cut::JoinedCut;
 use super::super::moves::Course;
 use super::super::part::Tight;
@@ -66,7 +66,7 @@ impl Report<'_> {
                     _ => side_of_center,
                 },
             };
-            let required = self.correction(step.offset);
+            let required = self.document.correction(step.offset);
             if wire_side == side_of_center
                 && is_tight(*radius, required)
                 && let Course::Arc(arc) = step.course(self.reading)
@@ -121,7 +121,7 @@ impl Report<'_> {
                 is_inside,
                 ..
             } = *arc;
-            let correction = self.correction(arc.offset);
+            let correction = self.document.correction(arc.offset);
             let least = arc.least(correction);
             // That it is below the correction has its own finding.
             if !is_tight(radius, least) || is_inside && is_tight(radius, correction) {
@@ -162,13 +162,5 @@ impl Report<'_> {
             .values()
             .map(|&value| (value as f64 / 1e3).abs());
         stated.fold(self.limits.correction * 1e3, f64::max)
-    }
-
-    /// The correction in a place of the control's table, µm: from the program's own table, else the settings.
-    fn correction(&self, offset: Option<Offset>) -> f64 {
-        let stated = offset.and_then(|offset| self.definitions.get(&offset));
-        stated.map_or(self.limits.correction * 1e3, |&value| {
-            (value as f64 / 1e3).abs()
-        })
     }
 }

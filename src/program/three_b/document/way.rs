@@ -3,8 +3,13 @@
 use super::super::decode::meant;
 use super::super::entry::{BlockEntry, Entry, Move, travel_of};
 use super::{At, Document, JoinedCut};
+use crate::finding::Side;
 use crate::geometry::{Point, Segment};
-use crate::program::path::{Blocks, Ends, HasCuts, Lay, Node, Part, PartedWay, Writing, mixed};
+use crate::program::path::{
+    Blocks, ControlOffset, Ends, HasCuts, Lay, MOST_BLOCKS, Node, Part, PartedWay, UM_IN_MM,
+    Writing, mixed,
+};
+use crate::settings::SideSetting;
 use std::borrow::Cow;
 use std::ops::Range;
 
@@ -94,6 +99,27 @@ impl HasCuts for Document {
 
     fn is_doubtful(&self, cut: &JoinedCut) -> bool {
         cut.is_jump || cut.sum.errors > 0
+    }
+
+    /// In 4B its first arc says on which side the wire runs, in 3B that holds the part's contour the settings do.
+    fn control_offset(&self, cut: &JoinedCut) -> Option<ControlOffset> {
+        let entries = self.entries_of(cut).take(MOST_BLOCKS);
+        let blocks = entries.filter_map(|at| self.entry(at)?.block());
+        let mut sides = blocks.filter_map(BlockEntry::side_of_wire);
+        let by_settings = || {
+            let is_opening = match self.limits.side {
+                SideSetting::Opening => true,
+                SideSetting::Punch => false,
+                _ => return None,
+            };
+            let is_left = (cut.sum.twice_area > 0.0) == is_opening;
+            let side = if is_left { Side::Left } else { Side::Right };
+            self.limits.holds_part.then_some(side)
+        };
+        Some(ControlOffset {
+            side: sides.next().or_else(by_settings)?,
+            correction: self.limits.correction * UM_IN_MM,
+        })
     }
 }
 
