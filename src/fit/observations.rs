@@ -27,7 +27,7 @@ pub(super) struct Verdict {
     /// On the edge.
     pub at: Point,
     pub clearance: f64,
-    /// The edge of the other part there, and the place that is told of it.
+    /// The edge of the other part there, and the place on it that is reported.
     pub other: u32,
     pub(crate) at_other: Point,
     pub lies: Lies,

@@ -45,7 +45,7 @@ impl<'a> Nest<'a> {
         Nest { before, first }
     }
 
-    /// What of a piece reaches beyond the piece of the earlier path beside the same wall. `None` where there is none, or that is not known.
+    /// The part of a piece that reaches beyond the piece of the earlier path beside the same wall. `None` where there is none, or it is not known.
     pub(crate) fn beyond(
         &self,
         beside: BesideWall,
