@@ -283,7 +283,7 @@ pub fn generate(
     written(snapshot, findings, wanted, watch)
 }
 
-/// A program that only threads the wire is none; of the findings of the drawing, those that say why.
+/// The refusal of a program that only threads the wire, with those findings of the drawing that say why.
 fn cuts_nothing(mut findings: Vec<Finding>) -> Refusal {
     findings.retain(|one| matches!(one.detail, Detail::OffsetCollapse { point: true, .. }));
     match findings.is_empty() {
@@ -313,7 +313,7 @@ fn written(
     let entities = entities_of(drawing, outlines, settings, chosen.as_deref());
     findings.retain(|finding| finding.concerns(entities.as_ref()));
     if chosen.is_some() {
-        // What stands against all contours at once may not stand against these; else the path says it.
+        // A fault of all contours at once need not concern the chosen ones; if it does, their path says so.
         let of_all = toolpath::stated_faults(drawing, outlines, settings);
         let is_of_all = |found: &Finding| {
             found.place == Place::Document && of_all.iter().any(|one| one.detail == found.detail)

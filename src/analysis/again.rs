@@ -1,5 +1,10 @@
 //! Runs that are looked at again after the limit was reached: whether a look at everything would
 //! still end where it did.
+//!
+//! Where not all of a drawing can be compared, an edit has all of it looked at again, in machining
+//! order, so that the same is left out as for a fresh reading. An edit after which that look would
+//! end where it did before needs none: one beyond the end, or one before it that adds as much work
+//! as it takes away.
 
 use super::compare::RunId;
 use rustc_hash::FxHashSet;

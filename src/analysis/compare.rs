@@ -12,12 +12,12 @@ use std::rc::Rc;
 /// A run of segments of one contour.
 pub(crate) type RunId = (ContourKey, u32);
 
-/// A pair in one order, whichever comes first: of two runs, the key of what is seen between them.
+/// A pair in a fixed order, whichever of the two is given first: of two runs, the key of what is seen between them.
 pub(super) fn ordered<T: Ord + Copy>(one: T, other: T) -> (T, T) {
     (one.min(other), one.max(other))
 }
 
-/// A segment by its contour and its index in there.
+/// A segment by its contour and its index in it.
 pub(crate) type SegmentId = (ContourKey, usize);
 
 /// A contour's outlook by key.
@@ -65,7 +65,7 @@ impl Observed {
     }
 }
 
-/// The index of a segment, where those from `first` on have others.
+/// The new index of a segment, where those from `first` on have changed.
 pub(super) fn shifted(index: usize, first: usize, by: isize) -> usize {
     match index < first {
         true => index,
@@ -73,7 +73,7 @@ pub(super) fn shifted(index: usize, first: usize, by: isize) -> usize {
     }
 }
 
-/// The cost of the rules for two segments that come near each other, in looks.
+/// What the rules on two segments that come near each other cost, in looks.
 pub(crate) const LOOKS_OF_A_PAIR: u64 = 16;
 
 /// The number of segments of a run that share a box.

@@ -26,12 +26,12 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, OnceLock};
 
-/// Two ends always belong together within this many join tolerances (1 mm), unless the other one is a lone line.
+/// Two ends within this many join tolerances (1 mm) always belong together, unless the other one is that of a lone line.
 const JOINS: f64 = 100.0;
 /// Lines up to this sine of their angle count as parallel: hatches, and the pieces of a broken line.
 const PARALLEL: f64 = 0.01;
 
-/// From this many questions on several threads are worth while; from this share of all lines on, an index of what they
+/// From this many questions on, several threads are worth while; from this share of all lines on, an index of what they
 /// face.
 const MANY: usize = 16;
 const FEW_OF_ALL: usize = 32;
@@ -72,7 +72,7 @@ impl Analysis {
             || own_role(drawing, settings, piece.entity).is_some()
             || linetype.is_some_and(|it| role_of_linetype(settings, &it.name).is_some())
             || (settings.layers.contains(&entity.layer) && is_for_reading())
-            // Whoever says a side of the direction speaks of open contours.
+            // `left` and `right` are said of open contours.
             || matches!(role_of(drawing, settings, piece.entity), Some(Role::Left | Role::Right | Role::Both));
         let join = self.limits.tolerances.join;
         let length = line.length();
@@ -370,7 +370,7 @@ impl Analysis {
             for segment in contour.segments_in(drawing, range) {
                 let met = meetings(&own, &segment.geometry);
                 cuts.extend(met.into_iter().map(|point| line.share_of(point)));
-                // Where they coincide they do not meet.
+                // Where they coincide, `meetings` finds no point.
                 cuts.extend(
                     [segment.geometry.start(), segment.geometry.end()]
                         .into_iter()

@@ -12,9 +12,9 @@ use std::ops::Range;
 
 /// Runs whose segments are at hand at once.
 const AT_ONCE: usize = 256;
-/// Between runs farther apart than this, as the first and the last of a contour, segments are not at hand.
+/// Where runs are farther apart than this, as the first and the last of a contour, the segments between them are not at hand.
 const NEAR: usize = 4;
-/// Segments at hand before and after them; others are worked out when a rule asks for them.
+/// Segments at hand before and after the runs; others are worked out when a rule asks for them.
 const ABOUT: usize = 32;
 
 #[derive(Clone, Debug)]
@@ -146,7 +146,7 @@ impl Known {
         }
     }
 
-    /// The segments of the runs from `behind` on have indices that are larger by so many.
+    /// Records that the segments of the runs from `behind` on have indices larger by so many.
     pub(crate) fn shift(&mut self, behind: usize, by: isize) {
         let of_runs = self.by_rule.iter_mut();
         let later = of_runs.flat_map(|seen| seen.observations.iter_mut().skip(behind));
@@ -326,7 +326,7 @@ pub(crate) struct Answer {
 }
 
 impl Answer {
-    /// True for an answer to just this question, or that there is none within the looks that are `left`.
+    /// True for an answer to just this question, or where it is known that the looks `left` do not suffice for one.
     pub(crate) fn answers(&self, asked: (Side, bool), left: u64) -> bool {
         self.asked == asked && (self.checked.lost.is_some() || self.checked.looks > left)
     }

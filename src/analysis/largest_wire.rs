@@ -1,7 +1,7 @@
 //! The thickest wire that a drawing lets through: what its smallest arc and its narrowest place leave.
 //!
-//! Narrow places are those of `narrow-slot` under a larger correction. It is raised step by step, so that a neck is found before much is
-//! compared; what is as far apart as the smallest arc is wide does not matter any more.
+//! Narrow places are those of `narrow-slot` under a larger correction. This is raised step by step, so that a neck is found before much is
+//! compared; walls as far apart as the smallest arc is wide do not matter any more.
 
 use super::Analysis;
 use crate::drawing::{ContourKey, Drawing, Outline, Role, wire_side};
@@ -59,7 +59,7 @@ pub fn largest_wire(
     let farthest = uses.iter().map(|of| of.farther);
     let farthest = farthest.fold(f64::NEG_INFINITY, f64::max);
     let gap = toolpath::last_gap(settings).unwrap_or(0.0);
-    // Of the thickest wire with its gap.
+    // The correction of the thickest wire with its gap.
     let half = of_arcs.diameter / 2.0 + gap + farthest.max(0.0);
     // Where the wire runs on the contour's other side, its correction is no beginning.
     let mut correction = settings.correction.max(half * LEAST_SHARE);
@@ -87,7 +87,7 @@ pub fn largest_wire(
 
 /// One of the parts that are cut along the contours of a drawing.
 struct PartCut {
-    /// What a contour is in it that several parts are cut along.
+    /// The role that a contour has in it where several parts are cut along the contour.
     role: Option<Role>,
     /// How much farther from the contour than half its kerf the wire runs, mm.
     farther: f64,
@@ -111,7 +111,7 @@ fn uses(settings: &Effective) -> Vec<PartCut> {
     settings.uses().into_iter().map(part).collect()
 }
 
-/// What comes of the comparison was left out for its length.
+/// True where the comparison was left out because it would take too long.
 struct NotCompared;
 
 /// What the narrowest place below twice the correction lets through, if there is one.

@@ -82,8 +82,8 @@ pub struct Analysis {
     stated: usize,
     /// Lines that stand alone, and which of them are not cut: nothing else is kept of those.
     lone: LoneLines,
-    /// Once the neighbours of a single line have been asked for: the reaches of such lines, and the boxes of known
-    /// contours of several runs.
+    /// The reaches of single lines, and the boxes of known contours of several runs; there once the neighbours of a
+    /// single line have been asked for.
     vicinity: Option<Grid<ContourKey>>,
     /// Entities that are not cut because of their linetype or layer.
     aside: AsideEntities,
@@ -269,7 +269,7 @@ impl Analysis {
             contours::part_of(drawing, &settings, id)
         });
         // Thousands of contours with ends in one place are one group, and lie on each other:
-        // forgetting each of them costs a look at all.
+        // to forget each of them costs a look at all of them.
         let gone = rechained.gone.len();
         if gone > MANY && gone * 4 > self.known.len() {
             *self = Analysis::new(drawing, settings);

@@ -1,4 +1,4 @@
-//! The segments of contours that may belong to a pair, to ask what is near, and which of these contours run beside each other.
+//! The segments of contours that may belong to a pair, by place, and which of these contours run beside each other.
 
 use super::Analysis;
 use super::edited::Edited;

@@ -26,7 +26,7 @@ impl Analysis {
         if !of_rules || sides.iter().all(Option::is_none) {
             return;
         }
-        // Where the rules that find them are off, a neck is assumed, and a crossing is not.
+        // Where the rules that would find these are off, a neck is assumed and a crossing is not.
         let necks_are_told = is_on(Rule::NarrowSlot);
         let lengths = ordered.iter().filter_map(|&key| self.chains.get(key));
         let segments: usize = lengths.map(|contour| contour.len()).sum();

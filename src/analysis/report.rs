@@ -29,7 +29,7 @@ pub(crate) struct Tally {
 /// Rules that may find more when a contour becomes cleaner: corners that were hidden by a short segment or a gap.
 const CORNERS: [Rule; 3] = [Rule::SharpCorner, Rule::NearTangent, Rule::ArcAsChords];
 
-/// Rules that say nothing beside a tight arc.
+/// Rules that are silent beside a tight arc.
 const SLOTS: [Rule; 2] = [Rule::NarrowSlot, Rule::OffsetCollapse];
 
 /// What a line that closes a contour may run into.

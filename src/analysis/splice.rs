@@ -1,4 +1,4 @@
-//! Segments come into a long contour or leave it: what is known of those behind them stays, under other indices.
+//! Segments come into a long contour or leave it: what is known of those after them stays, under other indices.
 
 use super::Analysis;
 use super::compare::{RunId, ordered};
@@ -10,13 +10,13 @@ use rustc_hash::FxHashSet;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// From this many runs on a contour is not looked at anew because segments come or go.
+/// A contour of this many runs or more is not looked at from scratch because segments come or go.
 const LONG: usize = 4;
 
 impl Analysis {
-    /// Takes up that some vertices of an entity that is a long contour by itself have become more or fewer: what is known
-    /// of the segments behind them stays, under other indices. Returns the vertices that are to be looked at, as a splice
-    /// that keeps the count; `None` where all behind it is to be looked at. The runs about the splice are `forgotten`.
+    /// Follows an edit that adds or removes vertices of an entity that is a long contour by itself: what is known of the
+    /// segments after them stays, under other indices. Returns the vertices that are to be looked at, as a splice that
+    /// keeps the count; `None` where everything after it is to be looked at. The runs about the splice are `forgotten`.
     pub(super) fn splice(
         &mut self,
         drawing: &Drawing,

@@ -62,8 +62,8 @@ impl Told {
         LIKE * unlike >= all
     }
 
-    /// All is to the last digit as expected but for one block, which differs, is lost or stands twice: whatever else that
-    /// may come to, other settings change more.
+    /// Everything is as expected to the last digit except one block, which differs, is lost or is repeated: other settings
+    /// would change more than that.
     pub(crate) fn is_one_change(&self) -> bool {
         let all = &self.comparison.differences;
         self.is_exact()
@@ -73,7 +73,7 @@ impl Told {
     }
 
     /// Several moved ways in and out come from another setting, whether or not they are one change, and so does one
-    /// that is moved by so many mm that it is none of `is_slip`; any other was changed by somebody.
+    /// that is moved by so many mm that `is_slip` does not hold; any other was changed by somebody.
     pub(crate) fn without_leads(mut self, is_slip: impl Fn(f64) -> bool) -> Told {
         let is_lead = |one: &Difference| one.kind == Kind::Lead;
         let all = &mut self.comparison.differences;
@@ -85,9 +85,9 @@ impl Told {
         self
     }
 
-    /// The evidence against it; the least evidence sorts first.
+    /// The evidence against the verdict; the least evidence sorts first.
     pub(crate) fn doubt(&self) -> (bool, usize, bool, usize, u64) {
-        // Nothing but a contour out of place is one by itself.
+        // A contour that is out of place does not count here.
         let all = self.comparison.differences.iter();
         let off = all.filter(|one| one.kind != Kind::Moved).map(|one| one.off);
         let off = (off.sum::<f64>() * 1e3).round() as u64;
@@ -120,7 +120,7 @@ impl Told {
     }
 }
 
-/// The changes in a program that is ours under these settings; `None` where it is not ours.
+/// The changes in a program that we would write under these settings; `None` where we would not.
 pub(super) fn against_reference(drawn: &Drawn, traced: &Traced, under: &Under) -> Option<Told> {
     let reference = &*drawn.reference(traced, under)?;
     let pairs = Pairs::of(traced, reference)?;
@@ -141,7 +141,7 @@ pub(super) fn against_reference(drawn: &Drawn, traced: &Traced, under: &Under) -
             .as_ref()
             .is_some_and(|told| traced.counts && told.elsewhere > 0 || told.has_moved());
         let enough = if is_moved { 0 } else { enough };
-        // Placed as it says, it has changes of blocks: laid elsewhere, a few micrometres would hide in its datum.
+        // Where the program says where it lies, blocks are compared there: placed elsewhere, a few micrometres would hide in its datum.
         let is_slight = |told: &Told| as_drawn.is_some() && all(told, |one| one.off * 1e3 <= SLIP);
         if many(&best) <= enough || nth == 2 && best.as_ref().is_some_and(is_slight) {
             break;
@@ -229,8 +229,8 @@ impl Pairs<'_> {
         let (mut elsewhere, mut ways, mut unlike, mut strays) = (0, 0, 0, false);
         let is_located = LazyCell::new(|| self.has_placed_contour(from));
         let mut displaced = displaced.into_iter().peekable();
-        // Of the last that is named: its number, whether the program is elsewhere since, and whether it is a way to another
-        // hole.
+        // The last named block: its number, whether the program has been elsewhere since, and whether the block is a way to
+        // another hole.
         let mut run: Option<(usize, bool, bool)> = None;
         for (number, (pair, (off, is_behind))) in self.pairs.iter().zip(&all).enumerate() {
             let (own, meant, words) = (pair.own, pair.meant, pair.words);
@@ -273,12 +273,12 @@ impl Pairs<'_> {
                 number - last <= FEW && is_elsewhere
                     || last + 1 == number && self.are_exchanged(last)
             });
-            // What moves a way by more, or by less, than what lies after it is another hole, and no change of a contour.
+            // Where a way is moved by more or by less than what lies after it, the hole is another one and no contour has changed.
             let is_aside = !is_of_contour && !self.moves_on(number, from, *off);
             run = Some((number, !self.is_placed(number, from), is_aside));
             // A move and its return are one change, and so are two exchanged blocks.
             if goes_on && self.comes_back(number, from) {
-                // Of a vertex elsewhere it is not the neighbour that is hardly longer.
+                // Where a vertex is elsewhere, the neighbour that is hardly longer is not the one.
                 if let Some(last) = found.last_mut()
                     && last.kind == Kind::Block
                     && is_of_contour

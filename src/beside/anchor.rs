@@ -16,7 +16,7 @@ const FIRST: usize = 12;
 const PLACES: usize = 32;
 /// A place farther away than this is not caused by a wrong block, µm.
 const FAR: f64 = 1e4;
-/// A place that this many consecutive blocks follow is the right one.
+/// A place from which this many consecutive blocks follow the drawing is the right one.
 const SURE: usize = 40;
 
 /// The place of the program, from the blocks of its cuts; `None` where nothing of it matches the drawing.
@@ -119,7 +119,7 @@ fn found_by(traced: &Traced, rounds: &Rounds, walk: &Walk, tried: &[usize]) -> O
     Some(refined(traced, rounds, found, index))
 }
 
-/// The shift by the nodes of a run: they lie on the grid of the program, and are those of the drawing rounded.
+/// The shift by the nodes of a run: they are the nodes of the drawing, rounded to the grid of the program.
 fn refined(traced: &Traced, rounds: &Rounds, found: Found, index: usize) -> Placement {
     let (mut placement, mut spot) = (found.placement, found.spot);
     let mut low = Vector::new(f64::INFINITY, f64::INFINITY);

@@ -1,4 +1,4 @@
-//! The parts of each round that a program cuts run by run, and whether nothing is left between.
+//! Which parts of each round a program cuts, run by run, and whether anything is left between them.
 
 use super::COVERED;
 use super::rounds::Rounds;
@@ -8,8 +8,8 @@ use std::ops::Range;
 /// The largest share of a round that may be cut twice where consecutive stretches overlap.
 const TWICE: f64 = 0.35;
 
-/// The largest share of a round that is cut from stop to stop beside the longest run: without a stop no piece of a
-/// contour is left for later.
+/// The largest share of a round that may be cut from stop to stop apart from the longest run: without a stop, no piece of
+/// a contour is left for later.
 const BESIDE: f64 = 0.1;
 
 /// What has been cut, from stop to stop.
@@ -88,7 +88,7 @@ impl Coverage {
     }
 }
 
-/// Whether runs of a round leave nothing of it, and cut hardly anything more often than the rest.
+/// Whether the runs of a round leave nothing of it uncut, and cut hardly anything more often than the rest of it.
 fn is_tiled(runs: &[Cut], length: f64) -> bool {
     let parts: Vec<Range<f64>> = runs.iter().flat_map(|run| run.parts.clone()).collect();
     let mut counts = counts(&parts, length);

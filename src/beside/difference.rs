@@ -1,4 +1,4 @@
-//! What is told of a program beside its drawing.
+//! A difference between a program and its drawing, as it is reported.
 
 use super::traced::Block;
 use super::walk::Kind;

@@ -1,4 +1,4 @@
-//! Contours of a program that lie elsewhere than the others: all have one datum.
+//! Contours of a program that lie elsewhere than the others, although all should have one datum.
 
 use super::pairs::{Pair, Pairs};
 use super::traced::{Block, Motion};
@@ -6,25 +6,26 @@ use crate::drawing::EntityId;
 use crate::geometry::Vector;
 use std::ops::Range;
 
-/// Places of one contour are moved alike within this, µm.
+/// The places of one contour count as moved alike within this, µm.
 const ALIKE: f64 = 4.0;
-/// The most ways of being moved that are told apart.
+/// The most displacements that are kept apart.
 const GROUPS: usize = 32;
 
 /// A contour that is moved as a whole.
 pub(super) struct Displaced {
-    /// Numbers of the pairs that lead there.
+    /// Numbers of the pairs that lead to it.
     pub ways: Range<usize>,
-    /// The one that leads astray; the first of the contour where none of them does.
+    /// The pair among them that goes wrong; the first one of the contour where none of them does.
     pub way: usize,
     /// The segment of the drawing where it begins.
     pub segment: Option<(EntityId, usize)>,
-    /// Numbers of its own pairs, with the way out, and their distance from where the drawing has them; and how much of that it has not in
-    /// common with the others, µm.
+    /// Numbers of its own pairs, with the way out.
+    ///
+    /// `by` is their distance from where the drawing has them, `off` how much of it the others do not have, µm.
     pub contour: Range<usize>,
     pub by: Vector,
     pub off: f64,
-    /// It lies beside the contour before it as it should.
+    /// It lies as it should relative to the contour before it.
     pub is_behind_one: bool,
 }
 
@@ -107,7 +108,7 @@ impl Pairs<'_> {
     }
 }
 
-/// Of these vectors the first of those that are alike more often than any others.
+/// The vector that occurs most often among these, the first one of equals.
 fn shared_by_most(all: &[Vector]) -> Option<Vector> {
     let mut groups: Vec<(Vector, usize)> = Vec::new();
     for by in all {

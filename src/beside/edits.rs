@@ -27,7 +27,7 @@ pub(super) struct Edit {
     /// Its number, or that of the block before which one is lost.
     pub index: usize,
     pub source: Option<(EntityId, usize)>,
-    /// By how much what lies behind moves, where it is counted from there.
+    /// By how much everything after it moves, where that is counted from there.
     pub by: Vector,
     /// How far the block is off, µm.
     pub off: f64,

@@ -203,8 +203,8 @@ fn ways(drawn: &Drawn, traced: &Traced) -> Vec<Vec<Course>> {
     all
 }
 
-/// Whether a block of a pass, while the control offsets it, follows nothing and is no way in or out: it stands between
-/// others that follow, or is one of too many before or behind them.
+/// Whether a block of a pass that the control offsets follows nothing and is no way in or out: it lies between
+/// blocks that follow the drawing, or is one of too many before or after them.
 fn is_left(traced: &Traced, runs: &[bool]) -> bool {
     let blocks: Vec<(&Block, bool)> = traced.blocks.iter().zip(runs.iter().copied()).collect();
     let passes = blocks.chunk_by(|(one, _), (other, _)| one.stretch == other.stretch);

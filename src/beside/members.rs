@@ -335,7 +335,7 @@ impl Members {
 }
 
 /// By how much the numbers of a block differ from those of its piece, µm: where it leads from its start, and where its
-/// centre lies from there. Where a machine counts, the end of an arc is none of them.
+/// centre lies from there. Where a machine counts steps, the end of an arc is not among these numbers.
 pub(super) fn numbers_apart(
     own: &Segment,
     meant: &Segment,

@@ -61,7 +61,7 @@ pub(super) struct Spot {
     pub at: Point,
 }
 
-/// A shorter piece is none of its own, µm: nothing of it may be left on the grid of a program.
+/// Pieces up to this length, µm, are left out: nothing of them may be left on the grid of a program.
 const CRUMB: f64 = 1.0;
 
 /// A round and a piece of it.

@@ -106,7 +106,7 @@ impl Motion {
 
     /// The distance of two motions, from their starts or from the program's; `None` for different kinds.
     ///
-    /// `behind` a block that ends elsewhere, the radius of an arc is enough: its centre is elsewhere, too.
+    /// After a block that ends elsewhere (`behind`), the radius of an arc is enough: its centre is elsewhere, too.
     pub(super) fn away_from(&self, meant: &Motion, from: Vector, behind: bool) -> Option<f64> {
         let off = match (self.ends(), meant.ends()) {
             (Some([start, end]), Some([meant_start, meant_end])) => {

@@ -1,4 +1,5 @@
-//! What the ending of a name says of what is written there: it decides where nothing else does, and never lies.
+//! What the ending of a file's name says of its content: it decides the format where nothing else does, and is never
+//! allowed to contradict it.
 
 use super::Failure;
 use super::files::Opened;
@@ -77,7 +78,7 @@ fn expect(target: &Path, written: &str, endings: &[&str]) -> Result<(), Failure>
     ))
 }
 
-/// True of the endings that say what a file is. A name may end otherwise; nobody takes it for something else.
+/// True for the endings that say what a file is. A name with another ending is not taken for anything else.
 fn is_known(ending: &str) -> bool {
     FileKind::of_ending(ending).is_some()
         || Image::of_ending(ending).is_some()

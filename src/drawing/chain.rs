@@ -23,7 +23,7 @@ use std::sync::Arc;
 
 /// Up to this many entities are sorted without looking at all others.
 const FEW: usize = 16;
-/// Up to one in this many entities have their ends moved one by one; beyond, all ends are sorted into cells again.
+/// Where up to one in this many entities has changed, the ends are moved one by one; beyond, all are sorted into cells again.
 const BULK: usize = 8;
 
 /// Entities, contours or lists of ends that one thread takes at a time.
@@ -147,7 +147,7 @@ impl Chains {
             .copied()
     }
 
-    /// The contour that holds a segment of an entity, and its index in there.
+    /// The contour that holds a segment of an entity, and its index in it.
     pub(crate) fn index_of(&self, entity: EntityId, segment: usize) -> Option<(Key, usize)> {
         Some((
             self.contour_of(entity)?,

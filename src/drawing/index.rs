@@ -122,9 +122,9 @@ impl ContourIndex {
         }
     }
 
-    /// Takes up that some segments, those of `gone`, have become so many others: `come`. Nothing but the runs in which
+    /// Records that some segments, those of `gone`, have been replaced by so many others: `come`. Nothing but the runs in which
     /// they lie changes, but later segments have other indices. False, with nothing done, where these runs would become too
-    /// long, or have none left, or are more than two: the contour is to be looked at anew.
+    /// long, or have none left, or are more than two: the contour is to be read again.
     pub(crate) fn splice(
         &mut self,
         drawing: &Drawing,

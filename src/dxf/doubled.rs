@@ -1,6 +1,6 @@
-//! Handles that several entities state. The first of them in the text has it; those after it are named anew, `<handle>#2`, `#3` and so on.
+//! Handles that several entities state. The first of them in the text keeps it; those after it get new names, `<handle>#2`, `#3` and so on.
 //!
-//! After an edit of a handle the entities that state it elsewhere in the text may have other names: those are told here,
+//! After an edit of a handle the entities that state it elsewhere in the text may have other names: these are reported here,
 //! so that nothing else is read again.
 
 use super::Document;
@@ -108,7 +108,7 @@ impl Document {
         None
     }
 
-    /// Adds the findings about entities that were read and named anew.
+    /// Adds the findings about entities that were read and got a new name.
     pub(super) fn tell_doubled(
         &self,
         names: &NamesAfter,

@@ -1,7 +1,7 @@
 //! An edit of the text: only what it touched is read again.
 //!
-//! An edit within the vertices of a polyline rereads a few of them; other edits reread the items
-//! around them. An edit with effects further away (sections, ordinals as names) rereads everything.
+//! An edit within the vertices of a polyline rereads a few of them, and one of a number of a VERTEX
+//! that VERTEX alone; other edits reread the items around them. An edit with effects further away (sections, ordinals as names) rereads everything.
 
 use super::Document;
 use super::entities::mirror;

@@ -2,7 +2,7 @@
 
 use crate::toolpath::{NEW, which_it_is, which_it_was};
 
-/// For each item the index that it had before, and for each earlier item its index now, in their
+/// For each item its index before the edit, and for each earlier item its index now, in their
 /// order.
 #[derive(Clone, Debug)]
 pub(super) struct Change {
@@ -31,24 +31,24 @@ impl Change {
         }
     }
 
-    /// Where one of now stood before.
+    /// The old index of a present item; `None` for a new one.
     pub(super) fn was(&self, index: usize) -> Option<usize> {
         let was = self.was.get(index).filter(|was| **was != NEW);
         was.map(|was| *was as usize)
     }
 
-    /// Where one that was there stands now.
+    /// The present index of an earlier item; `None` for one that is gone.
     pub(super) fn is(&self, index: usize) -> Option<usize> {
         let is = self.is.get(index).filter(|is| **is != NEW);
         is.map(|is| *is as usize)
     }
 
-    /// What is gone, by where it was.
+    /// The items that are gone, by their old indices.
     pub(super) fn gone(&self) -> impl Iterator<Item = usize> + '_ {
         (0..self.is.len()).filter(|was| self.is[*was] == NEW)
     }
 
-    /// What is new.
+    /// The new items.
     pub(super) fn come(&self) -> impl Iterator<Item = usize> + '_ {
         (0..self.was.len()).filter(|now| self.was[*now] == NEW)
     }

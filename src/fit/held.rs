@@ -1,8 +1,8 @@
 //! Two outlines, one held in the other.
 //!
-//! A place of the punch binds where it is farther from the way of the wire that cut the plate than half a kerf, and the other way round. Along
-//! walls that both wires follow the clearance is what the kerfs leave. It is missing where a wire turned in a point and left its own
-//! radius: there the farthest place of the other part that is nearest to that point says how much.
+//! A place of the punch binds where it is farther than half a kerf from the way of the wire that cut the plate, and the other way round. Along
+//! walls that both wires follow, the clearance is what the kerfs leave. It is missing where a wire turned in a point and left its own
+//! radius: how much is missing follows from the places of the other part that are nearest to that point, and of these from the farthest.
 
 use super::Spot;
 use super::about::{About, Limits};
@@ -26,9 +26,9 @@ pub(crate) struct Held {
     pub(super) unless: f64,
     /// Corners of the punch, those of the plate, and walls of the punch.
     pub(super) observations: [Observations; 3],
-    /// The numbers of those of walls that are places of their own.
+    /// The numbers of those of walls that are not about the same place as another one.
     pub(super) places: Vec<u32>,
-    /// What stands for all walls, where they lie too near to each other everywhere.
+    /// One place that stands for all walls, where they lie too near to each other everywhere.
     pub(super) apart: Option<Spot>,
     /// What the two are called.
     pub(super) names: [Arc<str>; 2],
@@ -40,13 +40,13 @@ const FARTHEST: f64 = 16.0;
 /// Edges that one core takes at a time.
 const AT_A_TIME: usize = 256;
 
-/// How often twice as much clearance is asked for to see how much is left: partners lie within five of each other.
+/// How often the required clearance is doubled to find out how much is left: partners lie within five clearances of each other.
 const DOUBLINGS: u32 = 6;
 
-/// Corners lie on their edges but for a rounding: those are looked for so much farther.
+/// Corners lie on their edges except for rounding, so edges are looked for farther away by this factor.
 const WIDER: f64 = 1.0 + 1e-3;
 
-/// Lays the punch in the plate. `names` are what the two are called. What is known `since` before an edit is not looked at again.
+/// Lays the punch in the plate. `names` are what the two are called. What `reuse` knows from before an edit is not looked at again.
 pub(super) fn held(
     parts: [&Part; 2],
     names: &[Arc<str>; 2],
@@ -67,7 +67,7 @@ pub(super) fn held(
     }
 }
 
-/// What is left where no edge stands too far out, and what stands for all walls where that is less than there should be.
+/// The clearance where no edge stands too far out, and the place that stands for all walls where that is less than there should be.
 pub(super) fn all_apart(
     [punch, plate]: [&Part; 2],
     [of_punch, of_plate]: &[Arc<str>; 2],
@@ -102,7 +102,7 @@ impl Held {
         clearances.fold(self.unless, f64::min)
     }
 
-    /// The least clearance all round of the parts that were compared, also where nothing is missing of the required one.
+    /// The least clearance all round of the parts that were compared, even where it is more than the required one.
     pub(super) fn least_left(&self, parts: [&Part; 2], limits: &Limits) -> f64 {
         match self.clearances().next() {
             Some(_) => self.least(),
@@ -110,14 +110,14 @@ impl Held {
         }
     }
 
-    /// Where less is left than there should be, and what, in the order of the outline of the punch, then of that of the plate.
+    /// Where less clearance is left than there should be, and how much, in the order of the outline of the punch, then of that of the plate.
     pub(crate) fn clearances(&self) -> impl Iterator<Item = (Point, f64)> {
         let apart = self.apart.iter().map(|spot| (spot.at, spot.clearance));
         let verdicts = self.verdicts();
         apart.chain(verdicts.map(|(_, verdict)| (verdict.at, verdict.clearance)))
     }
 
-    /// What was seen of the corners of the punch, of those of the plate, and of walls, by the number of these: each place once.
+    /// What was seen of corners of the punch (0), of those of the plate (1), and of walls (2): each place once.
     fn verdicts(&self) -> impl Iterator<Item = (usize, &Verdict)> {
         let [of_punch, of_plate, of_walls] = self.observations.each_ref().map(|it| &it.verdicts);
         let of_walls = self
@@ -129,7 +129,7 @@ impl Held {
         corners.chain(of_walls.map(|verdict| (2, verdict)))
     }
 
-    /// What the part is called whose wire turned in a corner, of these the first one so far about a place.
+    /// The name of the part whose wire turned in a corner within `wide` of a place; the first of the two, if both did.
     pub(crate) fn corner_near(&self, parts: [&Part; 2], at: Point, wide: f64) -> Option<&Arc<str>> {
         let of_each = self.observations.iter().zip(parts).zip(&self.names);
         let mut first = of_each.filter_map(|((observations, part), name)| {
@@ -144,7 +144,7 @@ impl Held {
         first.next()
     }
 
-    /// All of these, of the parts that were compared.
+    /// All places where clearance is missing, of the parts that were compared.
     pub(crate) fn spots<'a>(&'a self, parts: [&'a Part; 2]) -> impl Iterator<Item = Spot> + 'a {
         let verdicts = self.verdicts();
         let of_observations =
@@ -152,13 +152,13 @@ impl Held {
         self.apart.iter().cloned().chain(of_observations)
     }
 
-    /// The same by all cores.
+    /// The same on all cores.
     pub(super) fn all_spots(&self, parts: [&Part; 2]) -> Vec<Spot> {
         let verdicts: Vec<(usize, &Verdict)> = self.verdicts().collect();
         let mut all = Vec::with_capacity(1 + verdicts.len());
         all.extend(self.apart.clone());
         all.par_extend(verdicts.par_chunks(AT_A_TIME).flat_map_iter(|some| {
-            // Cores that count the uses of one name wait for each other.
+            // Each core has names of its own: counting the uses of a shared one, they would wait for each other.
             let names = self.names.each_ref().map(|name| Arc::from(&**name));
             let spots = some.iter();
             spots.filter_map(move |(which, verdict)| spot(*which, verdict, parts, &names))
@@ -205,7 +205,7 @@ fn spot(
     })
 }
 
-/// How much is left where it is tightest, of parts that have the clearance everywhere: so much more is asked for that it is missing.
+/// How much is left at the tightest place of parts that have the clearance everywhere: more and more is required until it is missing.
 fn more_than_wanted(parts: [&Part; 2], names: &[Arc<str>; 2], limits: &Limits) -> f64 {
     let least = |clearance: f64| {
         let more = Limits {
@@ -225,7 +225,7 @@ fn more_than_wanted(parts: [&Part; 2], names: &[Arc<str>; 2], limits: &Limits) -
     }
 }
 
-/// What one of these says of an edge.
+/// What one kind of look says of an edge.
 pub(super) fn look(
     which: usize,
     [punch, plate]: [&Part; 2],
@@ -305,8 +305,8 @@ fn corner(
     })
 }
 
-/// Of the places of the other part that are nearest to where the wire turned the farthest: how far, where, and on which edge. `None` where
-/// the clearance is kept.
+/// Of the places of the other part that are nearest to where the wire turned, the farthest one: how far away it is, where, and on which edge.
+/// `None` where the clearance is kept.
 fn farthest(
     [one, other]: [&Part; 2],
     index: usize,

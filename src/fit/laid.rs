@@ -97,7 +97,7 @@ impl Laid {
         self.pairs.push((pair, Arc::new(fitted)));
     }
 
-    /// The fit of all these pairs. A sentence says that there is none.
+    /// The fit of all these pairs, or a sentence where there are none.
     pub(crate) fn compared(
         &self,
         drawing: &Drawing,
@@ -142,7 +142,7 @@ impl Laid {
     }
 }
 
-/// How partners are told, and the clearance that there should be, mm.
+/// How partners are recognised, and the clearance that there should be, mm.
 fn asked_of(settings: &Effective) -> Result<(Partners, f64), Refusal> {
     if let Some(sentence) = settings.pair_error() {
         return Err(Refusal::Sentence(sentence));

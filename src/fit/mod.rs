@@ -52,7 +52,7 @@ pub struct Spot {
     pub other: SegmentOf,
     /// The partner.
     pub partner: Arc<str>,
-    /// In a corner that a wire has not spoiled: that which is drawn too sharp.
+    /// In a corner that a wire has not spoiled, the one that is drawn too sharp.
     pub(crate) sharper: Option<Sharper>,
 }
 
@@ -125,7 +125,7 @@ fn is_cut_twice(outline: &Outline) -> bool {
         && outline.contour.double_of.is_none()
 }
 
-/// Of all contours those that are cut twice, by their places.
+/// The contours that are cut twice, by their indices among all.
 pub(crate) fn all_cut_twice(outlines: &[Outline]) -> impl Iterator<Item = usize> {
     let all = outlines.iter().enumerate();
     all.filter(|(_, outline)| is_cut_twice(outline))
@@ -158,7 +158,7 @@ pub(crate) fn cut_twice_parts(
     Ok([parts.0?, parts.1?])
 }
 
-/// The two, one laid in the other.
+/// The two parts, one laid in the other.
 pub(crate) fn cut_twice(
     drawing: &Drawing,
     parts: [&Part; 2],

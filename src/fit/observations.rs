@@ -5,9 +5,9 @@ use crate::geometry::{Bounds, Point};
 /// What was seen of the edges of a part, in their order.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Observations {
-    /// Of each edge the box of all that was asked about it; an empty one where nothing was.
+    /// For each edge, the box of everything that was asked about it; an empty one where nothing was.
     pub asked: Vec<Bounds>,
-    /// Of those that stand too far out.
+    /// The verdicts on those that stand too far out.
     pub verdicts: Vec<Verdict>,
 }
 
@@ -20,23 +20,23 @@ impl Observations {
     }
 }
 
-/// An edge that stands too far out, by indices and places: whose segments these are is told again each time.
+/// An edge that stands too far out, by indices and places: to which segments they belong is found out each time it is reported.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Verdict {
     pub edge: u32,
     /// On the edge.
     pub at: Point,
     pub clearance: f64,
-    /// The edge of the other part there, and the place that is told of it.
+    /// The edge of the other part there, and the place on it that is reported.
     pub other: u32,
     pub(crate) at_other: Point,
     pub lies: Lies,
 }
 
-/// Where on its edge a place lies that stands too far out.
+/// Where on its edge the place lies that stands too far out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Lies {
-    /// In a corner, so far from where the wire turned.
+    /// In a corner, `away` from where the wire turned.
     InCorner { away: f64 },
     /// At the first or the last end of a wall, which is less deep elsewhere.
     AtEnd { is_last: bool },

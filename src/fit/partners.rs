@@ -16,12 +16,12 @@ const AT_A_TIME: usize = 1024;
 /// Partners may be this many clearances apart.
 const FARTHEST: f64 = 5.0;
 
-/// Who is whose partner. Indices of outlines.
+/// Which contours are partners, by the indices of their outlines.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Drawn {
     /// The punch, then its plate; in the order of the punches.
     pub pairs: Vec<[usize; 2]>,
-    /// Contours of workpieces that have none.
+    /// Contours of workpieces that have no partner.
     pub alone: Vec<usize>,
     /// The names of workpieces of which nothing is drawn.
     pub missing: Vec<String>,
@@ -36,7 +36,7 @@ struct Candidate {
     area: f64,
 }
 
-/// The segments of a contour, to ask what is near.
+/// The segments of a contour, by place.
 pub(crate) fn walls_of(drawing: &Drawing, contour: &Contour) -> Arc<Walls> {
     let segments = contour.segments(drawing);
     Arc::new(Walls::new(
@@ -44,9 +44,9 @@ pub(crate) fn walls_of(drawing: &Drawing, contour: &Contour) -> Arc<Walls> {
     ))
 }
 
-/// The partners among the contours of workpieces. A punch has one in each of the others, a plate or a stripper has one punch: of several the one
-/// whose box fits best. `walls_of` hands out those of an outline. Which ran beside each other is told, too, by their outlines; of some that is
-/// `known`.
+/// The partners among the contours of workpieces, and all pairs of outlines that run beside each other. A punch has a partner in each of the other
+/// workpieces; a plate or a stripper has one punch: of several, the one whose box fits best. `walls_of` hands out the walls of an outline; of
+/// some pairs it is `known` that they run beside each other.
 pub(crate) fn partners(
     drawing: &Drawing,
     outlines: &[Outline],
@@ -78,7 +78,7 @@ pub(crate) fn partners(
             })
         })
         .collect();
-    // By their left edges: those that may lie in each other stand together.
+    // By their left edges, so that those that may lie in each other are close together.
     let mut by_left: Vec<usize> = (0..candidates.len()).collect();
     by_left.sort_by(|&a, &b| {
         let left = |index: usize| candidates[index].bounds.min.x;
@@ -114,7 +114,7 @@ pub(crate) fn partners(
         let by_off = a.0.total_cmp(&b.0);
         by_off.then_with(|| (place(a.1), place(a.2)).cmp(&(place(b.1), place(b.2))))
     });
-    // What goes round another one is no punch to a third.
+    // A contour that goes round another one is no punch for a third.
     let mut holds = vec![false; candidates.len()];
     for &(_, _, plate) in &found {
         holds[plate] = true;
@@ -153,7 +153,7 @@ pub(crate) fn reach(drawing: &Drawing, settings: &Effective) -> f64 {
     FARTHEST * settings.pair.clearance.unwrap_or(0.0) / unit_mm
 }
 
-/// The farthest that an edge of one box lies from that of another.
+/// The largest distance between the same edges of two boxes.
 fn apart(a: &Bounds, b: &Bounds) -> f64 {
     let (min, max) = (a.min - b.min, a.max - b.max);
     [min.x, min.y, max.x, max.y]
@@ -162,7 +162,7 @@ fn apart(a: &Bounds, b: &Bounds) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// True where no place of the one contour is farther from the other than `reach`, as far as ends and places between them tell.
+/// True where no place of either contour is farther from the other one than `reach`, as far as ends and places between them show.
 fn run_together([punch, plate]: [&Walls; 2], reach: f64) -> bool {
     let keeps = |own: &Walls, other: &Walls| {
         let some = own.segments().par_chunks(AT_A_TIME);
@@ -171,7 +171,7 @@ fn run_together([punch, plate]: [&Walls; 2], reach: f64) -> bool {
     keeps(punch, plate) && keeps(plate, punch)
 }
 
-/// The segments of a contour that are gone, and those that are new; nothing where that is too much to say.
+/// The segments of a contour that are gone, and those that are new; `None` where too much has changed.
 pub(crate) fn changed_since(before: &Walls, now: &Walls) -> Option<[Vec<Segment>; 2]> {
     let change = Change::of(before.segments(), now.segments(), PartialEq::eq)?;
     let gone = change.gone().map(|gone| *before.segment(gone));
@@ -204,7 +204,7 @@ fn are_near<'a>(
 ) -> bool {
     let mut beside = None;
     segments.all(|segment| {
-        // No place of a line is farther from another one than one of its ends.
+        // No place of a line is farther from another line than one of its ends.
         let is_along = |wall: &usize| {
             let ends = [segment.start(), segment.end()];
             let wall = other.segment(*wall);

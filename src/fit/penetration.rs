@@ -6,7 +6,7 @@ use crate::toolpath::Nearby;
 /// The most looks at one edge.
 const MOST: usize = 2_000;
 
-/// How much farther than the deepest place found a place may be that is not looked for, drawing units.
+/// How much deeper than the deepest place found a place may be that is not looked for, drawing units.
 const LEAST: f64 = 1e-5;
 
 /// One place of the edge.
@@ -19,12 +19,12 @@ struct Look {
     nearest: usize,
 }
 
-/// The deepest place of a segment, beyond what the wire has cut half a kerf about its way; nothing
+/// The deepest place of a segment beyond what the wire has cut, half a kerf about its way; `None`
 /// where nothing of it is deeper than the rounding. `asked` grows by everything on which this
 /// depends.
 ///
-/// The depth changes by no more than the way along the segment. And it is no more than how far one piece of the way of the wire is: from a
-/// straight one no place of a straight stretch is farther than one of its ends.
+/// The depth changes by no more than the distance along the segment. And it is never more than the distance from any one piece of the wire's
+/// way allows: no place of a straight stretch is farther from a straight piece than one of its ends.
 pub(super) fn deepest(
     segment: &Segment,
     way: &mut Nearby,

@@ -1,9 +1,9 @@
-//! Each place in which two parts bind once: the walls that meet in a corner say the same of it as the corner itself.
+//! Each place in which two parts bind, once: the walls that meet in a corner say the same as the corner itself.
 
 use super::observations::{Lies, Observations, Verdict};
 
-/// The numbers of what was seen of walls of the punch, without what says again what a neighbour or a corner says of the same place. Clearances,
-/// and places, that differ by less than the rounding are equal.
+/// The numbers of what was seen of walls of the punch, without what a neighbour or a corner already says of the same place. Clearances and places
+/// that differ by less than the rounding count as equal.
 pub(super) fn own_places(all: &[Observations; 3], rounding: f64) -> Vec<u32> {
     let [of_punch, of_plate, of_walls] = all;
     let count = of_walls.asked.len() as u32;

@@ -1,5 +1,5 @@
-//! What still holds for two parts laid in each other after an edit: an edge that is where it was, and about which nothing has changed of all
-//! that was asked, is not looked at again.
+//! What still holds for two parts laid in each other after an edit: an edge is not looked at again if it is where it was, and nothing has
+//! changed of all that was asked about it.
 
 use super::change::Change;
 use super::observations::{Observations, Verdict};
@@ -9,9 +9,9 @@ use crate::toolpath::Part;
 /// Two parts laid in each other as they were before an edit, under the same limits.
 pub(super) struct Reuse<'a> {
     observations: &'a [Observations; 3],
-    /// Of the edges of both parts.
+    /// The changes of the edges of both parts.
     edges: [Change; 2],
-    /// The boxes of all that has changed, and the box of these.
+    /// The boxes of all that has changed, and the box around them.
     changed: Vec<Bounds>,
     all: Bounds,
 }

@@ -8,16 +8,16 @@ use crate::geometry::{Bounds, Point, Segment, facing, turn};
 use crate::toolpath::{Nearby, Part};
 use std::f64::consts::PI;
 
-/// A tip is looked for within half a kerf and this many clearances about a wall: partners lie within five of each other.
+/// A tip is looked for within half a kerf and this many clearances about a wall: partners lie within five clearances of each other.
 const AROUND: f64 = 16.0;
 
 /// An outline that turns by less has no corner there, radians.
 const LEAST_TURN: f64 = 0.01;
 
-/// A wall is long that is longer than this many half kerfs: it is no part of a corner.
+/// A wall longer than this many half kerfs is long: it is no part of a corner.
 const LONG: f64 = 4.0;
 
-/// A place so near to the end of a line lies in its corner, drawing units.
+/// A place this near to the end of a line lies in its corner, drawing units.
 const IN_CORNER: f64 = 1e-4;
 
 /// A wall of a drawn punch that lies too near to one of the plate, or runs into it.
@@ -46,7 +46,7 @@ pub(super) fn wall(
         }
         false
     });
-    // What lies beyond the other's edge, or crosses it, is as deep as it is away from what the wire has cut.
+    // What lies beyond the other's edge, or crosses it, is as deep as its distance from what the wire has cut.
     let mut is_deep = |at: Point| {
         let reach = plate.half + limits.rounding;
         about.asked.merge(&Bounds::of_disc(at, reach));

@@ -49,7 +49,7 @@ pub(crate) struct Converted {
     pub(crate) cuts: Cuts,
     /// Where the control finds its corrections otherwise than in the program, in sentences.
     pub(crate) corrections: Vec<String>,
-    /// What stands beside the moves, of which a program that is written anew has nothing.
+    /// What the old program holds besides its moves: a newly written program has none of it.
     pub(crate) dropped: Dropped,
 }
 

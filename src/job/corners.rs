@@ -8,8 +8,8 @@ use crate::rule::Rule;
 /// At most this many corners are named, those that lose most.
 const MOST: usize = 24;
 
-/// The corners that the wire goes round, in place of which the program holds arcs, one finding each; those that lose less than the
-/// resolution are none.
+/// The corners that the wire goes round and that are arcs in the program, one finding each, except where a corner loses less than
+/// the resolution.
 pub(super) fn cut_off(snapshot: &Snapshot, program: &ProvedProgram) -> Vec<Finding> {
     let settings = &snapshot.settings;
     let unit_mm = settings.unit_of(&snapshot.drawing).mm;

@@ -13,7 +13,7 @@ pub(crate) struct List {
     rows: Vec<Row>,
 }
 
-/// The hole of a contour: the part of a pair that is threaded there, and the cells before and behind that.
+/// The hole of a contour: the part of a pair that is threaded there, and the cells before and after it.
 struct Row {
     part: Option<String>,
     before: String,

@@ -42,7 +42,7 @@ pub(crate) struct Part {
 /// A part with its program, or why there is none.
 type Programmed = (Part, Result<Generated, Refusal>);
 
-/// What is cut of a drawing: one part of a pair, or all where it is none.
+/// What is cut of a drawing: one part of a pair, or everything where the drawing is no pair.
 pub(crate) struct Cut {
     pub(crate) part: Option<Part>,
     /// Its outlines are those of `snapshot`.
@@ -182,7 +182,7 @@ pub(crate) fn programs(
     Ok(made.collect())
 }
 
-/// Each part is checked under its own settings; what stands against all of them does so here.
+/// Each part is checked under its own settings; errors that concern all of them refuse the request here.
 fn refuse_errors_of_all(findings: &[Finding], wanted: &Wanted) -> Result<(), Refusal> {
     let of_all = |finding: &&Finding| {
         finding.severity == Severity::Error

@@ -116,7 +116,7 @@ impl Effective {
         }
     }
 
-    /// Why parts of a pair cannot be cut under these settings, or be held against each other, if they cannot.
+    /// Why the parts of a pair cannot be cut or compared with each other under these settings, if they cannot.
     pub(crate) fn pair_error(&self) -> Option<String> {
         (self.compensation == Compensation::None).then(on_the_drawn_line)
     }

@@ -104,7 +104,7 @@ pub(crate) fn pass_faults(
     faults
 }
 
-/// The registers that are none, and those in which two corrections would have to stand.
+/// The faults of the registers: words that are no register, and registers that two corrections would share.
 fn shared_registers(corrections: &[f64], passes: &Passes) -> Vec<PassFault> {
     let key = "passes.registers";
     let words = passes.registers.as_deref().unwrap_or_default();
@@ -137,7 +137,7 @@ fn shared_registers(corrections: &[f64], passes: &Passes) -> Vec<PassFault> {
     faults
 }
 
-/// A register as controls read it: its letters, and the number behind them.
+/// A register as controls read it: its letters, and the number after them.
 fn register_of(word: &str) -> (String, Option<u64>) {
     let letters = word.trim_end_matches(|letter: char| letter.is_ascii_digit());
     let number = word.strip_prefix(letters).unwrap_or_default();

@@ -27,14 +27,14 @@ fn entries(table: &DeTable<'_>) -> Vec<Entry> {
 fn node(value: &Spanned<DeValue<'_>>) -> Node {
     let range = Some(value.span());
     let value = match value.get_ref() {
-        // The parser puts an empty stand-in where it found no value; that fault has been reported.
+        // The parser puts an empty stand-in where it found no value, which has been reported.
         DeValue::Integer(_) | DeValue::Float(_) | DeValue::String(_) | DeValue::Boolean(_)
             if value.span().is_empty() =>
         {
             Value::Null
         }
         DeValue::Boolean(truth) => Value::Truth(*truth),
-        // What is no number has been reported as such.
+        // A number that cannot be read has been reported.
         DeValue::Integer(integer) => match i64::from_str_radix(integer.as_str(), integer.radix()) {
             Ok(number) => Value::Number(number as f64),
             Err(error) => match error.kind() {

@@ -11,7 +11,7 @@ const BLOCK: usize = 64;
 pub(crate) enum LineStarts {
     /// The start of each block's first line, and the distance of each line from it.
     Near { blocks: Vec<u32>, offsets: Vec<u16> },
-    /// For a text whose lines are too long for that.
+    /// The start of each line, for a text whose lines are too long for blocks.
     Far(Vec<u32>),
 }
 

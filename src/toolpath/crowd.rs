@@ -4,10 +4,10 @@ use super::clearance::Walls;
 use super::vicinity::FAN;
 use rustc_hash::FxHashMap;
 
-/// The walls that may lie on average in a square of twice the correction: each of them is compared with the others there.
+/// The most walls that may lie, on average, in a square of twice the correction: each of them is compared with the others there.
 pub(super) const MOST_IN_A_SQUARE: usize = 500;
 
-/// How many walls lie on average in one square of this size with a wall: by the boxes of a few, so that it takes no time beside a path.
+/// How many walls lie on average in a square of this size with a wall. It is estimated from the boxes of a few walls, so that it takes hardly any time.
 pub(super) fn crowd(walls: &Walls, size: f64) -> usize {
     let count = walls.segments().len();
     if count <= MOST_IN_A_SQUARE || size <= 0.0 {

@@ -55,10 +55,10 @@ pub(super) struct Surroundings<'a> {
     pub(crate) kerfs: &'a Kerfs,
     /// The path keeps at least this from the walls, and so must the leads; drawing units.
     pub(crate) clearance: f64,
-    /// The lead comes across the contour, where it comes to the path and nowhere else.
+    /// The lead crosses the contour where it comes to the path, and nowhere else.
     pub(crate) comes_across: bool,
     pub(crate) lead: Lead,
-    /// It is no lead but the way back from the far end of an open contour.
+    /// It is not a lead but the way back from the far end of an open contour.
     pub(crate) goes_back: bool,
 }
 
@@ -177,7 +177,7 @@ impl<'a> Surroundings<'a> {
         {
             return Some(Obstacle::Contour(wall));
         }
-        // Two cuts are as wide as two corrections each. Where the paths themselves run nearer to each other, the lead may as well.
+        // Each of the two cuts is two corrections wide. Where the paths themselves run nearer to each other, the lead may, too.
         let rounding = self.job.units(ROUNDING);
         let Kerfs { paths, of } = self.kerfs;
         let counts = |piece: usize, distance: f64| {
@@ -189,7 +189,7 @@ impl<'a> Surroundings<'a> {
             .map(Obstacle::Kerf)
     }
 
-    /// A wall of its own contour that a lead crosses, but those beside which it begins to cut.
+    /// A wall of its own contour that a lead crosses, other than those beside which it begins to cut.
     fn crossed_elsewhere(&self, lead: &Segment, begin: Point) -> Option<usize> {
         let rounding = self.job.units(ROUNDING);
         let beside = self.clearance + 4.0 * rounding;
@@ -241,7 +241,7 @@ impl<'a> Surroundings<'a> {
 }
 
 impl Job<'_> {
-    /// No path: what stands against it at a place of the contour.
+    /// The refusal of a path, with what prevents it at a place of the contour.
     pub(super) fn refused(&self, source: Option<Source>, sentence: String) -> Refusal {
         fault(self.severity(), source, sentence, None).into()
     }
@@ -286,11 +286,11 @@ fn because(does: String) -> String {
 
 /// Where the wire may be threaded for one contour.
 pub(super) struct Threading<'a> {
-    /// The centre of a round opening, and the deepest point of one: taken where the way from it is clear.
+    /// The centre of a round opening, and the start hole that was proposed: the first from which the way is clear is taken.
     pub first: &'a [Point],
-    /// The same, taken where no hole beside the entry has room.
+    /// The deepest point of an opening, taken where no hole beside the entry has room.
     pub last: &'a dyn Fn() -> Option<Point>,
-    /// How far a start hole is to be from the contours, drawing units, where one is to be proposed.
+    /// How far a start hole has to be from the contours, drawing units, where one is proposed.
     pub reach: Option<f64>,
     /// True where a start hole has room.
     pub(crate) has_room: &'a dyn Fn(Point) -> bool,

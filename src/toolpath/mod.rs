@@ -107,7 +107,7 @@ pub struct Planned {
 }
 
 impl Planned {
-    /// What is planned behind it.
+    /// Adds what is planned after it.
     pub(crate) fn add(&mut self, next: Planned) {
         self.paths.extend(next.paths);
         self.holes.extend(next.holes);
@@ -298,7 +298,7 @@ pub(crate) fn entities_of(
     Some(pieces.map(|piece| piece.entity).collect())
 }
 
-/// What stands against a path along one contour under the settings' correction, as a finding: an error where there is none, a
+/// What prevents a path along one contour under the settings' correction, as a finding: an error where there is none, a
 /// warning where the wire can only stand. `None` where there is a path, and where the side of the wire is not known.
 pub(crate) fn misfit(
     drawing: &Drawing,

@@ -1,12 +1,13 @@
 //! What the proof of an earlier pass implies for a later one.
 //!
-//! Nothing of the contour lies in the disc of the larger correction about a place of the earlier path. The disc of the smaller one about the
-//! place on the same normal of the wall lies in it: there the later path keeps as clear, and only what reaches beyond is to be proved.
+//! About a place of the earlier path, a disc of the larger correction holds nothing of the contour. It contains the disc of the smaller
+//! correction about the place on the same normal of the wall: there the later path is clear as well, and only what reaches beyond the earlier
+//! path is left to prove.
 
 use super::corners::Element;
 use crate::geometry::{Arc, Point, Segment, Vector, left_normal};
 
-/// The path of an earlier pass, proved, beside the same walls on the same side, at no smaller correction.
+/// The proved path of an earlier pass, beside the same walls on the same side, at a correction that is not smaller.
 #[derive(Clone, Copy)]
 pub(super) struct Before<'a> {
     pub(crate) path: &'a [Element],
@@ -25,10 +26,10 @@ pub(super) struct BesideWall<'a> {
     pub(crate) rounding: f64,
 }
 
-/// Which pieces of a path run beside what an earlier pass does.
+/// Which pieces of a path run beside the same wall as a piece of an earlier pass.
 pub(super) struct Nest<'a> {
     before: Before<'a>,
-    /// Of each wall where the earlier path comes to it first.
+    /// For each wall, the first piece of the earlier path beside it.
     first: Vec<u32>,
 }
 
@@ -36,7 +37,7 @@ pub(super) struct Nest<'a> {
 const NOWHERE: u32 = u32::MAX;
 
 impl<'a> Nest<'a> {
-    /// `walls`: how many there are.
+    /// `walls` is the number of walls.
     pub(crate) fn new(before: Before<'a>, walls: usize) -> Nest<'a> {
         let mut first = vec![NOWHERE; walls];
         for (piece, element) in before.path.iter().enumerate().rev() {
@@ -45,7 +46,7 @@ impl<'a> Nest<'a> {
         Nest { before, first }
     }
 
-    /// What of a piece reaches beyond the piece of the earlier path beside the same wall. `None` where there is none, or that is not known.
+    /// The part of a piece that reaches beyond the piece of the earlier path beside the same wall. `None` where there is none, or it is not known.
     pub(crate) fn beyond(
         &self,
         beside: BesideWall,
@@ -61,7 +62,7 @@ impl<'a> Nest<'a> {
 }
 
 impl Before<'_> {
-    /// The same of two pieces beside one wall, the later one and the earlier one.
+    /// The same for two pieces beside one wall, the later one and the earlier one.
     pub(crate) fn beyond(
         &self,
         beside: BesideWall,
@@ -183,8 +184,8 @@ mod tests {
         vertices.iter().zip(next).enumerate().map(wall).collect()
     }
 
-    /// In the corners of an opening each side of the later path is longer by the difference of the corrections; about the round end
-    /// opposite nothing is.
+    /// In the corners of an opening each side of the later path is longer by the difference of the corrections; at its round end
+    /// nothing is longer.
     #[test]
     fn what_reaches_beyond_an_earlier_pass_is_told() {
         let walls = walls(&[
@@ -232,7 +233,7 @@ mod tests {
         };
         let expected = [[0.2, 0.0], [0.0, 0.0], [0.0, 0.2], [0.2, 0.2]];
         assert_eq!(beyond(0.3), expected.map(Some));
-        // A path that does not lie where it is said to says nothing.
+        // A path that does not lie at the correction that is given for it implies nothing.
         assert_eq!(beyond(0.4), [None; 4]);
     }
 

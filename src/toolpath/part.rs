@@ -1,6 +1,6 @@
-//! The outline of a part as the wire leaves it: all that the last pass comes as near to as half its kerf is gone.
+//! The outline of a part as the wire leaves it: everything within half the kerf of the last pass's path is gone.
 //!
-//! The path of the last pass is laid beside the contour, and the outline as far beside the path on the side of the part. Where the path
+//! The path of the last pass is laid beside the contour, and the outline half a kerf beside the path, on the side of the part. Where the path
 //! turns in a point the wire leaves its own radius: such an edge remembers the point.
 
 use super::clearance::Walls;
@@ -22,7 +22,7 @@ pub(crate) struct Edge {
     pub geometry: Segment,
     /// Where the wire turned, and left its own radius.
     pub(crate) turned_about: Option<Point>,
-    /// By how much that radius is larger: the first pass turned in that point, and the last one ran beside it.
+    /// By how much that radius is larger, where the first pass turned in that point and the last one ran beside it.
     pub(crate) swing: f64,
     /// The walls that the path follows before and after, by index.
     walls: [usize; 2],
@@ -55,7 +55,7 @@ pub(crate) struct Part {
 }
 
 impl Edge {
-    /// That of an element beside a path, of each piece of which it is known what it follows.
+    /// The edge of an element beside a path of which it is known what each piece follows.
     pub(super) fn of(element: &Element, path_follows: &[u32]) -> Edge {
         let wall = |piece: usize| path_follows[piece] as usize / 2;
         let next = match element.wall + 1 {
@@ -87,7 +87,7 @@ impl Part {
         self.half + self.edges[edge].swing
     }
 
-    /// The segment of the drawing that an edge stands for at a point of it: of those that the wire does not follow the nearest, else the
+    /// The segment of the drawing that an edge stands for at a point of it: the nearest of those that the wire does not follow, else the
     /// one after the corner.
     pub(crate) fn segment_at(&self, edge: usize, at: Point) -> Option<(EntityId, usize)> {
         let [before, behind] = self.edges[edge].walls;
@@ -163,7 +163,7 @@ pub(crate) fn part(
         },
     ] = beside.as_slice()
     {
-        // The wire only stands, and leaves a hole as large as its kerf.
+        // The wire only stands still, and leaves a hole as large as its kerf.
         let start = stand.start + crate::geometry::direction(0.0) * half;
         let circle = Segment::Arc(Arc::about(stand.start, start, start, true));
         return Ok(Part {
@@ -293,7 +293,7 @@ impl<'a> Cut<'a> {
 /// The path of the last pass along a closed contour.
 struct Last {
     walls: Vec<Wall>,
-    /// The walls once more, to ask what is near; nothing where nobody has asked.
+    /// The walls once more, by place; nothing until that has been asked for.
     own: Option<Walls>,
     path: Vec<Element>,
     /// It has been proved at its correction.
@@ -394,7 +394,7 @@ impl Job<'_> {
         walls(count, segment, true, zero_length)
     }
 
-    /// The same where it is simple and little has changed: what still holds is not proved again. `None` where that fails.
+    /// The same where the path is simple and little has changed: what still holds is not proved again. `None` where that fails.
     fn mended(
         &self,
         contour: Segments,

@@ -1,4 +1,4 @@
-//! The path that is left where neighbours are cut with each other, and what they use up is taken out.
+//! The path that is left when neighbours are cut with each other and what they use up is taken out.
 
 use super::cores::{each, extend};
 use super::corners::{Element, Joint, Raw, between, close_up, nearer_to_both, nearly_meetings};
@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 /// Elements that one core takes at a time.
 const AT_A_TIME: usize = 2048;
 
-/// The pieces of a path, and of each the raw element that it is of.
+/// The pieces of a path, each with the raw element that it is a part of.
 #[derive(Debug, Default)]
 pub(super) struct Pieces {
     pub(super) elements: Vec<Element>,
@@ -38,7 +38,7 @@ pub(super) fn trimmed(raw: &Raw) -> Option<Pieces> {
     trimmed_from(raw, 0)
 }
 
-/// The same of elements that are a stretch of a contour, which begins with the element `first` of them: what is used up is looked for
+/// The same for the elements of a stretch of a contour. The contour begins with the element `first`: what is used up is looked for
 /// in the order of the contour.
 pub(super) fn trimmed_from(raw: &Raw, first: usize) -> Option<Pieces> {
     Ring::new(raw, first).resolve()
@@ -53,7 +53,7 @@ struct Ring<'a> {
     after: Vec<u32>,
     alive: Vec<bool>,
     count: usize,
-    /// With which element the contour begins.
+    /// The element with which the contour begins.
     first: usize,
 }
 
@@ -122,7 +122,7 @@ impl<'a> Ring<'a> {
         all.filter(|&index| !is_fine[index]).collect()
     }
 
-    /// Looks at what is `waiting`, what stands last in it first, and at what stands beside what goes.
+    /// Looks at the elements that are `waiting`, from the last to the first, and at the neighbours of those that go.
     fn resolve_beside(mut self, mut waiting: Vec<usize>) -> Option<Pieces> {
         while let Some(index) = waiting.pop() {
             if !self.alive[index] {
@@ -216,7 +216,7 @@ impl<'a> Ring<'a> {
             }
             piece
         };
-        // One that is entered in the middle of a piece has one more.
+        // A path that is entered in the middle of a piece has one piece more.
         let mut elements = Vec::with_capacity(self.count + 1);
         extend(&mut elements, self.count, AT_A_TIME, piece);
         if is_torn.into_inner() {
@@ -237,7 +237,7 @@ impl<'a> Ring<'a> {
     }
 }
 
-/// Where two elements that follow each other meet, of several places on both the one nearest to a point.
+/// Where two consecutive elements meet; of several places, the one nearest to a point.
 pub(super) fn meeting(a: &Segment, b: &Segment, near: Point) -> Option<Point> {
     let is_on = |segment: &Segment, point: Point| {
         segment.spans(point) || (-1e-9..=1.0 + 1e-9).contains(&segment.share_of(point))
@@ -260,12 +260,12 @@ pub(super) fn meeting(a: &Segment, b: &Segment, near: Point) -> Option<Point> {
     (best.x.is_finite() && best.y.is_finite()).then_some(best)
 }
 
-/// A piece of a path that is no more than a point of it.
+/// True for a piece of a path that is no more than a point.
 pub(super) fn is_point(piece: &Element) -> bool {
     piece.geometry.length() <= 1e-9
 }
 
-/// What follows a point of the path begins where it stands: what is before it ends there, so nothing is left between.
+/// What follows a piece without length begins where that is; what comes before it ends there, so nothing is left between.
 fn without_points(pieces: &Pieces) -> Pieces {
     let mut kept = Pieces::default();
     for (piece, &raw) in pieces.elements.iter().zip(&pieces.raw) {

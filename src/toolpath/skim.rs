@@ -19,7 +19,7 @@ pub(super) struct Rough {
 }
 
 impl Job<'_> {
-    /// The paths of all passes from that of the first, which is there; those after it are made at once. Only the first where it has none.
+    /// The paths of all passes: that of the first is given, and those after it are made in parallel. Only the first one where it has no path.
     pub(super) fn each_pass(
         &self,
         walls: &[Wall],
@@ -54,7 +54,7 @@ impl Job<'_> {
         Ok(all)
     }
 
-    /// The path of a pass after the first: beside the contour, or where the corners are to have a constant stock beside the first path.
+    /// The path of a pass after the first: beside the contour or, where corners are to have a constant stock, beside the first path.
     pub(super) fn skim(
         &self,
         walls: &[Wall],
@@ -71,7 +71,7 @@ impl Job<'_> {
                 path: &rough.path,
                 correction: rough.correction,
             };
-            // With tips a path is more than what has been proved, and beside the first path it has been otherwise.
+            // A path with tips is more than what has been proved, and one beside the first path has been proved otherwise.
             let is_plain = along.corner == Corner::Arc && !is_constant;
             let is_plain = is_plain && along.side == side && along.correction <= rough.correction;
             let known = Known {

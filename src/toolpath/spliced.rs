@@ -1,8 +1,8 @@
-//! The path beside a contour of which an edit has changed a stretch: as it was, but for the pieces beside that stretch.
+//! The path beside a contour of which an edit has changed a stretch: it stays as it was, except for the pieces beside that stretch.
 //!
-//! Neighbours are cut with each other, and what they use up goes: where three elements that follow each other are all there, or only one between
-//! two of them is gone, which these two have used up, what goes on one side of them does not depend on the other side. So the stretch is made by itself, with some
-//! walls about it, from three such elements to three others that are what they were.
+//! Neighbours are cut with each other, and what they use up is taken out. Where three consecutive elements are all still there, or only one
+//! between two of them has been used up by these two, what is taken out on one side of them does not depend on the other side. So the
+//! stretch is made by itself, with some walls on either side of it, between two such groups of three that are what they were.
 
 use super::clearance::Walls;
 use super::corners::{Element, Joining, Offsets, Raw};
@@ -13,14 +13,14 @@ use super::ring::trimmed_from;
 use crate::geometry::Segment;
 use std::ops::Range;
 
-/// Walls that are laid again about what has changed.
+/// Walls on either side of the change that are laid again.
 const ABOUT: usize = 16;
 
 /// Where the changes spread over more walls, or the contour has hardly more, everything is made
 /// again.
 const MOST: usize = 128;
 
-/// Some walls that are laid again, round a contour from the first on.
+/// Some consecutive walls of a contour that are laid again.
 struct Stretch {
     first: usize,
     count: usize,
@@ -28,14 +28,14 @@ struct Stretch {
     pieces: Vec<(usize, Element)>,
 }
 
-/// What stands in the place of some pieces of a path.
+/// What takes the place of some pieces of a path.
 pub(super) struct Splice {
-    /// The pieces before and after, which stay, by where they were.
+    /// The last piece before and the first one after, which stay, by their old indices.
     left: usize,
     right: usize,
-    /// Those between, in the order in which they are gone.
+    /// The new pieces between them, in the order of travel.
     new: Vec<Element>,
-    /// Where the end of the contour lies among them, that many come before it.
+    /// How many of them come before the end of the contour, where it lies among them.
     before_the_end: Option<usize>,
 }
 
@@ -45,7 +45,7 @@ pub(super) fn spliced(kept: &Kept, walls: &[Wall], joining: &Joining) -> Option<
 }
 
 impl Splice {
-    /// What stands beside the walls that have changed; `None` where what is kept does not say all the rest.
+    /// The pieces beside the walls that have changed; `None` where the kept path does not give all the others.
     pub(super) fn of(kept: &Kept, walls: &[Wall], joining: &Joining) -> Option<Splice> {
         let count = walls.len();
         if !kept.is_by_neighbours || count <= MOST + 4 * ABOUT || !kept.follows.is_sorted() {
@@ -81,7 +81,7 @@ impl Splice {
         })
     }
 
-    /// All of the path.
+    /// The whole path.
     fn path(&self, kept: &Kept, walls: &[Wall]) -> Option<Vec<Element>> {
         let is = which_it_is(&kept.was, kept.before);
         let mut path = Vec::with_capacity(kept.follows.len() + self.new.len());
@@ -109,7 +109,7 @@ impl Splice {
         (path.len() >= 2 && path.windows(2).all(is_in_order)).then_some(path)
     }
 
-    /// Where the path is not as it was, the last stretch first: which pieces go, and what stands in their place.
+    /// The stretches where the path is not as it was, the last one first: which pieces go, and what takes their place.
     pub(super) fn stretches(self, kept: &Kept) -> Option<Vec<(Range<usize>, Vec<Element>)>> {
         let is = which_it_is(&kept.was, kept.before);
         let wall_of = |piece: usize| is[kept.follows[piece] as usize / 2] as usize;
@@ -117,7 +117,7 @@ impl Splice {
             .chain(self.new.iter().map(|element| element.wall))
             .chain([wall_of(self.right)]);
         let walls: Vec<usize> = walls.collect();
-        // They go over the end of the contour once at most.
+        // They pass the end of the contour at most once.
         let falls = walls.windows(2).filter(|pair| pair[0] > pair[1]).count();
         let (left, right, mut new) = (self.left + 1, self.right, self.new);
         let stretches = match self.before_the_end {
@@ -143,7 +143,7 @@ fn changed(kept: &Kept, count: usize) -> Option<(usize, usize)> {
     let (Some(&first), Some(&last)) = (breaks.first(), breaks.last()) else {
         return Some((0, 1));
     };
-    // The longest way from one to the next is the one that has not changed.
+    // The longest stretch from one to the next is the one that has not changed.
     let longest = breaks.windows(2).max_by_key(|pair| pair[1] - pair[0]);
     let over_the_end = first + count - last;
     let (first, last) = match longest {
@@ -155,11 +155,11 @@ fn changed(kept: &Kept, count: usize) -> Option<(usize, usize)> {
 }
 
 impl Stretch {
-    /// Lays this many walls that have changed, with those about them.
+    /// Lays this many changed walls, with those on either side of them.
     fn laid(walls: &[Wall], first: usize, changed: usize, joining: &Joining) -> Option<Stretch> {
         let count = changed + 2 * ABOUT;
         let some = (first..first + count).map(|wall| walls[wall % walls.len()]);
-        // Back on the other side, so that the ends are not joined to each other.
+        // There and back, so that the two ends are not joined to each other.
         let some = there_and_back(&some.collect::<Vec<Wall>>());
         let segments: Vec<Segment> = some.iter().map(|wall| wall.geometry).collect();
         let own = Walls::by_one_core(segments);
@@ -168,7 +168,7 @@ impl Stretch {
             tangents: own.tangents(),
             joining,
         });
-        // What goes may depend on what is looked at first: that of all walls begins with the first wall.
+        // What is taken out may depend on where that begins: for the whole contour it begins with the first wall.
         let begin = walls
             .len()
             .checked_sub(first)
@@ -184,12 +184,12 @@ impl Stretch {
         })
     }
 
-    /// The wall of a piece, from the first one on.
+    /// The wall of a piece, counted from the first one of the stretch.
     fn place(&self, piece: usize) -> usize {
         self.pieces[piece].1.wall
     }
 
-    /// Which piece it was that stands with its neighbours between what is before and what is after it, now as before.
+    /// The old index of a piece that, with its two neighbours, parts what comes before it from what comes after it, now as before.
     fn parts_two(&self, kept: &Kept, count: usize, piece: usize) -> Option<usize> {
         let was = |piece: usize| {
             let element = &self.pieces[piece].1;

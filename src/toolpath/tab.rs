@@ -2,8 +2,8 @@
 //! which is cut off after a stop.
 //!
 //! With a tab the passes end where it begins, and go back from there: a step leads from the path of one to that of the next. Then the tab is
-//! cut in passes of its own, to and fro from where the wire stands. Of several passes that all go one way each goes back along what it has
-//! cut: the straight way from where the tab begins to the thread hole would cut off what hangs on it.
+//! cut in passes of its own, to and fro from where the wire stands. Where several passes all go one way, each goes back along what it has
+//! cut: the straight way from where the tab begins to the thread hole would cut off what hangs on the tab.
 
 use super::contours::Contours;
 use super::corners::Element;
@@ -28,9 +28,9 @@ const CLEAR: f64 = 0.01;
 /// One pass, from the entry on.
 #[derive(Default)]
 struct Round {
-    /// All of it but for the tab, as it is gone.
+    /// All of it except the tab, in the order of travel.
     main: Vec<PathSegment>,
-    /// The first piece of that is the straight way from the thread hole.
+    /// The first piece of `main` is the straight way from the thread hole.
     is_led: bool,
     /// Along the tab, which ends at the entry.
     held: Rotated,
@@ -51,7 +51,7 @@ impl Job<'_> {
         kerfs: &Kerfs,
     ) -> Result<Vec<WirePath>, Refusal> {
         let tab = self.tab(&unled)?;
-        // From the far end of an open contour to the thread hole, in place of along the contour.
+        // From the far end of an open contour the wire goes straight to the thread hole, not back along the contour.
         let is_one_way = self.is_one_way(unled.passes.len());
         let returns = is_one_way && tab.is_none();
         let form = self.lead(wanted);
@@ -82,7 +82,7 @@ impl Job<'_> {
         let closed = outline.contour.closed;
         let counter_clockwise = (outline.twice_area > 0.0) != self.directed(unled.outline).1;
         let mut paths = Vec::with_capacity(2 * count);
-        // Where the wire stands, if that is at the tab.
+        // Where the wire is, if it is at the tab.
         let mut at_tab: Option<Point> = None;
         for stage in stages(count, tab.is_some(), is_one_way) {
             let Stage {
@@ -108,7 +108,7 @@ impl Job<'_> {
             let mut segments = match cut_off {
                 true => std::mem::take(&mut round.held).into_segments(back, None),
                 false if is_way_back => main.rev().map(reversed).collect(),
-                // What is gone back along, and what lies beyond the tab is asked of it once more.
+                // Kept, since the wire goes back along it, or on beyond the tab.
                 false if tab.is_some() && (overlap > 0.0 || is_one_way) => round.main.clone(),
                 false => std::mem::take(&mut round.main),
             };
@@ -116,7 +116,7 @@ impl Job<'_> {
                 (Some(first), Some(last)) => (first.geometry.start(), last.geometry.end()),
                 _ => (thread, thread),
             };
-            // From which side of travel the wire comes, and how far towards it from what is programmed it runs.
+            // The side of travel from which the wire comes, and how far to that side of the programmed path it runs.
             let across = self.across();
             let of_travel = across * if back { -unled.side } else { unled.side };
             let wire = self.units(self.settings.each_correction()[number]);
@@ -282,7 +282,7 @@ impl Job<'_> {
         Ok((round, side))
     }
 
-    /// Whether each of so many passes comes back to the thread hole to go the same way as the one before.
+    /// Whether each of this many passes comes back to the thread hole, to go the same way as the one before.
     fn is_one_way(&self, passes: usize) -> bool {
         self.settings.passes.sequence() == Sequence::OneWay && passes > 1
     }
@@ -303,7 +303,7 @@ impl Job<'_> {
             let source = unled.walls.first().map(|wall| wall.source);
             return Err(self.refused(source, sentence));
         }
-        // One that is named keeps its tab, whatever drops.
+        // A contour that is named keeps its tab, whatever drops.
         let is_named = matches!(settings.tab, LengthSetting::ByHandle(_));
         let keeps_one = length_mm > 0.0
             && matches!(outline.role, Role::Punch | Role::Opening)
@@ -371,14 +371,14 @@ impl Job<'_> {
 /// One path along a contour.
 #[derive(Clone, Copy)]
 struct Stage {
-    /// Of the pass, from 0.
+    /// The number of the pass, from 0.
     number: usize,
     cut_off: bool,
     is_way_back: bool,
 }
 
-/// The paths of so many passes in their order. Those that go one way to a tab go back before the next. The tab is cut to and fro, and ends at
-/// the thread hole: an even number of times from there, else from where the last pass stands.
+/// The paths of this many passes in their order. Passes that all go one way to a tab go back before the next one. The tab is cut to and fro, so
+/// that the last cut ends at the thread hole: it begins there for an even number of passes, else where the last pass ends.
 fn stages(count: usize, keeps_tab: bool, is_one_way: bool) -> Vec<Stage> {
     let mut stages = Vec::new();
     let mut add = |number: usize, cut_off: bool, is_way_back: bool| {
@@ -404,7 +404,7 @@ fn stages(count: usize, keeps_tab: bool, is_one_way: bool) -> Vec<Stage> {
 /// How a pass is travelled.
 struct Form {
     back: bool,
-    /// Where a straight way leads to it from.
+    /// The thread hole, where a straight way leads from it to the pass.
     thread: Option<Point>,
     /// How many passes there are.
     count: usize,
@@ -418,7 +418,7 @@ fn reversed(piece: &PathSegment) -> PathSegment {
     }
 }
 
-/// What lies before a point of a way, and what after it: the last place of the way that is there.
+/// The parts of a way before and after a point; where the way comes there several times, the last time counts.
 fn split(mut way: Vec<Element>, at: Point, rounding: f64) -> (Vec<Element>, Vec<Element>) {
     let is_there = |element: &Element| element.geometry.distance_to(at) <= rounding;
     let Some(index) = way.iter().rposition(is_there) else {
@@ -453,7 +453,7 @@ fn split(mut way: Vec<Element>, at: Point, rounding: f64) -> (Vec<Element>, Vec<
     (way, behind)
 }
 
-/// A segment with its ends where they are but for rounding.
+/// A segment with these ends, which differ from its own by rounding alone.
 fn with_ends(mut segment: Segment, start: Point, end: Point) -> Segment {
     match &mut segment {
         Segment::Line(line) => (line.start, line.end) = (start, end),
@@ -462,7 +462,7 @@ fn with_ends(mut segment: Segment, start: Point, end: Point) -> Segment {
     segment
 }
 
-/// The first so much of a way once more.
+/// The beginning of a way once more, in this length.
 fn beyond(way: impl Iterator<Item = PathSegment>, length: f64) -> Vec<PathSegment> {
     let (mut left, mut pieces) = (length, Vec::new());
     for PathSegment { geometry, source } in way {

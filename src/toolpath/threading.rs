@@ -24,7 +24,7 @@ impl Job<'_> {
         }
     }
 
-    /// True where what drops out lies inside the contour: a slug.
+    /// True where the part inside the contour drops out: a slug.
     pub(super) fn has_waste_inside(&self, outline: usize) -> bool {
         self.settings.has_waste_inside(self.outlines[outline].role)
     }
@@ -150,7 +150,7 @@ impl Job<'_> {
         Ok(thread)
     }
 
-    /// Where the wire's centre can only stand it is threaded, and cuts nothing more: no other thread hole will do.
+    /// Where the wire's centre can only stand still, the wire is threaded and cuts nothing more: no other thread hole will do.
     pub(super) fn refuse_other_thread(
         &self,
         wanted: &Requested,
@@ -207,7 +207,7 @@ impl Job<'_> {
     }
 }
 
-/// A straight way between two points, where they are two.
+/// The straight way between two points; nothing where they are one.
 pub(super) fn lead(from: Point, to: Point, source: Source) -> Option<PathSegment> {
     (from != to).then(|| PathSegment {
         geometry: Segment::line(from, to),

@@ -1,34 +1,34 @@
-//! What lies about each wall of a contour, for paths that run beside it; it knows nothing of walls but their boxes.
+//! What lies near each wall of a contour, for paths that run beside it. Knows nothing of walls but their boxes.
 
 use crate::geometry::Bounds;
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use rayon::slice::ParallelSliceMut;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// The number of consecutive walls that make "a few".
+/// The number of consecutive walls in a group, which is called "few" here.
 pub(super) const FAN: usize = 8;
 
-/// The walls that are kept about each few, on average.
+/// The most walls that are kept for each few, on average.
 const MOST_ABOUT: usize = 64;
 
-/// Where more lies about a few, its walls share one list.
+/// Where more than this lies near a few, its walls share one list.
 const MOST_OF_EACH: usize = 24;
 
 /// Walls that one core takes at a time.
 const AT_A_TIME: usize = 2048;
 
-/// For each wall those whose boxes come near its own.
+/// For each wall, the walls whose boxes come near its own.
 #[derive(Clone, Debug)]
 pub(super) struct Vicinity {
     pub(super) reach: f64,
-    /// Where those of each begin and end among `walls`; of a few that lies close to many they are the same.
+    /// Where those of each wall begin and end in `walls`; all walls of a few that lies close to many have the same range.
     ranges: Vec<[u32; 2]>,
     walls: Vec<u32>,
 }
 
 impl Vicinity {
-    /// What lies so far about each, by the boxes of all; `None` where that is too much. `few_near` adds those few whose box touches another, by
-    /// the first of them and with that box.
+    /// What lies within `reach` of each wall, by the boxes of all; `None` where that is too much. `few_near` adds every few whose box touches a
+    /// given one, by its first wall and with its box.
     pub(super) fn of(
         boxes: &[Bounds],
         reach: f64,
@@ -45,7 +45,7 @@ impl Vicinity {
             let (mut near_all, mut near) = (Vec::new(), Vec::new());
             for (at, few) in boxes[first..last].chunks(FAN).enumerate() {
                 if at.is_multiple_of(FAN) {
-                    // What is near to one few is among what is near to several.
+                    // What is near to one few is among what is near to several of them.
                     let several = &boxes[first + at * FAN..last];
                     let several = several.iter().take(FAN * FAN);
                     near_all.clear();
@@ -102,14 +102,14 @@ impl Vicinity {
         Some(about)
     }
 
-    /// Those about one.
+    /// The walls near one.
     pub(super) fn walls_of(&self, wall: usize) -> impl Iterator<Item = usize> {
         let [begin, end] = self.ranges[wall].map(|place| place as usize);
         self.walls[begin..end].iter().map(|&wall| wall as usize)
     }
 }
 
-/// The box that holds all.
+/// The box around all.
 pub(super) fn merged<'a>(boxes: impl Iterator<Item = &'a Bounds>) -> Bounds {
     let mut all = Bounds::EMPTY;
     boxes.for_each(|one| all.merge(one));

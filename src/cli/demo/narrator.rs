@@ -9,7 +9,7 @@ use std::time::Duration;
 const COLUMNS: usize = 80;
 const INDENT: usize = 4;
 
-/// What is behind a drawing: with a text, its diagnostics have lines.
+/// What a drawing is made of: if it is a text, its diagnostics have lines.
 pub(crate) enum Behind {
     Text,
     Nothing,

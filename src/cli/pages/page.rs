@@ -151,7 +151,7 @@ impl Page {
         html::page(spoken().tag(), name, &parts.concat())
     }
 
-    /// A section of a drawing that is no pair, whose parts follow behind all others.
+    /// A section of a drawing that is no pair. The parts of a pair have theirs after all other sections.
     fn of_all(&self, html: fn(&Share, Format, f64) -> String) -> String {
         let all = self.parts.iter().filter(|part| !part.is_part());
         all.map(|part| html(part, self.format, self.unit_mm))

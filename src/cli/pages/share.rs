@@ -1,4 +1,4 @@
-//! The part of a page that is about what is cut together: one part of a pair, or all of a drawing that is none.
+//! The section of a page about what is cut together: one part of a pair, or everything in a drawing that is no pair.
 
 use super::super::output;
 use super::html::{cell, more, number, section, table, text};

@@ -25,8 +25,8 @@ fn is_speck(segment: &Segment, limits: &Limits) -> bool {
     chord < resolution && height < resolution
 }
 
-/// True for such an arc in a contour that goes on behind it as it came, so that its chord is cut, and no corner in which the wire
-/// leaves anything that could be measured; its radius then says nothing.
+/// True for such an arc where the contour goes on after it as it came, so that its chord is cut and there is no corner in which the
+/// wire leaves anything that could be measured; its radius then means nothing.
 pub(crate) fn is_noise(
     contour: &Contour,
     index: usize,

@@ -10,7 +10,7 @@ use std::time::Duration;
 
 /// Messages of less than this together leave little behind.
 const LARGE: usize = 1024 * 1024;
-/// Long enough for most work that the message set off; what reads a whole document gives back behind that as well.
+/// Long enough for most work that the message set off; what reads a whole document gives memory back at its end, too.
 const DELAY: Duration = Duration::from_millis(400);
 
 #[derive(Clone, Default)]

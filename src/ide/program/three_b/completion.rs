@@ -51,7 +51,7 @@ pub(crate) fn completions(document: &Document, offset: usize) -> Vec<Completion>
 struct Typed {
     numbers: Vec<Option<i64>>,
     axis: Option<CountingAxis>,
-    /// Byte of the line where an unfinished letter stands: `G`, `N`, `S`.
+    /// Byte of the line at which an unfinished word begins: `G`, `N`, `S`.
     begun: Option<usize>,
 }
 
@@ -157,7 +157,7 @@ fn shapes(x: i64, y: i64, largest: i64) -> Vec<Block> {
     blocks
 }
 
-/// The points whose coordinates have these amounts.
+/// The points whose coordinates have these absolute values.
 fn corners(x: i64, y: i64) -> Vec<Node> {
     let mut corners: Vec<Node> = Vec::new();
     for (sign_x, sign_y) in [(1, 1), (-1, 1), (-1, -1), (1, -1)] {
