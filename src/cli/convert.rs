@@ -145,7 +145,11 @@ fn target(arguments: &Arguments) -> Result<Target, Failure> {
 
 fn summarise(arguments: &Arguments, target: Target, made: &Converted) {
     let cuts = &made.cuts;
-    let contours = say!(contours, cuts.cuts.len());
+    let contours = match target {
+        Target::Drawing => say!(contours, cuts.contour_count()),
+        // Each pass is one of a program.
+        Target::Program(_) => say!(contours, cuts.cuts.len()),
+    };
     let what = match made.blocks {
         Some(blocks) => format!("{}{}{contours}", say!(blocks, blocks), say!(comma)),
         None => contours,

@@ -275,8 +275,8 @@ declare! {
     the_program_ends_with_the_correction_on => "the program ends with the correction on: expected G40 before the way out";
     subprogram_has_no_m99(number) => "subprogram {number} has no M99: the control runs on into what follows it, or stops";
     the_word_for_a_corner_finds_none_here => "the word for a corner finds no corner here, or no room for it: the corner stays sharp, or the control stops";
-    has_no_decimal_point(word) => "{word} has no decimal point, but the other numbers have one: it is read in whole units, a control may read it in its finest steps";
-    several_have_no_decimal_point(word, count) => "{word} and others ({count} in all) have no decimal point, but the rest have one: they are read in whole units, a control may read them in its finest steps";
+    has_no_decimal_point(word) => "{word} has no decimal point, but the other numbers have one: it is read in whole units, but a control may read it in its finest steps";
+    several_have_no_decimal_point(word, count) => "{word} and others ({count} in all) have no decimal point, but the rest have one: they are read in whole units, but a control may read them in its finest steps";
     has_a_decimal_point(word) => "{word} has a decimal point, but the other numbers have none: it is read in whole units, they in the finest steps";
     has_other_decimals_than_the_others(word, usual) => "{word} has a different number of decimals from all other numbers, which have {usual}: a digit may be lost, or there is one too many";
     the_program_does_not_say_its_unit(size) => "the program does not state its unit (G20, G21) and is read in mm: then the part is {size} mm long or wide, which suggests inches (program.units)";

@@ -156,7 +156,7 @@ declare! {
     centre_from_the_zero(axis, mm) => "the arc's centre lies at {axis} {mm} mm from the program's zero";
     centre_and_how_that_is_known(word, meant, known) => "**{word}** {meant} ({known})";
     the_arcs_leave_that_open => "the arcs leave that open, so it is taken as the profile has it";
-    found_from_the_arcs_of_this_program => "found from the arcs of this program, machines differ in it";
+    found_from_the_arcs_of_this_program => "found from the arcs of this program; machines differ in it";
     place_of_the_table_as_set(word, index, mm) => "**{word}** place {index} of the control's table of corrections: {mm} mm, as this program sets it";
     place_of_the_table_of_the_machine(word, index, mm) => "**{word}** place {index} of the control's table of corrections, not a length. What it holds depends on the machine: arcs are compared with the setting, {mm} mm";
     upper_guide_along_x_or_y => "the upper guide's way along X or Y, or the taper's";
@@ -180,7 +180,7 @@ declare! {
     coordinates_count_from_the_wire => "coordinates count from where the wire stands";
     says_where_the_wire_stands_in_this_line => "says where the wire stands: X and Y of this line";
     says_how_i_and_j_are_meant => "says how I and J are meant, which is found from the arcs themselves";
-    mirrors_or_swaps_the_axes => "on fast-wire controls it mirrors or swaps the axes, G12 ends that";
+    mirrors_or_swaps_the_axes => "on fast-wire controls it mirrors or swaps the axes; G12 ends that";
     a_limit_of_travel => "a limit of travel, or a mode of corners";
     goes_to_a_place_that_the_machine_knows => "goes to a place that the machine knows";
     how_the_correction_is_switched => "how the correction is switched, or what is done at corners";

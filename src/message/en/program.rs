@@ -67,7 +67,7 @@ declare! {
     an_angle_in_thousandths_of_a_degree(degrees) => "the wire leans by {degrees:.3}°: where whole numbers are micrometres, those of an angle are thousandths of a degree; a decimal point makes them degrees";
     how_far_the_wire_leans_needs_the_angle(line) => "how far the wire leans is not known: line {line} says no angle (A or T)";
     a_taper_would_not_be_kept => "a taper (G51, G52, G140 to G142) would not be kept";
-    the_upper_profile_would_begin_beside_a_corner => "under the taper in force the upper profile would begin and end beside that corner, and cut into the part or leave a rest";
+    the_upper_profile_would_begin_beside_a_corner => "under the taper in force the upper profile would begin and end beside that corner, and cut into the part or leave material standing";
     the_planes_of_a_taper_would_not_be_kept => "the planes of a taper (TP, TN) would not be kept";
     its_begin_does_not_say_where_the_wire_stands => "its begin does not say that the wire stands at the start: expected G92 X{x} Y{y}";
     its_contour_begin_names_no_register(number) => "its contour-begin does not name the place {number} of the correction: expected a line with {{register}}, and a register that ends in a number";
@@ -125,7 +125,7 @@ declare! {
     rotate_by_90_counter_clockwise => "Rotate by 90° counter-clockwise";
     rotate_by_90_clockwise => "Rotate by 90° clockwise";
     rotate_by_180 => "Rotate by 180°";
-    semicolon_hides_a_block(column) => "column {column}: the block after this semicolon is read as a comment and not cut: to some controls a semicolon ends a block, then each block needs a line of its own";
+    semicolon_hides_a_block(column) => "column {column}: the block after this semicolon is read as a comment and not cut: on some controls a semicolon ends a block; for those, write each block on a line of its own";
     this_comment_holds_a_block_which_is_not_cut(column) => "column {column}: this comment holds a block, which is not cut";
     no_word_is_found => "no block is found, expected words such as G01 X1. Y2.";
     the_file_is_binary_not_a_program => "the file is binary, not the text of a program";
@@ -146,7 +146,7 @@ declare! {
     a_block_or_word_or_comment_of_3b => "a block (B X B Y B J G Z), a pause or end word, or a comment after `;`";
     cyrillic_or_greek => "Cyrillic or Greek";
     a_block_in_plain_letters_and_digits => "a block in plain letters and digits";
-    found_letters_of_another_script(at, found, expected, script) => "column {at}: found `{found}`, expected {expected}, these are {script} ones";
+    found_letters_of_another_script(at, found, expected, script) => "column {at}: found `{found}`, expected {expected}; these letters are {script}";
     n4b_needs_the_side_of_the_contour => "4B holds the part's contour: set compensation to controller, and say opening or punch";
     a_written_block_cannot_be_read_again(sentence) => "a written block cannot be read again: {sentence}";
     a_written_block_reads_otherwise(line, block) => "the written block {line} does not read as {block}";

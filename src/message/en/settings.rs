@@ -28,7 +28,7 @@ declare! {
     mark_did_you_mean(bearer, mark, near) => "the mark {mark:?} of {bearer} suppresses nothing, expected \"suppress RULE: the reason\": did you mean {near}?";
     mark_is_not_understood(bearer, mark) => "the mark {mark:?} of {bearer} suppresses nothing, expected \"suppress RULE: the reason\"";
     suppresses_nothing(handle, rule) => "the suppression of {rule} at {handle} suppresses nothing here: remove it";
-    no_contour_of_that_name(drawing, key) => "nothing in this drawing is {key}: what [drawings.\"{drawing}\".contours] says of it holds for nothing";
+    no_contour_of_that_name(drawing, key) => "nothing in this drawing is {key}: what [drawings.\"{drawing}\".contours] says of it applies to nothing";
     one_or_other(ones, other) => "{ones} or {other}";
     is_not_what_is_expected(key: dyn crate::message::Shown, found: dyn crate::message::Shown, expected: dyn crate::message::Shown) => { format!("{key} is {found}, expected {expected}") };
     is_empty(key: dyn crate::message::Shown, expected: dyn crate::message::Shown) => { format!("{key} is empty, expected {expected}") };

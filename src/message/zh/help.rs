@@ -30,7 +30,7 @@ pub(in crate::message) const HELP: &[(&str, &str)] = &[
     ("check", "检查图形和程序有什么问题"),
     (
         "check/",
-        "文件夹中查找 .dxf、.dxb、.3b、.4b、.iso 和 .nc；.gitignore、.ignore、.wedmignore 所列的和隐藏文件不查。没有错误以 0 结束，有错误以 1 结束，有内容读不出以 2 结束。",
+        "文件夹中查找 .dxf、.dxb、.dxfb、.3b、.4b、.iso 和 .nc；.gitignore、.ignore、.wedmignore 所列的和隐藏文件不查。没有错误以 0 结束，有错误以 1 结束，有内容读不出以 2 结束。",
     ),
     ("check paths", "文件，以及要查找的文件夹；`-` 是标准输入"),
     ("check output concise", "每个问题一行"),

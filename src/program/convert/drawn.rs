@@ -1,6 +1,7 @@
 //! A program as a drawing: contours, the ways to them, and the ways between them on layers of their own.
 
-use super::{Cuts, rings};
+use super::Cuts;
+use super::rings::{Passes, Ring};
 use crate::drawing::{Drawing, Entity, Geometry, Unit};
 use crate::geometry::{Point, Segment};
 use crate::program::path::polyline;
@@ -15,23 +16,14 @@ impl Cuts {
     /// lines. Of several passes the last is the contour; the earlier ones lie on layers of their own.
     pub fn drawing(&self) -> Drawing {
         let mut drawing = Drawing::new(Some(Unit::MILLIMETRE));
-        let mut cuts = &self.cuts[..];
-        while let Some((cut, behind)) = cuts.split_first() {
-            if let Some((passes, count)) = rings::passes(cuts) {
-                let last = passes.len();
-                for (ring, number) in passes.iter().zip(1..) {
-                    let layer = if number == last {
-                        CUT.into()
-                    } else {
-                        format!("PASS{number}")
-                    };
-                    let leads = if number == last { &ring.leads[..] } else { &[] };
-                    leads.iter().for_each(|lead| push_lead(&mut drawing, lead));
-                    push_contour(&mut drawing, &layer, &ring.segments, true);
+        for contour in self.by_contour() {
+            let cut = match contour {
+                Passes::Several(passes) => {
+                    push_passes(&mut drawing, &passes);
+                    continue;
                 }
-                cuts = cuts.get(count..).unwrap_or_default();
-                continue;
-            }
+                Passes::One(cut) => cut,
+            };
             let way_out = cut.segments.len().saturating_sub(cut.lead_out);
             cut.segments[..cut.lead_in.min(way_out)]
                 .iter()
@@ -40,12 +32,26 @@ impl Cuts {
             cut.segments[way_out..]
                 .iter()
                 .for_each(|lead| push_lead(&mut drawing, lead));
-            cuts = behind;
         }
         for &ends in &self.ways {
             push_line(&mut drawing, WAY, ends);
         }
         drawing
+    }
+}
+
+/// The last of several passes is the contour.
+fn push_passes(drawing: &mut Drawing, passes: &[Ring]) {
+    let last = passes.len();
+    for (ring, number) in passes.iter().zip(1..) {
+        let layer = if number == last {
+            CUT.into()
+        } else {
+            format!("PASS{number}")
+        };
+        let leads = if number == last { &ring.leads[..] } else { &[] };
+        leads.iter().for_each(|lead| push_lead(drawing, lead));
+        push_contour(drawing, &layer, &ring.segments, true);
     }
 }
 

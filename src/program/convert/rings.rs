@@ -1,6 +1,6 @@
 //! Passes of one contour, each closed by its tab, which a later cut removes.
 
-use super::{CutPath, JOINED};
+use super::{CutPath, Cuts, JOINED};
 use crate::geometry::{Bounds, Point, Segment};
 use crate::program::path::{lie_beside, tolerance, without_ways_back};
 
@@ -19,9 +19,37 @@ pub(super) struct Ring {
     pub leads: Vec<Segment>,
 }
 
+/// The passes of one contour.
+pub(super) enum Passes<'a> {
+    One(&'a CutPath),
+    /// Rough to finish.
+    Several(Vec<Ring>),
+}
+
+impl Cuts {
+    /// Its cuts by contour.
+    pub(super) fn by_contour(&self) -> impl Iterator<Item = Passes<'_>> {
+        let mut cuts = &self.cuts[..];
+        std::iter::from_fn(move || {
+            let (first, others) = cuts.split_first()?;
+            let Some((rings, count)) = passes(cuts) else {
+                cuts = others;
+                return Some(Passes::One(first));
+            };
+            cuts = cuts.get(count..).unwrap_or_default();
+            Some(Passes::Several(rings))
+        })
+    }
+
+    /// The number of its contours, each with all its passes.
+    pub(crate) fn contour_count(&self) -> usize {
+        self.by_contour().count()
+    }
+}
+
 /// The passes at the start of some cuts, rough to finish, and the number of those cuts; `None` where these are not
 /// several passes of one contour.
-pub(super) fn passes(cuts: &[CutPath]) -> Option<(Vec<Ring>, usize)> {
+fn passes(cuts: &[CutPath]) -> Option<(Vec<Ring>, usize)> {
     let begin = cuts.first()?.segments.first()?.start();
     let arcs = |cut: &CutPath| {
         cut.segments

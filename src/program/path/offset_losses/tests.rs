@@ -62,7 +62,12 @@ fn only_the_side_of_the_wire_has_narrow_places() {
         ),
         (&square, Right, 2_100.0, vec![]),
         (&chamber, Left, 90.0, vec![]),
-        (&chamber, Left, 110.0, vec![narrow(2, 8), (Rule::LostPocket, 6, None)]),
+        (
+            &chamber,
+            Left,
+            110.0,
+            vec![narrow(2, 8), (Rule::LostPocket, 6, None)],
+        ),
     ] {
         let mut all = found(points, side, correction);
         all.sort_by_key(|one| (one.1, one.2));
