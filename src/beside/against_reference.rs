@@ -152,7 +152,9 @@ pub(super) fn against_reference(drawn: &Drawn, traced: &Traced, under: &Under) -
             _ => Some(pairs.away()),
         };
         let told = from.and_then(|from| pairs.told(from, as_drawn == Some(from)));
-        if many(&told) < many(&best) {
+        // Where it lies elsewhere, a vertex that has moved changes both of its blocks.
+        let changed = |told: &Option<Told>| told.as_ref().map_or(0, |told| told.changed);
+        if (many(&told), changed(&told)) < (many(&best), changed(&best)) {
             best = told;
         }
     }

@@ -53,7 +53,7 @@ pub fn compare(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
 }
 
 /// The same without the corrections of contours beside each other, and whether nothing is to be asked of these: the
-/// program is as we write it, or follows all of the drawing at one correction.
+/// program is as we write it, but for one change perhaps, or follows all of the drawing at one correction.
 fn compared(drawn: &Drawn, traced: &Traced) -> (Option<Comparison>, bool) {
     let known = against_reference(drawn, traced, &drawn.as_set());
     if traced.mills {
@@ -64,6 +64,7 @@ fn compared(drawn: &Drawn, traced: &Traced) -> (Option<Comparison>, bool) {
     let mut layings = Layings::of(drawn, traced);
     let Some(known) = known else {
         let guessed = otherwise(drawn, traced);
+        let is_one_change = guessed.as_ref().is_some_and(Told::is_one_change);
         let seen = match guessed {
             Some(told) if is_silent(&told) || is_slight(&told) => Some(told.whole()),
             Some(told) if told.is_one_change() => {
@@ -81,7 +82,7 @@ fn compared(drawn: &Drawn, traced: &Traced) -> (Option<Comparison>, bool) {
             }),
         };
         let seen = seen.or_else(|| on_other_side(drawn, traced));
-        return (seen, layings.is_even);
+        return (seen, layings.is_even || is_one_change);
     };
     let blocks = traced.blocks.len();
     // Of few blocks any may be as other settings have it; of many, a few may be as another writer rounds them.
@@ -109,7 +110,7 @@ fn compared(drawn: &Drawn, traced: &Traced) -> (Option<Comparison>, bool) {
         return (Some(seen), layings.is_even);
     }
     if !is_doubtful {
-        let is_ours = known.comparison.differences.is_empty();
+        let is_ours = known.comparison.differences.is_empty() || known.is_one_change();
         return (Some(known.whole()), is_ours);
     }
     // No setting moves a contour as a whole: where it is said to be moved, other changes do not explain it better.

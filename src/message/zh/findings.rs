@@ -236,7 +236,7 @@ translate! {
     thousands_of_entities_lie_on_each_other(count) => "成千图元相互重叠或相交：从这里起有 {count} 段轮廓没有与邻近部分比较";
     the_correction_is_so_large_beside_the_segments(contours) => "补偿量远大于各段长度：从这里起有 {contours} 个轮廓没有检查偏移后丢失的部分";
     the_correction_is_too_large_for_a_path(segments, most) => "补偿量远大于此轮廓 {segments} 段的长度，不生成路径：边长为补偿量两倍的方格内平均超过 {most} 段；请检查补偿量和单位";
-    so_long_a_contour_is_not_searched_for_narrow_places(blocks) => "轮廓有 {blocks} 个程序段，不查找其中对控制器补偿来说过窄的部位；`wedm convert` 可把程序转换成图纸，在图纸中会查出";
+    so_long_a_contour_is_not_searched_for_narrow_places(blocks) => "轮廓有 {blocks} 个程序段，不查找其中对控制器补偿来说过窄的部位；`wedm convert` 可把程序变成图形，在图形中会查出";
     so_much_of_the_way_lies_on_one_place(blocks) => "这 {blocks} 个程序段的路线大量重叠在一处，交点没有全部查找";
     this_insert_draws_too_much(copies, segments, most) => "此 INSERT 画出 {copies} 份，共 {segments} 段，超过文件中块参照允许的 {most} 段：不画";
     this_curve_would_take_too_many_arcs(arcs, most) => "此曲线要 {arcs} 段圆弧，图形中全部曲线最多 {most} 段，余量不够：不画";

@@ -107,9 +107,14 @@ impl Contour {
 
     fn losses(&self, offset: ControlOffset) -> Vec<Loss> {
         let is_inside = self.twice_area() * offset.side.sign() > 0.0;
-        if !self.may_lose(offset.checked(), is_inside) {
-            return Vec::new();
+        match self.may_lose(offset.checked(), is_inside) {
+            true => self.judged(offset, is_inside),
+            false => Vec::new(),
         }
+    }
+
+    /// By the rules of drawings.
+    fn judged(&self, offset: ControlOffset, is_inside: bool) -> Vec<Loss> {
         let Some(geometry) = polyline(&self.pieces, true) else {
             return Vec::new();
         };

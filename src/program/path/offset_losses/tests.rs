@@ -1,5 +1,6 @@
 use super::*;
 use crate::program::path::Writing;
+use proptest::prelude::*;
 
 /// A closed way through some points, mm.
 fn way(points: &[[f64; 2]]) -> HeldWay {
@@ -109,4 +110,34 @@ fn a_contour_of_too_many_blocks_is_not_looked_at() {
     };
     assert_eq!(losses(&way(&ring(MOST_BLOCKS)), offset), Some(Vec::new()));
     assert_eq!(losses(&way(&ring(MOST_BLOCKS + 1)), offset), None);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 96, ..ProptestConfig::default() })]
+
+    /// Contours that are passed over lose nothing: stars of a few points, with bent sides.
+    #[test]
+    fn what_is_passed_over_loses_nothing(
+        radii in proptest::collection::vec((300.0..2_000.0, -0.6..0.6, any::<bool>()), 3..14),
+        correction in 20.0..400.0,
+        is_left in any::<bool>(),
+    ) {
+        let turn = std::f64::consts::TAU / radii.len() as f64;
+        let at = |nth: usize| {
+            let (radius, angle) = (radii[nth % radii.len()].0, nth as f64 * turn);
+            Point::new(radius * angle.cos(), radius * angle.sin())
+        };
+        let piece = |nth: usize| match radii[nth] {
+            (_, bulge, true) => Segment::from_bulge(at(nth), at(nth + 1), bulge),
+            _ => Segment::line(at(nth), at(nth + 1)),
+        };
+        let pieces: Vec<Segment> = (0..radii.len()).map(piece).collect();
+        let contour = Contour { blocks: (0..pieces.len()).collect(), pieces };
+        let side = if is_left { Side::Left } else { Side::Right };
+        let offset = ControlOffset { side, correction };
+        let is_inside = contour.twice_area() * side.sign() > 0.0;
+        if !contour.may_lose(offset.checked(), is_inside) {
+            prop_assert_eq!(contour.judged(offset, is_inside), Vec::new());
+        }
+    }
 }
