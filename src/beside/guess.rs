@@ -369,7 +369,18 @@ impl<'a> Search<'a> {
         let corrections = self.best.settings.each_correction();
         let lengths = tabs(self.drawn, self.traced, &reference, &corrections);
         let of = |tab| self.with(|settings| settings.tab = LengthSetting::One(tab));
-        lengths.into_iter().map(of).collect()
+        // Slugs are kept above a limit that nothing in the program tells.
+        let of_slugs = |tab: f64| {
+            let knows_slugs = self.drawn.settings.job.slug_limit.is_some();
+            (tab > 0.0 && !knows_slugs).then(|| {
+                self.with(|settings| {
+                    settings.tab = LengthSetting::One(tab);
+                    (settings.job.thickness, settings.job.slug_limit) = (Some(1.0), Some(0.0));
+                })
+            })
+        };
+        let with_slugs = |tab: f64| std::iter::once(of(tab)).chain(of_slugs(tab));
+        lengths.into_iter().flat_map(with_slugs).collect()
     }
 
     fn of_overlaps(&self) -> Vec<Under> {

@@ -141,26 +141,45 @@ pub(super) fn contours(drawn: &Drawn, traced: &Traced) -> Option<Vec<String>> {
     Some(names.collect())
 }
 
+/// A run from stop to stop, and the register at its start.
+struct Run {
+    segments: Vec<Segment>,
+    register: Option<u32>,
+}
+
+impl AsRef<[Segment]> for Run {
+    fn as_ref(&self) -> &[Segment] {
+        &self.segments
+    }
+}
+
 /// The passes of the longest contour, each from stop to stop; pieces that cut off its tab do not count, and neither do
-/// ways back along a pass.
-pub(super) fn passes(traced: &Traced) -> Vec<Vec<Segment>> {
+/// ways back along a pass. Under the control these have its register; in 4B, where nothing tells them from passes that
+/// run back, they count where `as_passes` says so.
+pub(super) fn passes(traced: &Traced, as_passes: bool) -> Vec<Vec<Segment>> {
     let Some(longest) = cuts(traced).max_by_key(|cut| cut.len()) else {
         return Vec::new();
     };
     let beside = cuts(traced).filter(|cut| are_passes(traced, &longest, cut));
-    let mut passes: Vec<Vec<Segment>> = Vec::new();
+    let mut runs: Vec<Run> = Vec::new();
     for cut in beside {
         let blocks = traced.blocks.get(cut).unwrap_or_default();
         let pieces = blocks.split(|block| block.segment().is_none());
-        passes.extend(pieces.map(|piece| segments_of(piece).copied().collect()));
+        runs.extend(pieces.map(|piece| Run {
+            segments: segments_of(piece).copied().collect(),
+            register: piece.iter().find_map(|block| block.register),
+        }));
     }
-    let length = |pass: &Vec<Segment>| pass.iter().map(Segment::length).sum::<f64>();
-    let longest = passes.iter().map(length).fold(0.0, f64::max);
-    passes.retain(|pass| 2.0 * length(pass) > longest);
-    match traced.blocks.iter().any(Block::is_offset) {
-        true => passes,
-        false => without_ways_back(passes, PARALLEL),
-    }
+    let length = |run: &Run| run.segments.iter().map(Segment::length).sum::<f64>();
+    let longest = runs.iter().map(length).fold(0.0, f64::max);
+    runs.retain(|run| 2.0 * length(run) > longest);
+    let is_offset = traced.blocks.iter().any(Block::is_offset);
+    let may_go_back = |one: &Run, other: &Run| match is_offset {
+        true => one.register.is_some() && one.register == other.register,
+        false => !(traced.four_b && as_passes),
+    };
+    let runs = without_ways_back(runs, PARALLEL, may_go_back).into_iter();
+    runs.map(|run| run.segments).collect()
 }
 
 /// How much nearer to the wall each pass runs than the first, µm: the distance that most of its length beside the first
@@ -231,7 +250,8 @@ pub(super) fn longer_ways(traced: &Traced, than: &Traced) -> Vec<f64> {
 }
 
 /// The possible settings of the ways' length, mm, the longest first: a way is shorter where there is no room. And
-/// whether the setting is stated: then it counts from the path, else from the contour.
+/// whether the setting is stated: then it counts from the path, else from the contour. Those that are stated come first:
+/// the others depend on the correction as well.
 pub(super) fn leads(traced: &Traced, correction: f64) -> Vec<(f64, Option<f64>)> {
     // From the hole to the contour, whichever way the wire goes: an arc ends tangent to the contour, and looks like a part of it.
     let lead = |[all, contour]: &[Range<usize>; 2]| -> f64 {
@@ -263,7 +283,7 @@ pub(super) fn leads(traced: &Traced, correction: f64) -> Vec<(f64, Option<f64>)>
             .take(if is_offset { 2 } else { 1 });
         let stated = stated.flat_map(|um| [hundredths(um), um.round() / 1e3]);
         let stated = stated.map(|length| (length, Some(length)));
-        std::iter::once((unstated, None)).chain(stated)
+        stated.chain([(unstated, None)])
     };
     lengths.into_iter().flat_map(of).collect()
 }

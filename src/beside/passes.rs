@@ -63,8 +63,11 @@ fn transitions(radii: &[f64]) -> Option<f64> {
 /// Corrections that a program may have been written with, mm; those of several passes fall.
 pub(super) fn corrections(drawn: &Drawn, traced: &Traced) -> Vec<Vec<f64>> {
     let scale = drawn.unit_mm * 1e3;
-    let mut passes = measure::passes(traced);
+    let mut passes = measure::passes(traced, true);
     passes.truncate(PASSES);
+    // Where 4B leaves a tab, every other one may be a way back.
+    let fewer = traced.four_b.then(|| measure::passes(traced, false).len());
+    let fewer = fewer.filter(|count| (1..passes.len()).contains(count));
     let steps = measure::steps(&passes).filter(|steps| steps.len() > 1);
     let first = [0.0];
     let known = steps.as_deref().unwrap_or(&first);
@@ -95,9 +98,9 @@ pub(super) fn corrections(drawn: &Drawn, traced: &Traced) -> Vec<Vec<f64>> {
     }
     if passes.len() > 1 {
         let of_control = traced.four_b || traced.blocks.iter().any(|block| block.is_offset());
-        let falling = |from: f64| {
+        let falling = |count: usize, from: f64| -> Vec<f64> {
             let of = |pass: usize| from * (1.0 - 0.1 * pass as f64);
-            (0..passes.len()).map(of).collect()
+            (0..count).map(of).collect()
         };
         // Where the control adds the correction, all passes are one way.
         let mut lists: Vec<Vec<f64>> = match of_control {
@@ -109,7 +112,10 @@ pub(super) fn corrections(drawn: &Drawn, traced: &Traced) -> Vec<Vec<f64>> {
                 let least = least.map(|mm| rounded(mm, 1e-3)).filter(|mm| *mm > 0.0);
                 // Where several are alike as likely, the drawing's own.
                 let first = aside.into_iter().chain(own).chain(least).chain(single);
-                first.map(falling).collect()
+                let counts = || std::iter::once(passes.len()).chain(fewer);
+                first
+                    .flat_map(|mm| counts().map(move |count| falling(count, mm)))
+                    .collect()
             }
             false => Vec::new(),
         };

@@ -39,8 +39,9 @@ pub(super) fn is_certain(traced: &Traced, told: &Told, under: &Under) -> bool {
         _ => FAR,
     };
     match &told.comparison.differences[..] {
-        _ if told.elsewhere > 0 => false,
-        [] => told.is_exact() && told.words.is_empty(),
+        // Words that differ may be those of another side.
+        _ if told.elsewhere > 0 || !told.words.is_empty() => false,
+        [] => told.is_exact(),
         // Hardly any setting has one way alone elsewhere by so little.
         [one] if one.kind == Kind::Lead => told.is_exact() && one.off <= SLIGHT,
         [one]

@@ -220,7 +220,12 @@ fn arcs_are_held_against_the_correction_under_compensation_only() {
     };
     check(
         &program("G41 D1", ""),
-        &[(6, "small-radius"), (8, "small-radius")],
+        &[
+            (5, "narrow-slot"),
+            (5, "offset-collapse"),
+            (6, "small-radius"),
+            (8, "small-radius"),
+        ],
     );
     // The wire outside.
     let outside = program("G42 D1", "")
@@ -230,7 +235,12 @@ fn arcs_are_held_against_the_correction_under_compensation_only() {
     check(&program("G41 H1", "H1=80\n"), &[]);
     check(
         &program("G41 H1", "H1=95\n"),
-        &[(7, "small-radius"), (9, "small-radius")],
+        &[
+            (6, "narrow-slot"),
+            (6, "offset-collapse"),
+            (7, "small-radius"),
+            (9, "small-radius"),
+        ],
     );
     check(&program("G40", ""), &[]);
     let none = Effective {

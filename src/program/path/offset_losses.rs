@@ -122,6 +122,11 @@ impl Contour {
         drawing.push(Entity::new("0", "0", geometry));
         let settings = settings(offset.checked() / UM_IN_MM, is_inside);
         let (found, _) = Analysis::new(&drawing, settings).findings(&drawing, usize::MAX);
+        // What touches itself has no sides.
+        let touches = |found: &Finding| found.rule == Rule::SelfIntersection;
+        if found.iter().any(touches) {
+            return Vec::new();
+        }
         // The pieces of the polyline's segments.
         let halves = |(nth, piece): (usize, &Segment)| {
             std::iter::repeat_n(nth, if is_halved(piece) { 2 } else { 1 })
@@ -189,9 +194,14 @@ fn apart(one: &Segment, other: &Segment) -> f64 {
 fn settings(correction: f64, is_inside: bool) -> Arc<Effective> {
     static RULES: LazyLock<Effective> = LazyLock::new(|| {
         let mut settings = Effective::of(&Settings::default());
-        let of_offset = [Rule::NarrowSlot, Rule::LostPocket, Rule::OffsetCollapse];
+        let asked = [
+            Rule::NarrowSlot,
+            Rule::LostPocket,
+            Rule::OffsetCollapse,
+            Rule::SelfIntersection,
+        ];
         for (rule, severity) in &mut settings.severities {
-            severity.take_if(|_| !of_offset.contains(rule));
+            severity.take_if(|_| !asked.contains(rule));
         }
         settings
     });

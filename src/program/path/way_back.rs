@@ -2,22 +2,27 @@
 
 use crate::geometry::Segment;
 
-/// Runs without those that go back along the one before.
-pub(crate) fn without_ways_back<R: AsRef<[Segment]>>(runs: Vec<R>, near: f64) -> Vec<R> {
+/// Runs without those that go back along the one before, where two of them `may` be a pass and its way back.
+pub(crate) fn without_ways_back<R: AsRef<[Segment]>>(
+    runs: Vec<R>,
+    near: f64,
+    may: impl Fn(&R, &R) -> bool,
+) -> Vec<R> {
     let mut kept: Vec<R> = Vec::with_capacity(runs.len());
     let mut is_behind_way_back = false;
     for run in runs {
         let before = kept.last().filter(|_| !is_behind_way_back);
-        is_behind_way_back =
-            before.is_some_and(|before| goes_back(before.as_ref(), run.as_ref(), near));
+        is_behind_way_back = before.is_some_and(|before| {
+            may(before, &run) && goes_back(before.as_ref(), run.as_ref(), near)
+        });
         kept.extend((!is_behind_way_back).then_some(run));
     }
     kept
 }
 
-/// Whether a run retraces the one before, block for block, within `near`, in the unit of both. Of two passes beside the
-/// same contour in opposite directions, each at its own correction, none does; under the control's correction, where
-/// both have the same coordinates, it says nothing.
+/// Whether a run retraces the one before, block for block, within `near`, in the unit of both. From a run that has come
+/// round to its start there is no way back. Of two passes beside the same contour in opposite directions, each at its
+/// own correction, none does; under the control's correction, where both have the same coordinates, it says nothing.
 fn goes_back(before: &[Segment], run: &[Segment], near: f64) -> bool {
     let is_back = |one: &Segment, other: &Segment| {
         let pairs = [
@@ -29,7 +34,11 @@ fn goes_back(before: &[Segment], run: &[Segment], near: f64) -> bool {
             .iter()
             .all(|(one, other)| (one - other).norm() <= near)
     };
-    !run.is_empty()
+    let comes_round = match (before.first(), before.last()) {
+        (Some(first), Some(last)) => (first.start() - last.end()).norm() <= near,
+        _ => true,
+    };
+    !comes_round
         && before.len() == run.len()
         && before
             .iter()
@@ -58,7 +67,7 @@ mod tests {
         assert!(!goes_back(&there, &beside, 0.1), "the chord of the arc");
         assert!(!goes_back(&[], &[], 1e-6));
         let runs = vec![&there[..], &back[..], &there[..], &beside[..]];
-        let kept = without_ways_back(runs, 1e-6);
+        let kept = without_ways_back(runs, 1e-6, |_, _| true);
         assert_eq!(kept, [&there[..], &there[..], &beside[..]]);
     }
 }

@@ -193,12 +193,19 @@ fn tables_are_reckoned_and_units_are_what_is_said() {
     check(&slot("H175=.05\nH1 = .03 + H175\n"), &[]);
     check(
         &slot("H175=.05\nH1 = .08 + H175 - .02\n"),
-        &[(8, "small-radius"), (10, "small-radius")],
+        &[
+            (7, "narrow-slot"),
+            (7, "offset-collapse"),
+            (8, "small-radius"),
+            (10, "small-radius"),
+        ],
     );
     check(
         &slot("H1 = .03 + H175\n"),
         &[
             (1, "machine-dependent"),
+            (6, "narrow-slot"),
+            (6, "offset-collapse"),
             (7, "small-radius"),
             (9, "small-radius"),
         ],

@@ -112,6 +112,21 @@ fn a_contour_of_too_many_blocks_is_not_looked_at() {
     assert_eq!(losses(&way(&ring(MOST_BLOCKS + 1)), offset), None);
 }
 
+#[test]
+fn what_touches_itself_has_no_sides() {
+    let touching = [
+        [1.0, 0.0],
+        [0.6, 0.4],
+        [1.0, 0.4],
+        [1.0, 0.0],
+        [1.4, -0.4],
+        [1.0, -0.4],
+    ];
+    for side in [Side::Left, Side::Right] {
+        assert_eq!(found(&touching, side, 100.0), []);
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 96, ..ProptestConfig::default() })]
 

@@ -297,7 +297,7 @@ fn a_broken_block_is_said_with_its_column_and_hides_no_other() {
     );
     check(
         "\u{412}9900B0B9900GXL1",
-        "! 0..17 column 1: found `\u{412}9900B0B9900`, expected a block in plain letters and digits, these are Cyrillic or Greek ones",
+        "! 0..17 column 1: found `\u{412}9900B0B9900`, expected a block in plain letters and digits; these letters are Cyrillic or Greek",
     );
     check(
         "\u{411}9900\u{411}0\u{411}39600GYNR1",
