@@ -123,7 +123,8 @@ impl Contour {
         let settings = settings(offset.checked() / UM_IN_MM, is_inside);
         let (found, _) = Analysis::new(&drawing, settings).findings(&drawing, usize::MAX);
         // What touches itself has no sides.
-        let touches = |found: &Finding| found.rule == Rule::SelfIntersection;
+        let touches =
+            |found: &Finding| matches!(found.rule, Rule::SelfIntersection | Rule::Overlap);
         if found.iter().any(touches) {
             return Vec::new();
         }
@@ -199,6 +200,7 @@ fn settings(correction: f64, is_inside: bool) -> Arc<Effective> {
             Rule::LostPocket,
             Rule::OffsetCollapse,
             Rule::SelfIntersection,
+            Rule::Overlap,
         ];
         for (rule, severity) in &mut settings.severities {
             severity.take_if(|_| !asked.contains(rule));

@@ -122,8 +122,16 @@ fn what_touches_itself_has_no_sides() {
         [1.4, -0.4],
         [1.0, -0.4],
     ];
+    let back_along_itself = [
+        [0.0, 0.0],
+        [0.15, 0.0],
+        [0.15, 0.15],
+        [0.15, 1.0],
+        [0.15, 0.1],
+    ];
     for side in [Side::Left, Side::Right] {
         assert_eq!(found(&touching, side, 100.0), []);
+        assert_eq!(found(&back_along_itself, side, 100.0), []);
     }
 }
 

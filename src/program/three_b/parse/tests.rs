@@ -305,10 +305,10 @@ fn a_broken_block_is_said_with_its_column_and_hides_no_other() {
     );
     check(
         "Ｄ",
-        "! 0..3 column 1: found `Ｄ`, expected a block in plain letters and digits, these are full-width ones",
+        "! 0..3 column 1: found `Ｄ`, expected a block in plain letters and digits; these letters are full-width",
     );
     check(
         "\u{ff22}9900B0B9900GXL1",
-        "! 0..18 column 1: found `\u{ff22}9900B0B9900`, expected a block in plain letters and digits, these are full-width ones",
+        "! 0..18 column 1: found `\u{ff22}9900B0B9900`, expected a block in plain letters and digits; these letters are full-width",
     );
 }
