@@ -50,7 +50,7 @@ pub(super) trait Report: Program {
         None
     }
 
-    fn own_in(&self, group: usize) -> impl Iterator<Item = Found<Self::Own>>;
+    fn own_in(&self, group: usize) -> impl Iterator<Item = Found<Source<Self::Own>>>;
 
     fn own_worded(&self, own: Self::Own) -> Option<Finding>;
 
@@ -80,24 +80,20 @@ pub(super) trait Report: Program {
     fn found_in(&self, group: usize) -> impl Iterator<Item = Found<Source<Self::Own>>> {
         let chunk = group.checked_sub(self.own_groups());
         let own = chunk.is_none().then(|| self.own_in(group));
-        let own = own.into_iter().flatten().map(|found| Found {
-            rule: found.rule,
-            severity: found.severity,
-            place: found.place,
-            source: Source::Own(found.source),
-        });
-        own.chain(chunk.into_iter().flat_map(move |chunk| {
-            let of_cuts = self.of_cuts().of(chunk).iter().enumerate();
-            of_cuts.map(move |(index, found)| {
-                let range = found.range(|chunk| self.byte_of(chunk));
-                Found {
-                    rule: found.rule,
-                    severity: found.severity,
-                    place: (range.start, range.end),
-                    source: Source::OfCut { chunk, index },
-                }
-            })
-        }))
+        own.into_iter()
+            .flatten()
+            .chain(chunk.into_iter().flat_map(move |chunk| {
+                let of_cuts = self.of_cuts().of(chunk).iter().enumerate();
+                of_cuts.map(move |(index, found)| {
+                    let range = found.range(|chunk| self.byte_of(chunk));
+                    Found {
+                        rule: found.rule,
+                        severity: found.severity,
+                        place: (range.start, range.end),
+                        source: Source::OfCut { chunk, index },
+                    }
+                })
+            }))
     }
 
     fn worded(&self, source: Source<Self::Own>) -> Option<Finding> {

@@ -96,37 +96,6 @@ impl Document {
             .map_or((stretches.len(), 0), |(stretch, _)| (stretch, 0))
     }
 
-    /// The cut that begins at a part; `None` for one that is known to be sound, and after the last.
-    fn cut_from(&self, (stretch, part): PartAt) -> Option<JoinedCut> {
-        let own = self.stretches.get(stretch)?;
-        let mut cut = JoinedCut::of(own, stretch, part)?;
-        if part + 1 < own.part_count() {
-            return Some(cut);
-        }
-        for (index, of) in self.stretches.iter().enumerate().skip(stretch + 1) {
-            if cut.sum.open {
-                cut.sum.faulty |= of.faulty_before;
-                if let Some(whole) = of.ends_cut_before {
-                    cut.sum.whole &= whole;
-                    cut.sum.open = false;
-                }
-            }
-            cut.stopped(of.stop_before, index);
-            cut.sum.ends_open |= of.ends_open_before;
-            if of.part_count() > 0 {
-                let goes_on = |next: &JoinedCut| next.sum.continues && cut.sum.open;
-                let Some(next) = JoinedCut::of(of, index, 0).filter(goes_on) else {
-                    break;
-                };
-                cut.append(next);
-                if of.part_count() > 1 {
-                    break;
-                }
-            }
-        }
-        Some(cut)
-    }
-
     /// It does not enclose anything by itself.
     fn is_open(&self, cut: &JoinedCut) -> bool {
         cut.sum.whole && !self.goes_round(cut)
@@ -181,8 +150,35 @@ impl Followed for Document {
         self.first_from((stretch, part + 1))
     }
 
-    fn cut_from(&self, begin: PartAt) -> Option<JoinedCut> {
-        Document::cut_from(self, begin)
+    /// The cut that begins at a part; `None` for one that is known to be sound, and after the last.
+    fn cut_from(&self, (stretch, part): PartAt) -> Option<JoinedCut> {
+        let own = self.stretches.get(stretch)?;
+        let mut cut = JoinedCut::of(own, stretch, part)?;
+        if part + 1 < own.part_count() {
+            return Some(cut);
+        }
+        for (index, of) in self.stretches.iter().enumerate().skip(stretch + 1) {
+            if cut.sum.open {
+                cut.sum.faulty |= of.faulty_before;
+                if let Some(whole) = of.ends_cut_before {
+                    cut.sum.whole &= whole;
+                    cut.sum.open = false;
+                }
+            }
+            cut.stopped(of.stop_before, index);
+            cut.sum.ends_open |= of.ends_open_before;
+            if of.part_count() > 0 {
+                let goes_on = |next: &JoinedCut| next.sum.continues && cut.sum.open;
+                let Some(next) = JoinedCut::of(of, index, 0).filter(goes_on) else {
+                    break;
+                };
+                cut.append(next);
+                if of.part_count() > 1 {
+                    break;
+                }
+            }
+        }
+        Some(cut)
     }
 
     fn may_go_on(&self, cut: &JoinedCut) -> bool {

@@ -222,12 +222,10 @@ fn spur_fix(document: &Document, back: usize) -> Option<TextFix> {
         return None;
     }
     let shown = |line: usize| {
-        String::from_utf8_lossy(document.line_bytes(line))
-            .trim()
-            .to_owned()
+        let bytes = document.line_bytes(line);
+        (line, String::from_utf8_lossy(bytes).trim().to_owned())
     };
-    let edits = [out, back].map(|line| whole_line(document, line));
-    Some(without_spur([out, back].map(shown), edits))
+    Some(without_spur(document.text(), [out, back].map(shown)))
 }
 
 /// Ends of lines this near each other are one.

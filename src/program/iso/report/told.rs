@@ -10,7 +10,7 @@ use crate::program::by_chunk::{Begun, ByChunk};
 use crate::program::contours::PartAt;
 use crate::program::of_cut::OfCut;
 use crate::program::path::HasCuts;
-use crate::program::report::{self, Found, place_of};
+use crate::program::report::{self, Found, Source, place_of};
 use std::ops::Range;
 
 impl report::Report for Document {
@@ -29,7 +29,7 @@ impl report::Report for Document {
         1
     }
 
-    fn own_in(&self, _: usize) -> impl Iterator<Item = Found<Finding>> {
+    fn own_in(&self, _: usize) -> impl Iterator<Item = Found<Source<Finding>>> {
         let mut others = self.report().finish();
         let mut troubles = Troubles::of(self, &others);
         others.extend(suspects(self, &mut troubles));
@@ -37,7 +37,7 @@ impl report::Report for Document {
             rule: finding.rule,
             severity: finding.severity,
             place: place_of(&finding),
-            source: finding,
+            source: Source::Own(finding),
         })
     }
 

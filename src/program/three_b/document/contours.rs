@@ -1,6 +1,6 @@
 //! The contours of a program: its open cuts, each with what goes on after its stops.
 
-use super::cuts::joined;
+use super::super::sum::{Sum, is_jump};
 use super::{At, Document, JoinedCut};
 use crate::program::by_chunk::Begun;
 use crate::program::contours::PartAt;
@@ -42,8 +42,38 @@ impl Followed for Document {
         self.part_behind(cut.parts[1])
     }
 
-    fn cut_from(&self, begin: PartAt) -> Option<JoinedCut> {
-        Document::cut_from(self, begin)
+    /// The blocks from a part on, up to the next word; `None` after the end of the program.
+    fn cut_from(&self, start: PartAt) -> Option<JoinedCut> {
+        let end = self.view.end;
+        let mut cut: Option<JoinedCut> = None;
+        let (mut stretch, mut index) = start;
+        while let Some(of) = self.stretches.get(stretch) {
+            let at = |entry: usize| At { stretch, entry };
+            for (nth, part) in of.parts.iter().enumerate().skip(index) {
+                if end.is_some_and(|end| end < at(part.entries().start)) {
+                    return cut;
+                }
+                let own = cut.get_or_insert(JoinedCut {
+                    parts: [(stretch, nth); 2],
+                    sum: Sum::default(),
+                    is_jump: false,
+                    stop: None,
+                });
+                own.parts[1] = (stretch, nth);
+                own.sum = own.sum.then(&of.sum(part));
+                if part.word.is_some() {
+                    let is_end = end == Some(at(part.entries().end));
+                    own.is_jump = start != (0, 0)
+                        && self.is_behind_word(start)
+                        && !is_end
+                        && is_jump(&own.sum)
+                        && !self.stops_again((stretch, nth));
+                    return cut;
+                }
+            }
+            (stretch, index) = (stretch + 1, 0);
+        }
+        cut
     }
 
     fn may_go_on(&self, cut: &JoinedCut) -> bool {
@@ -60,7 +90,12 @@ impl Followed for Document {
     }
 
     fn joined(&self, cut: JoinedCut, behind: &JoinedCut) -> JoinedCut {
-        joined(cut, behind)
+        JoinedCut {
+            parts: [cut.parts[0], behind.parts[1]],
+            sum: cut.sum.then(&behind.sum),
+            is_jump: false,
+            stop: cut.stop.or(Some(cut.sum.blocks)),
+        }
     }
 
     fn stands_alone(&self, cut: &JoinedCut) -> bool {

@@ -8,7 +8,7 @@ use crate::finding::{Detail, Finding, Severity};
 use crate::program::by_chunk::ByChunk;
 use crate::program::of_cut::{Counted, OfCut};
 use crate::program::repair::gate::Tried;
-use crate::program::report::{Found, Report, place_of};
+use crate::program::report::{Found, Report, Source, place_of};
 use crate::settings::SideSetting;
 use std::ops::Range;
 
@@ -40,7 +40,7 @@ impl Report for Document {
         Some((self.stretches.byte(group), tally))
     }
 
-    fn own_in(&self, stretch: usize) -> impl Iterator<Item = Found<Stored>> {
+    fn own_in(&self, stretch: usize) -> impl Iterator<Item = Found<Source<Stored>>> {
         let of = self.stretches.get(stretch);
         let faults = of.map_or(&[][..], |of| &of.faults).iter().enumerate();
         let counting = faults.filter(move |(_, local)| self.counts(stretch, local));
@@ -50,7 +50,7 @@ impl Report for Document {
                 rule: local.rule,
                 severity: self.own_severity(stretch, local),
                 place: (base + local.range.start, base + local.range.end),
-                source: Stored::InBlock { stretch, index },
+                source: Source::Own(Stored::InBlock { stretch, index }),
             }
         });
         let of_whole = self.view.findings.iter().enumerate();
@@ -59,7 +59,7 @@ impl Report for Document {
             rule: finding.rule,
             severity: finding.severity,
             place: place_of(finding),
-            source: Stored::OnWhole { index },
+            source: Source::Own(Stored::OnWhole { index }),
         }))
     }
 

@@ -13,6 +13,7 @@ use crate::geometry::Vector;
 use crate::program::by_chunk::{Begun, ByChunk};
 use crate::program::chunks::Reread;
 use crate::program::contours::{PartAt, Touched};
+use crate::program::followed::Followed;
 use crate::program::numbering;
 use crate::program::of_cut::OfCut;
 use crate::program::path::{HasCuts, tolerance};
