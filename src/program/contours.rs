@@ -7,36 +7,11 @@
 
 use super::by_chunk::{Begun, ByChunk};
 pub(in crate::program) use super::by_chunk::{PartAt, Touched};
-use super::path::{Found, HasCuts, Known, KnownTabs};
+use super::followed::Followed;
+use super::path::{Found, Known};
+use super::work::{self, Work};
 use std::ops::Range;
 use std::sync::Arc;
-
-/// A document whose cuts begin and end at parts of its chunks.
-pub(in crate::program) trait Followed: HasCuts<Cut: Begun + Clone> {
-    /// The first cut that begins between two places and needs to be looked at.
-    fn next_cut(&self, from: PartAt, before: PartAt) -> Option<Self::Cut>;
-
-    /// Where the cut after it begins.
-    fn behind(&self, cut: &Self::Cut) -> PartAt;
-
-    /// The contour that an open cut forms with the cuts after its stops; `None` where it need not
-    /// be looked for.
-    fn follow(&self, cut: &Self::Cut, known: &mut KnownTabs) -> Option<Contour<Self::Cut>>;
-}
-
-/// The contour that an open cut forms with the cuts after its stops.
-pub(in crate::program) struct Contour<C> {
-    /// The stops within it, in the order of the text, each by its chunk and its place in there.
-    pub(crate) tabs: Vec<(usize, usize)>,
-    /// All its cuts as one, where the last of them is its tab.
-    pub(crate) whole: Option<C>,
-    /// It does not close.
-    pub(crate) is_open: bool,
-    /// Where the next contour may begin.
-    pub(crate) behind: PartAt,
-    /// The last chunk that was looked at for this.
-    pub(crate) reach: usize,
-}
 
 /// An open cut that belongs to no contour before it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -105,9 +80,6 @@ pub(in crate::program) struct Contours<C: Begun> {
     /// The stops within contours, in the order of the text.
     tabs: Vec<(usize, usize)>,
     crossing: ByChunk<Crossing<C>>,
-    /// The cuts that the last look began with.
-    #[cfg(test)]
-    pub(crate) looked_at: usize,
 }
 
 impl<C: Begun> Default for Contours<C> {
@@ -116,8 +88,6 @@ impl<C: Begun> Default for Contours<C> {
             heads: ByChunk::default(),
             tabs: Vec::new(),
             crossing: ByChunk::default(),
-            #[cfg(test)]
-            looked_at: 0,
         }
     }
 }
@@ -147,8 +117,6 @@ impl<C: Begun + Clone> Contours<C> {
         let mut gone = gone.into_iter().flatten().peekable();
         let mut gone_tabs = 0;
         known.begin();
-        #[cfg(test)]
-        let mut looked_at = 0;
         loop {
             // Whatever belonged to a contour that is looked at again is looked at again, too.
             while let Some(head) = gone.next_if(|head| {
@@ -161,8 +129,7 @@ impl<C: Begun + Clone> Contours<C> {
             let Some(mut cut) = document.next_cut(at, again.to) else {
                 break;
             };
-            #[cfg(test)]
-            (looked_at += 1);
+            work::add(Work::Cuts, 1);
             let begin = cut.begin();
             at = document.behind(&cut);
             let contour = (begin >= behind).then(|| document.follow(&cut, &mut known.tabs));
@@ -189,8 +156,6 @@ impl<C: Begun + Clone> Contours<C> {
         }
         drop(gone);
         known.tidy();
-        #[cfg(test)]
-        (self.looked_at = looked_at);
         self.put_tabs(&again, gone_tabs, tabs);
         self.heads.splice(&again, heads);
         self.crossing.splice(&again, crossing);

@@ -1,9 +1,9 @@
 //! A program as an open document, in any language. A new language adds its variant here and is complete when this
 //! compiles.
 
-use super::numbering::{self, Renumbering};
+use super::numbering::{Numbers, Renumbering};
 use super::path::{Cut, CutSteps, Step, Trace, cut_of};
-use super::repair::gate;
+use super::repair::gate::Tried;
 use super::report::Report;
 use super::steps::{self, Program};
 use super::whereabouts::Whereabouts;
@@ -67,43 +67,22 @@ pub enum Document {
     Iso(Box<iso::Document>),
 }
 
+/// What a document answers, whatever its language.
+macro_rules! of_language {
+    ($document:expr, $own:ident => $answer:expr) => {
+        match $document {
+            Document::ThreeB($own) => $answer,
+            Document::Iso($own) => $answer,
+        }
+    };
+}
+
 impl Document {
     /// Reads program text. Never fails: damage is in [`Document::findings`].
     pub fn read(language: Language, bytes: Vec<u8>, settings: &Effective) -> Document {
         match language {
             Language::ThreeB => Document::ThreeB(three_b::Document::read_with(bytes, settings)),
             Language::Iso => Document::Iso(Box::new(iso::Document::read_with(bytes, settings))),
-        }
-    }
-
-    /// The number of cuts from which the last reading looked for contours.
-    #[cfg(test)]
-    pub(in crate::program) fn cuts_looked_at(&self) -> usize {
-        match self {
-            Document::ThreeB(document) => document.contours().looked_at,
-            Document::Iso(document) => document.contours().looked_at,
-        }
-    }
-
-    /// The contours that the last reading judged again, and in how many of them it searched for a block to blame.
-    #[cfg(test)]
-    pub(in crate::program) fn contours_judged(&self) -> [usize; 2] {
-        match self {
-            Document::ThreeB(document) => document.judged(),
-            Document::Iso(document) => [document.judged, 0],
-        }
-    }
-
-    /// The findings that are looked at one by one to tell the first few, and to find those that a slip may explain.
-    #[cfg(test)]
-    pub(in crate::program) fn findings_looked_at(&self, limit: usize) -> [usize; 2] {
-        let settings = Effective::default();
-        match self {
-            Document::ThreeB(document) => [document.looked_at(&settings, limit), 0],
-            Document::Iso(document) => [
-                document.looked_at(&settings, limit),
-                document.troubles_looked_up(),
-            ],
         }
     }
 
@@ -115,26 +94,17 @@ impl Document {
     }
 
     pub fn text(&self) -> &SourceText {
-        match self {
-            Document::ThreeB(document) => document.text(),
-            Document::Iso(document) => document.text(),
-        }
+        of_language!(self, document => document.text())
     }
 
     /// Replaces a range of bytes and rereads what it touched.
     pub fn edit(&mut self, range: Range<usize>, replacement: &str) {
-        match self {
-            Document::ThreeB(document) => document.edit(range, replacement),
-            Document::Iso(document) => document.edit(range, replacement),
-        }
+        of_language!(self, document => document.edit(range, replacement))
     }
 
     /// Rereads where the settings change the meaning of a text or its faults; costs nothing otherwise.
     pub(crate) fn set_settings(&mut self, settings: &Effective) {
-        match self {
-            Document::ThreeB(document) => document.set_settings(settings),
-            Document::Iso(document) => document.set_settings(settings),
-        }
+        of_language!(self, document => document.set_settings(settings))
     }
 
     /// At most `limit` findings under the settings' severities, errors first, then in the order of the text; and how
@@ -143,10 +113,7 @@ impl Document {
         if let Some(finding) = self.is_no_text() {
             return (vec![finding], 1);
         }
-        match self {
-            Document::ThreeB(document) => document.told(settings, limit),
-            Document::Iso(document) => document.told(settings, limit),
-        }
+        of_language!(self, document => document.told(settings, limit))
     }
 
     /// The one finding of bytes that are read as none of our texts: each of their lines would be another.
@@ -174,10 +141,7 @@ impl Document {
             return Vec::new();
         }
         let offered = self.offered(finding, Renumbering::Offered);
-        match self {
-            Document::ThreeB(document) => gate::gated(document, finding, offered),
-            Document::Iso(document) => gate::gated(&**document, finding, offered),
-        }
+        of_language!(self, document => document.gated(finding, offered))
     }
 
     /// The edits that give the block whose number has its digits at `digits` another one, written as `name`; calls of
@@ -189,18 +153,12 @@ impl Document {
         name: &str,
         new: u32,
     ) -> Result<Vec<TextEdit>, String> {
-        match self {
-            Document::ThreeB(document) => numbering::renamed(document, digits, old, name, new),
-            Document::Iso(document) => numbering::renamed(&**document, digits, old, name, new),
-        }
+        of_language!(self, document => document.renamed(digits, old, name, new))
     }
 
     /// The fixes that the language offers.
     fn offered(&self, finding: &Finding, renumbering: Renumbering) -> Vec<TextFix> {
-        match self {
-            Document::ThreeB(document) => document.offered(finding, renumbering),
-            Document::Iso(document) => document.offered(finding, renumbering),
-        }
+        of_language!(self, document => document.offered(finding, renumbering))
     }
 
     /// The safe fixes of all findings that are not switched off, as one sorted list of disjoint edits; `None` where
@@ -237,33 +195,31 @@ impl Document {
     }
 
     fn together(&self, fixes: Vec<(Rule, TextFix)>) -> Option<Vec<TextEdit>> {
-        let edits = match self {
-            Document::ThreeB(document) => gate::together(document, fixes),
-            Document::Iso(document) => gate::together(&**document, fixes),
-        };
+        let edits = of_language!(self, document => document.together(fixes));
         (!edits.is_empty()).then_some(edits)
     }
 
     /// True where coordinates stand after blocks.
     pub(crate) fn states_ends(&self) -> bool {
-        match self {
-            Document::ThreeB(document) => document.stated_ends().next().is_some(),
-            Document::Iso(_) => false,
-        }
+        matches!(self, Document::ThreeB(document) if document.stated_ends().next().is_some())
     }
 
     /// True for a program for an electrode: no wire cuts it.
     pub(crate) fn mills(&self) -> bool {
-        match self {
-            Document::ThreeB(_) => false,
-            Document::Iso(document) => document.mills(),
-        }
+        matches!(self, Document::Iso(document) if document.mills())
     }
 
     pub(super) fn program(&self) -> &dyn Program {
         match self {
             Document::ThreeB(document) => document,
             Document::Iso(document) => &**document,
+        }
+    }
+
+    fn iso(&self) -> Option<&iso::Document> {
+        match self {
+            Document::ThreeB(_) => None,
+            Document::Iso(document) => Some(document),
         }
     }
 
@@ -274,10 +230,7 @@ impl Document {
 
     /// The line at which the program is no longer followed, since it calls its subprograms too often.
     pub(crate) fn unfollowed_line(&self) -> Option<usize> {
-        match self {
-            Document::ThreeB(_) => None,
-            Document::Iso(program) => program.order()?.left_out,
-        }
+        self.iso()?.order()?.left_out
     }
 
     /// The machine's position at a finding.
@@ -288,11 +241,7 @@ impl Document {
     /// The machine's path, block by block.
     pub fn trace(&self) -> Trace {
         let trace = steps::trace(self.program());
-        let taper = match self {
-            Document::ThreeB(_) => None,
-            Document::Iso(document) => document.taper(),
-        };
-        let Some(taper) = taper else {
+        let Some(taper) = self.iso().and_then(iso::Document::taper) else {
             return trace;
         };
         let unknown = taper.unknown.map(|unknown| match unknown {

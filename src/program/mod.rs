@@ -12,6 +12,7 @@ pub mod convert;
 mod document;
 mod edits;
 mod encode;
+mod followed;
 mod format;
 pub(crate) mod grid;
 pub mod iso;
@@ -29,6 +30,7 @@ mod report;
 pub(crate) mod steps;
 pub mod three_b;
 mod whereabouts;
+mod work;
 pub(crate) mod write;
 
 pub use document::{Document, Language};

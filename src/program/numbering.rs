@@ -54,6 +54,26 @@ pub(super) trait Numbers: Program {
     fn followed(&self, edits: Vec<TextEdit>, _given: &[(NumberedBlock, u32)]) -> Vec<TextEdit> {
         edits
     }
+
+    /// The edits that give a block another number, whose digits stand at `digits`; calls of it follow.
+    ///
+    /// Errors: one that another block has.
+    fn renamed(
+        &self,
+        digits: Range<usize>,
+        old: u32,
+        name: &str,
+        new: u32,
+    ) -> Result<Vec<TextEdit>, String> {
+        let own = self.text().line_of(digits.start);
+        if let Some(line) = self.other_with(new, own)? {
+            return Err(say!(the_number_is_that_of_another_block, new, line + 1));
+        }
+        let mut edits = self.calls_follow(own, old, new);
+        edits.push(TextEdit::new(digits, name));
+        edits.sort_by_key(|edit| edit.range.start);
+        Ok(edits)
+    }
 }
 
 /// The edits that number all blocks, in the order of the text, words left out that stand already.
@@ -81,26 +101,6 @@ pub(super) fn without_numbers(program: &impl Numbers) -> Result<Vec<TextEdit>, S
     Ok(words
         .map(|word| program.text().without_word(&word))
         .collect())
-}
-
-/// The edits that give a block another number, whose digits stand at `digits`; calls of it follow.
-///
-/// Errors: one that another block has.
-pub(super) fn renamed(
-    program: &impl Numbers,
-    digits: Range<usize>,
-    old: u32,
-    name: &str,
-    new: u32,
-) -> Result<Vec<TextEdit>, String> {
-    let own = program.text().line_of(digits.start);
-    if let Some(line) = program.other_with(new, own)? {
-        return Err(say!(the_number_is_that_of_another_block, new, line + 1));
-    }
-    let mut edits = program.calls_follow(own, old, new);
-    edits.push(TextEdit::new(digits, name));
-    edits.sort_by_key(|edit| edit.range.start);
-    Ok(edits)
 }
 
 /// Whether the numbering of all blocks is among the fixes of a number.

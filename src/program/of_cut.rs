@@ -2,12 +2,26 @@
 
 use super::by_chunk::Begun;
 use super::chunks::Chunks;
-use super::contours::{Contours, Followed, PartAt};
-use super::report::{Counted, count};
-use super::steps::Program;
+use super::contours::{Contours, PartAt};
+use super::followed::Followed;
+use super::work::{self, Work};
 use crate::finding::{Detail, Fault, Finding, Place, Rule, Severity};
 use crate::text::SourceText;
 use std::ops::Range;
+
+/// How many findings there are of a rule, in a severity as the rule sees it.
+pub(super) type Counted = (Rule, Severity, usize);
+
+/// Counts one more.
+pub(super) fn count(counts: &mut Vec<Counted>, rule: Rule, severity: Severity) {
+    let own = counts
+        .iter_mut()
+        .find(|one| (one.0, one.1) == (rule, severity));
+    match own {
+        Some((.., count)) => *count += 1,
+        None => counts.push((rule, severity, 1)),
+    }
+}
 
 /// Some bytes of a chunk.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,8 +41,8 @@ impl Local {
         })
     }
 
-    fn range<C>(&self, chunks: &Chunks<C>) -> Range<usize> {
-        let byte = chunks.byte(self.chunk as usize);
+    fn range(&self, byte_of: impl Fn(usize) -> usize) -> Range<usize> {
+        let byte = byte_of(self.chunk as usize);
         byte + self.bytes.0 as usize..byte + self.bytes.1 as usize
     }
 
@@ -59,9 +73,9 @@ pub(in crate::program) struct Tally {
 
 impl Tally {
     /// A byte that none of them stands before, and how many there are of each kind.
-    pub(crate) fn told<C>(&self, chunks: &Chunks<C>) -> (usize, &[Counted]) {
+    pub(crate) fn told(&self, byte_of: impl Fn(usize) -> usize) -> (usize, &[Counted]) {
         let (chunk, byte) = self.first;
-        (chunks.byte(chunk as usize) + byte as usize, &self.counts)
+        (byte_of(chunk as usize) + byte as usize, &self.counts)
     }
 }
 
@@ -108,15 +122,15 @@ impl OfCut {
         })
     }
 
-    /// Its bytes in the text.
-    pub(crate) fn range<C>(&self, chunks: &Chunks<C>) -> Range<usize> {
-        self.place.range(chunks)
+    /// Its bytes in the text; `byte_of` is the first byte of a chunk.
+    pub(crate) fn range(&self, byte_of: impl Fn(usize) -> usize) -> Range<usize> {
+        self.place.range(byte_of)
     }
 
     /// The finding at its present place.
-    pub(crate) fn finding<C>(&self, chunks: &Chunks<C>, text: &SourceText) -> Finding {
+    pub(crate) fn finding(&self, byte_of: impl Fn(usize) -> usize, text: &SourceText) -> Finding {
         let mut detail = self.detail.clone();
-        let related = self.other.map(|other| other.range(chunks));
+        let related = self.other.map(|other| other.range(&byte_of));
         if let (Some(range), Detail::Program(fault)) = (&related, &mut detail)
             && let Fault::PathCrossesItself { other, .. } = &mut **fault
         {
@@ -125,31 +139,30 @@ impl OfCut {
         let related = related.into_iter().map(|range| Place::Text { range });
         Finding {
             related: related.collect(),
-            ..Finding::in_text(self.rule, self.range(chunks), detail).with(self.severity)
+            ..Finding::in_text(self.rule, self.range(&byte_of), detail).with(self.severity)
         }
     }
 
-    /// What is said of the contours that begin from one place up to another, in the order in which they begin, and how
-    /// many were asked for it: those that a language has `judged` by itself, and those that cross themselves, where
-    /// that is to be said.
-    pub(crate) fn all<D: Followed + Program, C>(
+    /// What is said of the contours that begin from one place up to another, in the order in which they begin: of those
+    /// that a language has `judged` by itself, and of those that cross themselves, where that is to be said.
+    pub(crate) fn all<D: Followed, C>(
         document: &D,
         (chunks, contours): (&Chunks<C>, &Contours<D::Cut>),
         places: Range<PartAt>,
         judged: impl Iterator<Item = (PartAt, Vec<Finding>)>,
         is_said: impl Fn(&D::Cut) -> bool,
-    ) -> (Vec<OfCut>, usize) {
+    ) -> Vec<OfCut> {
         let crossing = contours.crossing_within(places).map(|(cut, found)| {
             let said = is_said(cut).then(|| document.crosses_itself(cut, found, document.text()));
             (cut.begin(), said.unwrap_or_default())
         });
-        let (mut all, mut asked) = (Vec::new(), 0);
+        let mut all = Vec::new();
         for (begin, findings) in judged.chain(crossing) {
-            asked += 1;
+            work::add(Work::Contours, 1);
             let of_cut = |finding| OfCut::new(chunks, begin, finding);
             all.extend(findings.into_iter().filter_map(of_cut));
         }
         all.sort_by_key(OfCut::begin);
-        (all, asked)
+        all
     }
 }

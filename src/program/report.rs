@@ -1,57 +1,63 @@
 //! The findings of a program: those of its reader, under the settings' severities, errors first, then in the order of
 //! the text.
 
+use super::by_chunk::ByChunk;
+use super::of_cut::{Counted, OfCut};
+use super::steps::Program;
+use super::work::{self, Work};
 use crate::finding::{Finding, Rule, Severity};
 use crate::settings::Effective;
 
 /// A finding before it is worded.
-pub(super) struct Found<K> {
+pub(super) struct Found<S> {
     pub(super) rule: Rule,
     /// As the rule sees it, before the settings change it.
     pub(super) severity: Severity,
     /// First and last byte that it is sorted by.
     pub(super) place: (usize, usize),
-    pub(super) kept: K,
+    pub(super) source: S,
 }
 
 /// What findings are sorted by: severity, place and rule, and their number among all.
 type Key = (Severity, (usize, usize), Rule, usize);
 
-/// How many findings there are of a rule, in a severity as the rule sees it.
-pub(super) type Counted = (Rule, Severity, usize);
-
-/// Counts one more.
-pub(super) fn count(counts: &mut Vec<Counted>, rule: Rule, severity: Severity) {
-    let own = counts
-        .iter_mut()
-        .find(|one| (one.0, one.1) == (rule, severity));
-    match own {
-        Some((.., count)) => *count += 1,
-        None => counts.push((rule, severity, 1)),
-    }
+/// What a finding is worded from: of many findings only a few are shown.
+pub(super) enum Source<O> {
+    /// What is kept of the cuts that begin in a chunk, by its index there.
+    OfCut {
+        chunk: usize,
+        index: usize,
+    },
+    Own(O),
 }
 
-/// A program with known faults.
-pub(super) trait Report {
-    /// What a finding is worded from: of many findings only a few are shown.
-    type Kept;
+/// A program with known faults: those of single cuts, by the chunks in which these begin, and its own.
+pub(super) trait Report: Program {
+    /// What a finding of its own is worded from.
+    type Own;
 
-    /// In how many groups its findings are kept.
-    fn groups(&self) -> usize;
+    /// The first byte of a chunk.
+    fn byte_of(&self, chunk: usize) -> usize;
+
+    fn of_cuts(&self) -> &ByChunk<OfCut>;
+
+    /// In how many groups its own findings are kept.
+    fn own_groups(&self) -> usize;
 
     /// A byte that no finding of a group stands before, and how many there are of each kind; `None` where that is not known
     /// without looking at each.
-    fn tally(&self, group: usize) -> Option<(usize, &[Counted])>;
+    fn own_tally(&self, _group: usize) -> Option<(usize, &[Counted])> {
+        None
+    }
 
-    fn found_in(&self, group: usize) -> impl Iterator<Item = Found<Self::Kept>>;
+    fn own_in(&self, group: usize) -> impl Iterator<Item = Found<Source<Self::Own>>>;
 
-    fn worded(&self, kept: Self::Kept) -> Option<Finding>;
+    fn own_worded(&self, own: Self::Own) -> Option<Finding>;
 
     /// All findings, as the rules see them.
     fn all(&self) -> Vec<Finding> {
-        let worded = |found: Found<Self::Kept>| self.worded(found.kept);
         let all = (0..self.groups()).flat_map(|group| self.found_in(group));
-        all.filter_map(worded).collect()
+        all.filter_map(|found| self.worded(found.source)).collect()
     }
 
     /// Those without merely suspected blocks, and without a search for the slip behind them.
@@ -59,32 +65,55 @@ pub(super) trait Report {
         self.all()
     }
 
+    /// Those of its own, and those of the cuts of each chunk.
+    fn groups(&self) -> usize {
+        self.own_groups() + self.of_cuts().len()
+    }
+
+    fn tally(&self, group: usize) -> Option<(usize, &[Counted])> {
+        match group.checked_sub(self.own_groups()) {
+            None => self.own_tally(group),
+            Some(chunk) => Some(self.of_cuts().sum(chunk)?.told(|chunk| self.byte_of(chunk))),
+        }
+    }
+
+    fn found_in(&self, group: usize) -> impl Iterator<Item = Found<Source<Self::Own>>> {
+        let chunk = group.checked_sub(self.own_groups());
+        let own = chunk.is_none().then(|| self.own_in(group));
+        own.into_iter()
+            .flatten()
+            .chain(chunk.into_iter().flat_map(move |chunk| {
+                let of_cuts = self.of_cuts().of(chunk).iter().enumerate();
+                of_cuts.map(move |(index, found)| {
+                    let range = found.range(|chunk| self.byte_of(chunk));
+                    Found {
+                        rule: found.rule,
+                        severity: found.severity,
+                        place: (range.start, range.end),
+                        source: Source::OfCut { chunk, index },
+                    }
+                })
+            }))
+    }
+
+    fn worded(&self, source: Source<Self::Own>) -> Option<Finding> {
+        match source {
+            Source::Own(own) => self.own_worded(own),
+            Source::OfCut { chunk, index } => {
+                let found = self.of_cuts().of(chunk).get(index)?;
+                Some(found.finding(|chunk| self.byte_of(chunk), self.text()))
+            }
+        }
+    }
+
     /// At most `limit` findings, and how many there are in all.
     fn told(&self, settings: &Effective, limit: usize) -> (Vec<Finding>, usize) {
-        let First {
-            held: mut first,
-            count,
-            ..
-        } = self.first(settings, limit);
-        first.sort_unstable_by_key(|(key, _)| *key);
-        first.truncate(limit);
-        let worded = |(key, kept): (Key, Self::Kept)| Some(self.worded(kept)?.with(key.0));
-        (first.into_iter().filter_map(worded).collect(), count)
-    }
-
-    /// The number of findings that are looked at one by one to find the first `limit` of them.
-    #[cfg(test)]
-    fn looked_at(&self, settings: &Effective, limit: usize) -> usize {
-        self.first(settings, limit).looked_at
-    }
-
-    fn first(&self, settings: &Effective, limit: usize) -> First<Self::Kept> {
-        let under_settings = |found: Found<Self::Kept>| {
+        let under_settings = |found: Found<Source<Self::Own>>| {
             let severity = settings.severity_over(found.rule, found.severity)?;
             Some(Found { severity, ..found })
         };
         // Only the first findings are kept, each by its key; the others are counted.
-        let mut first: First<Self::Kept> = First::of(limit.max(1));
+        let mut first: First<Source<Self::Own>> = First::of(limit.max(1));
         for group in 0..self.groups() {
             match self
                 .tally(group)
@@ -97,42 +126,44 @@ pub(super) trait Report {
                     .for_each(|found| first.push(found)),
             }
         }
-        first
+        let First {
+            mut held, count, ..
+        } = first;
+        held.sort_unstable_by_key(|(key, _)| *key);
+        held.truncate(limit);
+        let worded =
+            |(key, source): (Key, Source<Self::Own>)| Some(self.worded(source)?.with(key.0));
+        (held.into_iter().filter_map(worded).collect(), count)
     }
 }
 
 /// The first of many findings, in no order, and how many there are in all.
-pub(super) struct First<K> {
-    held: Vec<(Key, K)>,
+struct First<S> {
+    held: Vec<(Key, S)>,
     most: usize,
     /// Findings after it are not among the first.
     last: Option<Key>,
     count: usize,
-    #[cfg(test)]
-    looked_at: usize,
 }
 
-impl<K> First<K> {
-    fn of(most: usize) -> First<K> {
+impl<S> First<S> {
+    fn of(most: usize) -> First<S> {
         First {
             held: Vec::new(),
             most,
             last: None,
             count: 0,
-            #[cfg(test)]
-            looked_at: 0,
         }
     }
 
-    fn push(&mut self, found: Found<K>) {
+    fn push(&mut self, found: Found<S>) {
         let key: Key = (found.severity, found.place, found.rule, self.count);
         self.count += 1;
-        #[cfg(test)]
-        (self.looked_at += 1);
+        work::add(Work::Findings, 1);
         if self.last.is_some_and(|last| key > last) {
             return;
         }
-        self.held.push((key, found.kept));
+        self.held.push((key, found.source));
         if self.held.len() == self.most.saturating_mul(2) {
             let last = self.most - 1;
             let (_, greatest, _) = self.held.select_nth_unstable_by_key(last, |(key, _)| *key);

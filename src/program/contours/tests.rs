@@ -1,5 +1,6 @@
 //! Edits of programs with many stops, in every language, leave what is known of them as read from scratch, and look at what they touch.
 
+use crate::program::work::{self, Work};
 use crate::program::{Document, Language};
 use crate::settings::Effective;
 use proptest::prelude::*;
@@ -186,7 +187,7 @@ fn an_edit_among_many_stops_looks_at_few_cuts() {
             let text = program(language, &openings, is_relative);
             let mut document =
                 Document::read(language, text.clone().into_bytes(), &Effective::default());
-            let all = document.cuts_looked_at();
+            let all = work::take(Work::Cuts);
             assert!(all >= 400, "{language:?}: {all}");
             for (at, line) in text.match_indices('\n').skip(5).step_by(97) {
                 // Where the position is lost, it is lost for all later steps.
@@ -195,9 +196,9 @@ fn an_edit_among_many_stops_looks_at_few_cuts() {
                     .take(3 - usize::from(is_relative))
                 {
                     document.edit(at..at, word);
-                    let come = document.cuts_looked_at();
+                    let come = work::take(Work::Cuts);
                     document.edit(at..at + 1, "");
-                    let looked_at = come.max(document.cuts_looked_at());
+                    let looked_at = come.max(work::take(Work::Cuts));
                     assert!(
                         looked_at <= 40,
                         "{language:?} {is_relative} {at} {line:?} {word:?}: {looked_at}"
@@ -286,6 +287,11 @@ proptest! {
     }
 }
 
+/// The contours that were judged since the last time, and in how many of them it was searched for a block to blame.
+fn judged() -> [usize; 2] {
+    [Work::Contours, Work::Blames].map(work::take)
+}
+
 /// What an edit judges and searches does not grow with the program, wherever it is made.
 #[test]
 fn an_edit_among_many_open_contours_judges_few() {
@@ -294,16 +300,16 @@ fn an_edit_among_many_open_contours_judges_few() {
         let text = open_contours(language, &contours, false);
         let mut document =
             Document::read(language, text.clone().into_bytes(), &Effective::default());
-        let [all, _] = document.contours_judged();
+        let [all, _] = judged();
         assert!(all >= 300, "{language:?}: {all}");
         let lines = || text.match_indices('\n');
         let behind_them = lines().rev().skip(2).step_by(3).take(8);
         for (at, _) in lines().skip(5).step_by(211).chain(behind_them) {
             for word in ["1", "\n", "x"] {
                 document.edit(at..at, word);
-                let come = document.contours_judged();
+                let come = judged();
                 document.edit(at..at + 1, "");
-                let gone = document.contours_judged();
+                let gone = judged();
                 assert!(
                     come[0] <= 80 && gone[0] <= 80,
                     "{language:?} {at} {word:?}: {come:?} {gone:?}"
@@ -331,7 +337,9 @@ fn the_first_findings_are_told_without_a_look_at_all_others() {
             let middle = text.len() / 2;
             for word in ["", "1", "x"] {
                 document.edit(middle..middle, word);
-                let looked_at = document.findings_looked_at(7);
+                let _ = [Work::Findings, Work::Troubles].map(work::take);
+                document.findings(&settings, 7);
+                let looked_at = [Work::Findings, Work::Troubles].map(work::take);
                 let few = looked_at.iter().all(|looked_at| *looked_at <= 80);
                 assert!(few, "{language:?} {count} {word:?}: {looked_at:?}");
             }

@@ -2,7 +2,7 @@
 
 use super::{CutPath, Cuts};
 use crate::program::format::Format;
-use crate::program::iso::{self, Kept, Offset};
+use crate::program::iso::{self, Carried, Offset};
 use crate::program::path::Step;
 use crate::program::write::{Proved, ProvedProgram};
 use crate::settings::Effective;
@@ -95,7 +95,7 @@ impl Cuts {
             let read = profile.and_then(|profile| iso::read_of_profile(profile, *register));
             read.is_some_and(|read| read.index == *register)
         };
-        let kept = |cut: &CutPath| Kept {
+        let kept = |cut: &CutPath| Carried {
             register: cut.offset.map(|offset| offset.index).filter(is_named),
             correction: cut.offset.and_then(|offset| {
                 let name = offset.to_string();
@@ -108,10 +108,10 @@ impl Cuts {
             let runs = cut.runs(cut.stops_in(format)).enumerate();
             runs.map(move |(nth, _)| match nth {
                 0 => kept(cut),
-                _ => Kept::NOTHING,
+                _ => Carried::default(),
             })
         });
-        let kept: Vec<Kept> = kept.collect();
+        let kept: Vec<Carried> = kept.collect();
         iso::write_keeping(&paths, &kept, 1e-3, settings)
     }
 

@@ -33,7 +33,7 @@ use std::sync::{Arc, OnceLock};
 #[derive(Clone, Debug)]
 pub struct Document {
     text: SourceText,
-    stretches: Chunks<Stretch>,
+    pub(super) stretches: Chunks<Stretch>,
     reading: Reading,
     /// The first lines, which no control reads.
     leader: usize,
@@ -41,15 +41,12 @@ pub struct Document {
     /// The order of the lines, where it is not that of the text: then there is one stretch for each range in it.
     order: Option<Order>,
     /// The stops within contours, before their tabs, and the contours that cross themselves.
-    contours: Contours<JoinedCut>,
+    pub(super) contours: Contours<JoinedCut>,
     /// The contours with possible findings, and those that may belong together with one of them.
-    doubtful: ByChunk<JoinedCut>,
+    pub(super) doubtful: ByChunk<JoinedCut>,
     /// The findings about those that depend on them alone, and those about contours that cross
     /// themselves.
-    told: ByChunk<OfCut>,
-    /// The number of cuts that were judged last.
-    #[cfg(test)]
-    pub(in crate::program) judged: usize,
+    pub(super) told: ByChunk<OfCut>,
     /// The results of the search for crossings.
     known: Box<Known>,
     /// The settings that faults depend on.
@@ -89,8 +86,6 @@ impl Document {
             contours: Contours::default(),
             doubtful: ByChunk::default(),
             told: ByChunk::default(),
-            #[cfg(test)]
-            judged: 0,
             known: Box::default(),
             limits: Box::new(limits),
             table: Box::default(),
@@ -110,7 +105,7 @@ impl Document {
 
     /// True where it feeds an electrode downwards.
     pub(crate) fn mills(&self) -> bool {
-        self.stretches().iter().any(|stretch| stretch.after.mills)
+        self.stretches.iter().any(|stretch| stretch.after.mills)
     }
 
     /// The meaning found for the program's numbers.
@@ -205,29 +200,9 @@ impl Document {
         self.evidence.pointed()
     }
 
-    pub(super) fn stretches(&self) -> &[Stretch] {
-        &self.stretches
-    }
-
     /// Whether a stop stands within a contour, before its tab.
     pub(super) fn is_tab(&self, stop: StopAt) -> bool {
         self.contours.is_tab(stop)
-    }
-
-    pub(in crate::program) fn contours(&self) -> &Contours<JoinedCut> {
-        &self.contours
-    }
-
-    pub(super) fn doubtful(&self) -> &ByChunk<JoinedCut> {
-        &self.doubtful
-    }
-
-    pub(super) fn told(&self) -> &ByChunk<OfCut> {
-        &self.told
-    }
-
-    pub(super) fn chunks(&self) -> &Chunks<Stretch> {
-        &self.stretches
     }
 
     /// Byte of the text from which the places of a stretch count.

@@ -4,8 +4,9 @@ mod centers;
 
 use super::block::{Block, Compensation, Motion, Stop};
 use super::document::Document;
+use super::line::words_of_move;
 use super::machine::Machine;
-use super::moves::{Place, apart, distance, meet};
+use super::moves::{Place, distance, meet};
 use super::plain::{plain, word_at};
 use super::repair::{is_trouble, line_of};
 use super::style::Style;
@@ -221,12 +222,10 @@ fn spur_fix(document: &Document, back: usize) -> Option<TextFix> {
         return None;
     }
     let shown = |line: usize| {
-        String::from_utf8_lossy(document.line_bytes(line))
-            .trim()
-            .to_owned()
+        let bytes = document.line_bytes(line);
+        (line, String::from_utf8_lossy(bytes).trim().to_owned())
     };
-    let edits = [out, back].map(|line| whole_line(document, line));
-    Some(without_spur([out, back].map(shown), edits))
+    Some(without_spur(document.text(), [out, back].map(shown)))
 }
 
 /// Ends of lines this near each other are one.
@@ -284,14 +283,8 @@ fn closing_fix(document: &Document, range: &Range<usize>) -> Option<TextFix> {
         return None;
     }
     let style = Style::of(document, machine.inch);
-    let base = if machine.incremental {
-        machine.at
-    } else {
-        machine.zero
-    };
-    let [x, y] = apart(target, base).map(|length| style.number(length));
     let separator = if document.is_parted() { " " } else { "" };
-    let words = ["G01".to_owned(), format!("X{x}"), format!("Y{y}")].join(separator);
+    let words = words_of_move(&machine, &style, Motion::Line, target, None).join(separator);
     // Proved: the line leads there.
     let mut again = machine;
     let made = again.run(&Block::of(words.as_bytes()), document.reading())?;

@@ -265,6 +265,29 @@ impl Document {
     }
 }
 
+/// The words of a line of its own that moves from where the machine stands to a place; `center` as I and J give it.
+pub(super) fn words_of_move(
+    before: &Machine,
+    style: &Style,
+    motion: Motion,
+    to: Place,
+    center: Option<Place>,
+) -> Vec<String> {
+    let base = if before.incremental {
+        before.at
+    } else {
+        before.zero
+    };
+    let [x, y] = apart(to, base);
+    let lengths = [('X', x), ('Y', y)].into_iter();
+    let lengths = lengths.chain(center.into_iter().flat_map(|[i, j]| [('I', i), ('J', j)]));
+    let words = lengths.map(|(letter, length)| format!("{letter}{}", style.number(length)));
+    [motion.word().to_owned()]
+        .into_iter()
+        .chain(words)
+        .collect()
+}
+
 /// A line with a word put after its block number.
 pub(super) fn with_word(line: &[u8], word: &str, parted: bool) -> Vec<u8> {
     let mut at = 0;

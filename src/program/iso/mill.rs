@@ -45,11 +45,11 @@ pub(crate) fn write_milled(
     let mut tool: Option<Tool> = None;
     let mut room = if noted { MOST_NOTED } else { MOST_BLOCKS };
     for (done, path) in paths.iter().enumerate() {
-        let way = Way::of(path, unit_mm, per_mm);
+        let way = FeedPath::of(path, unit_mm, per_mm);
         let layers = Layers {
             electrode,
             length: way.length(),
-            swept: Way::swept(path, unit_mm, electrode.width()),
+            swept: FeedPath::swept(path, unit_mm, electrode.width()),
             is_closed: path.counter_clockwise.is_some(),
             fed_before,
         };
@@ -119,15 +119,15 @@ pub(crate) fn write_milled(
 }
 
 /// The path along a contour.
-struct Way {
+struct FeedPath {
     /// Each piece in steps of the grid, and the distance of its start along the way, mm.
     pieces: Vec<(f64, Segment, Source)>,
     /// The distance at each end of a piece, mm: one more than there are pieces.
     ends: Vec<f64>,
 }
 
-impl Way {
-    fn of(path: &WirePath, unit_mm: f64, per_mm: f64) -> Way {
+impl FeedPath {
+    fn of(path: &WirePath, unit_mm: f64, per_mm: f64) -> FeedPath {
         let mut ends = vec![0.0];
         let mut pieces = Vec::with_capacity(path.segments.len());
         let mut at = 0.0;
@@ -137,7 +137,7 @@ impl Way {
             at += piece.geometry.length() * unit_mm;
             ends.push(at);
         }
-        Way { pieces, ends }
+        FeedPath { pieces, ends }
     }
 
     /// The length of a straight way that takes as much of this width, mm.
@@ -195,7 +195,7 @@ struct Tool {
 
 impl Tool {
     /// Down to a depth, mm, from where the way so far has led.
-    fn feeds(&mut self, depth: f64, way: &Way, lines: &mut Lines<'_>) -> Proved {
+    fn feeds(&mut self, depth: f64, way: &FeedPath, lines: &mut Lines<'_>) -> Proved {
         let height = -(depth * lines.per_mm()).round() as i64;
         if height == self.height {
             return Ok(());
@@ -205,7 +205,7 @@ impl Tool {
     }
 
     /// A piece of the way, which is written once it ends or turns back.
-    fn goes_on(&mut self, from: f64, to: f64, way: &Way, lines: &mut Lines<'_>) -> Proved {
+    fn goes_on(&mut self, from: f64, to: f64, way: &FeedPath, lines: &mut Lines<'_>) -> Proved {
         match &mut self.waiting {
             Some((begin, end)) if *end == from && (*begin < *end) == (from < to) => *end = to,
             _ => {
@@ -235,7 +235,7 @@ impl Tool {
         Ok(())
     }
 
-    fn goes_along(&mut self, way: &Way, lines: &mut Lines<'_>) -> Proved {
+    fn goes_along(&mut self, way: &FeedPath, lines: &mut Lines<'_>) -> Proved {
         let Some((from, to)) = self.waiting.take() else {
             return Ok(());
         };

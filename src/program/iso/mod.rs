@@ -61,4 +61,4 @@ pub(in crate::program) use tilt::{STEEPEST, Unknown};
 pub(crate) use unfollowed::UnfollowedWord;
 pub(crate) use word::Token;
 pub use write::write;
-pub(crate) use write::{Kept, read_of_profile, write_keeping, write_with};
+pub(crate) use write::{Carried, read_of_profile, write_keeping, write_with};

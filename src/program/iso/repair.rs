@@ -31,7 +31,7 @@ use crate::text::TextEdit;
 pub(super) use around::cut_within;
 use around::{LONGEST, begins_astray, cut_around, is_way, stands_alone, with_numbers_kept};
 use found::{LookedAt, Meant, Repair, Repairs, Searched};
-use scan::{Against, Line, Way};
+use scan::{Against, Line, Scanned};
 use shape::Passes;
 use std::borrow::Cow;
 use std::cell::OnceCell;
@@ -67,10 +67,8 @@ impl Document {
     /// The slips that may explain the faults, by the lines of the cuts that they stand in.
     pub(super) fn repairs(&self) -> &Repairs {
         self.repairs.get_or_init(|| {
-            Arc::new(repairs(
-                self,
-                &mut Troubles::of(self, &self.plain_findings(), None),
-            ))
+            let others = self.report().finish();
+            Arc::new(repairs(self, &mut Troubles::of(self, &others)))
         })
     }
 
@@ -141,7 +139,7 @@ fn repairs(document: &Document, troubles: &mut Troubles<'_>) -> Repairs {
 struct Suspect<'a> {
     document: &'a Document,
     lines: Range<usize>,
-    way: Way<'a>,
+    way: Scanned<'a>,
     pool: Pool,
     total: Against,
     order: Vec<usize>,
@@ -312,7 +310,7 @@ impl<'a> Suspect<'a> {
             .map(|line| Line::read(document.line_bytes(line), document))
             .collect();
         let pool = Pool::of(document, &own);
-        let way = Way::new(document.reading(), own, before);
+        let way = Scanned::new(document.reading(), own, before);
         let apart = |index: &usize| {
             let apart = |place: &usize| place.abs_diff(lines.start + index);
             places.iter().map(apart).min().unwrap_or(0)

@@ -19,7 +19,7 @@ use crate::geometry::cross;
 use crate::program::by_chunk::ByChunk;
 use crate::program::path::{HasCuts, tolerance};
 use crate::program::repair::gate::Tried;
-use crate::program::report::place_of;
+use crate::program::report::{self, place_of};
 use crate::settings::{CenterRule, SideSetting};
 use crate::text::SourceText;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -37,26 +37,22 @@ const LONGEST_LEADS: u32 = 6;
 impl Document {
     /// The findings of the program, in the order of the text.
     pub fn findings(&self) -> Vec<Finding> {
-        let mut findings = self.plain_findings();
-        let suspects = suspects(self, &mut Troubles::of(self, &findings, None));
-        if !suspects.is_empty() {
-            findings.extend(suspects);
-            sort(&mut findings);
-        }
+        let mut findings = report::Report::all(self);
+        sort(&mut findings);
         findings
     }
 
     /// The same without merely suspected blocks, and without a search for the slip behind them.
     pub(crate) fn plain_findings(&self) -> Vec<Finding> {
         let mut report = self.report();
-        let told = self.told().iter();
-        let told = told.map(|told| told.finding(self.chunks(), self.text()));
+        let told = self.told.iter();
+        let told = told.map(|told| told.finding(|chunk| self.byte_of(chunk), self.text()));
         report.findings.extend(told);
         report.finish()
     }
 
     /// The findings beside those that are kept.
-    fn report(&self) -> Report<'_> {
+    pub(super) fn report(&self) -> Report<'_> {
         let mut report = Report::new(self);
         let mut last_words = None;
         let mut is_ended = false;
@@ -75,12 +71,12 @@ impl Document {
                 report.add(at(offset, behind), Fault::TextAfterEnd { word });
             }
         }
-        for cut in self.doubtful().untold() {
-            report.judge(cut, Some(self.doubtful()));
+        for cut in self.doubtful.untold() {
+            report.judge(cut, Some(&self.doubtful));
         }
         // With subprograms nothing is kept.
         if self.order().is_some() {
-            for (cut, found) in self.contours().crossing() {
+            for (cut, found) in self.contours.crossing() {
                 report
                     .findings
                     .extend(self.crosses_itself(cut, found, self.text()));
@@ -126,11 +122,11 @@ impl Document {
     /// fault as a whole.
     pub(super) fn clean(&self, stretches: Range<usize>) -> Vec<usize> {
         let mut report = Report::new(self);
-        let crossing = self.contours().crossing();
+        let crossing = self.contours.crossing();
         let places = crossing.flat_map(|(cut, _)| &cut.parts);
         let touched: FxHashSet<usize> = places.map(|(stretch, _)| *stretch).collect();
         let mut is_clean = |index: &usize| {
-            let of = &self.stretches()[*index];
+            let of = &self.stretches[*index];
             let mut inner = of.inner();
             let is_sound = |part: usize| {
                 JoinedCut::of(of, *index, part).is_none_or(|cut| report.is_sound(&cut))
@@ -190,7 +186,7 @@ fn sort(findings: &mut [Finding]) {
     findings.sort_by_key(|finding| (place_of(finding), finding.rule));
 }
 
-struct Report<'a> {
+pub(super) struct Report<'a> {
     document: &'a Document,
     text: &'a SourceText,
     reading: &'a Reading,
@@ -381,7 +377,7 @@ impl<'a> Report<'a> {
         let (document, begin) = (self.document, cut.sum.start());
         let tolerance = document.tolerance(&cut.sum);
         for &(stretch, part) in &cut.parts {
-            let own = document.stretches().get(stretch);
+            let own = document.stretches.get(stretch);
             let all = own.into_iter().flat_map(|own| own.spurs_of(part));
             for spur in all.filter(|spur| !meet(begin, spur.tip, tolerance)) {
                 let Spur { length, range, .. } = spur;
@@ -476,7 +472,7 @@ impl<'a> Report<'a> {
     }
 
     /// Sorted by place; a line that a subprogram runs several times is reported once.
-    fn finish(mut self) -> Vec<Finding> {
+    pub(super) fn finish(mut self) -> Vec<Finding> {
         sort(&mut self.findings);
         if self.document.order().is_some() {
             let mut said = FxHashSet::default();

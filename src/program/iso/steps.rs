@@ -93,7 +93,7 @@ impl Document {
 
     /// Hands out the moves in the order in which they run, each with its line and the state after it.
     pub(crate) fn moves(&self, each: &mut dyn FnMut(usize, Move, &Machine)) {
-        for stretch in 0..self.stretches().len() {
+        for stretch in 0..self.stretches.len() {
             self.run_lines(stretch, &mut |ran| {
                 for made in ran.moves() {
                     each(ran.line, made, ran.machine);
@@ -123,7 +123,7 @@ impl Document {
 
     /// True where the control makes corners of its own.
     pub(crate) fn has_corners(&self) -> bool {
-        self.stretches().iter().any(|stretch| stretch.has_corners)
+        self.stretches.iter().any(|stretch| stretch.has_corners)
     }
 
     // The state at a line.
@@ -165,7 +165,7 @@ impl Document {
 
     fn begun(&self, (index, own): (usize, Stretch)) -> Option<BegunCut> {
         // Only the last stretch with the start of a cut matters, and those after.
-        let before = &self.stretches()[..index];
+        let before = &self.stretches[..index];
         let from = before.iter().rposition(Stretch::bounds_cuts).unwrap_or(0);
         let mut begun: Option<BegunCut> = None;
         for stretch in before[from..].iter().chain([&own]) {
@@ -208,7 +208,7 @@ impl Program for Document {
     fn begin(&self) -> (Point, bool) {
         let mut begin = None;
         let has_steps = |stretch: &Stretch| stretch.sum.moves + stretch.sum.stops > 0;
-        if let Some(first) = self.stretches().iter().position(has_steps) {
+        if let Some(first) = self.stretches.iter().position(has_steps) {
             self.run_lines(first, &mut |ran| {
                 if ran.step_count() > 0 && begin.is_none() {
                     let from = ran.moves().next().map_or(ran.machine.at, |made| made.from);
@@ -233,7 +233,7 @@ impl Program for Document {
     }
 
     fn chunk_count(&self) -> usize {
-        self.stretches().len()
+        self.stretches.len()
     }
 
     fn lines_of(&self, stretch: usize) -> Range<usize> {
@@ -241,10 +241,10 @@ impl Program for Document {
     }
 
     fn sum_of(&self, stretch: usize) -> Sum {
-        self.stretches()
+        self.stretches
             .get(stretch)
             .map_or_else(Sum::default, |own| Sum {
-                contours: (own.pauses as usize).saturating_sub(self.contours().tabs_in(stretch)),
+                contours: (own.pauses as usize).saturating_sub(self.contours.tabs_in(stretch)),
                 ..own.sum
             })
     }

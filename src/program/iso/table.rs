@@ -21,7 +21,7 @@ impl Document {
     /// The values that the program puts into the table.
     pub(super) fn stated_table(&self) -> Table {
         let mut table = Table::default();
-        let stretches = self.stretches().iter();
+        let stretches = self.stretches.iter();
         for definition in stretches.flat_map(|stretch| &stretch.definitions) {
             match value(&table, definition, self.reading()) {
                 Ok(value) => _ = table.insert(definition.offset, value),
@@ -70,7 +70,7 @@ impl Document {
     /// `D` or `H`, as the program names places of the control's table.
     pub(crate) fn table_letter(&self) -> u8 {
         let defined = self
-            .stretches()
+            .stretches
             .iter()
             .flat_map(|stretch| &stretch.definitions)
             .map(|definition| definition.offset)

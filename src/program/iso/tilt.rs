@@ -119,13 +119,13 @@ impl Document {
     /// The way of the wire's upper end; `None` where no word tilts the wire. The height of the workpiece replaces
     /// planes that the program does not give.
     pub(crate) fn taper(&self) -> Option<Taper> {
-        let mut foreign = self.stretches().iter().flat_map(|own| &own.foreign);
+        let mut foreign = self.stretches.iter().flat_map(|own| &own.foreign);
         if !foreign.any(|word| word.code.tilts()) {
             return None;
         }
         let mut reader = Reader::new(self.reading(), self.limits.thickness);
         let mut moves: Vec<Leaning> = Vec::new();
-        for stretch in 0..self.stretches().len() {
+        for stretch in 0..self.stretches.len() {
             self.run_lines(stretch, &mut |ran| {
                 let line = self.line_bytes(ran.line);
                 reader.read(ran.line, line, ran.machine);

@@ -28,7 +28,7 @@ pub(super) fn unfollowed(document: &Document) -> Vec<UnfollowedWord> {
     let mut found = Vec::new();
     let (mut seen, mut zeros_seen) = (FxHashSet::default(), FxHashSet::default());
     let mut zeros = Zeros::default();
-    for stretch in 0..document.stretches().len() {
+    for stretch in 0..document.stretches.len() {
         document.run_lines(stretch, &mut |ran| {
             let line = ran.line;
             let is_new = seen.insert(line);

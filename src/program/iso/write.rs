@@ -4,7 +4,7 @@ mod fixed;
 mod offsets;
 mod proof;
 
-pub(crate) use offsets::{Kept, read_of_profile};
+pub(crate) use offsets::{Carried, read_of_profile};
 
 use super::block::{Block, Motion, Offset};
 use super::encode::{Encoded, Moves};
@@ -37,16 +37,13 @@ pub fn write(paths: &[WirePath], unit_mm: f64, settings: &Effective) -> Proved<P
 /// As [`write()`], with what the paths keep of the program that they come from.
 pub(crate) fn write_keeping(
     paths: &[WirePath],
-    kept: &[Kept],
+    kept: &[Carried],
     unit_mm: f64,
     settings: &Effective,
 ) -> Proved<ProvedProgram> {
     let mut lines = Lines::of(settings)?;
-    lines.room = room(paths, false);
     lines.kept = kept;
-    let (steps, step_um) = (unit_mm * lines.per_mm(), lines.step_um());
-    walk(paths, steps, step_um, &mut |_, _| true, &mut lines)?;
-    lines.finish(cuts(paths))
+    lines.written(paths, unit_mm, &mut |_, _| true)
 }
 
 /// As [`write()`]; `go_on` gets the progress every few thousand segments, and ends the work with `false`. `notes` are
@@ -59,19 +56,11 @@ pub(crate) fn write_with(
     go_on: &mut dyn FnMut(usize, usize) -> bool,
 ) -> Proved<ProvedProgram> {
     let mut lines = Lines::of(settings)?;
-    lines.room = room(paths, notes.is_some());
     lines.notes = notes;
     if let Some(notes) = &mut lines.notes {
         notes.writing = lines.reading.writing();
     }
-    walk(
-        paths,
-        unit_mm * lines.per_mm(),
-        lines.step_um(),
-        go_on,
-        &mut lines,
-    )?;
-    lines.finish(cuts(paths))
+    lines.written(paths, unit_mm, go_on)
 }
 
 pub(super) struct Lines<'a> {
@@ -80,9 +69,9 @@ pub(super) struct Lines<'a> {
     /// 1-based number of the pass.
     pass: usize,
     /// What the paths keep of another program.
-    kept: &'a [Kept],
+    kept: &'a [Carried],
     /// That of the path that is written.
-    own: Kept,
+    own: Carried,
     /// nm in one step of the grid.
     pub(super) step: i64,
     pub(super) reading: Reading,
@@ -114,9 +103,9 @@ pub(super) struct Lines<'a> {
 impl Writer for Lines<'_> {
     fn begin(&mut self, from: Option<Node>, first: Node, path: &WirePath) -> Proved {
         self.pass = path.pass;
-        let (own, behind) = self.kept.split_first().unwrap_or((&Kept::NOTHING, &[]));
-        let kept = std::mem::replace(&mut self.kept, behind);
-        self.own = *own;
+        let kept = self.kept;
+        self.own = kept.first().copied().unwrap_or_default();
+        self.kept = kept.get(1..).unwrap_or_default();
         match from {
             None => {
                 if self.profile.zero == Zero::Start {
@@ -133,7 +122,7 @@ impl Writer for Lines<'_> {
                     self.say_offsets(kept, first)?;
                 }
             }
-            Some(from) if own.goes_on && from == first => {}
+            Some(from) if self.own.goes_on && from == first => {}
             Some(from) => self.go_over(from, first, path, self.settings)?,
         }
         if std::mem::take(&mut self.goes_on) {
@@ -265,7 +254,7 @@ impl<'a> Lines<'a> {
             settings,
             pass: 1,
             kept: &[],
-            own: Kept::default(),
+            own: Carried::default(),
             step: 1_000_000 / per_mm,
             reading,
             machine: Machine::default(),
@@ -283,6 +272,19 @@ impl<'a> Lines<'a> {
             notes: None,
             room: MOST_BLOCKS,
         })
+    }
+
+    /// The program along the paths.
+    fn written(
+        mut self,
+        paths: &[WirePath],
+        unit_mm: f64,
+        go_on: &mut dyn FnMut(usize, usize) -> bool,
+    ) -> Proved<ProvedProgram> {
+        self.room = room(paths, self.notes.is_some());
+        let (steps, step_um) = (unit_mm * self.per_mm(), self.step_um());
+        walk(paths, steps, step_um, go_on, &mut self)?;
+        self.finish(cuts(paths))
     }
 
     /// Steps of the grid in 1 mm.

@@ -5,10 +5,10 @@
 //! an edit only changes the pairs of the part that it touched, and of parts that moved relative to it. The whole way
 //! then decides which pieces cross, so that the division into parts does not matter.
 
-use super::behind_stops::KnownTabs;
 use super::crossing::{
     BESIDE, Crossing, MOST_PAIRS, Tangle, come_near, margin, most_looks, near_each_other,
 };
+use super::known_tabs::KnownTabs;
 use super::offset_losses::{ControlOffset, Loss, losses};
 use super::parted::{Blocks, Part, PartedWay, SLACK, micrometres};
 use super::passes::{Before, MOST_PASSES, passes};

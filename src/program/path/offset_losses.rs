@@ -78,21 +78,24 @@ struct Contour {
 
 /// The contour in the first blocks of a way.
 fn contour_of(way: &dyn Way, count: usize) -> Option<Contour> {
-    let begin = Node::at(way.piece(0)?.start());
-    let mut held = HeldWay::from(begin, way.totals().writing);
-    for index in 0..count {
-        if way.stop() == Some(index) {
-            held.stop_here();
+    let pieces: Option<Vec<Segment>> = (0..count).map(|index| way.piece(index)).collect();
+    let pieces = pieces?;
+    let closing = match count == way.count() {
+        true => closing(way)?,
+        false => {
+            let begin = Node::at(pieces.first()?.start());
+            let mut pass = HeldWay::from(begin, way.totals().writing);
+            for piece in &pieces {
+                pass.push(*piece, piece.as_arc().is_some(), Node::at(piece.end()));
+            }
+            closing(&pass)?
         }
-        let piece = way.piece(index)?;
-        held.push(piece, piece.as_arc().is_some(), Node::at(piece.end()));
-    }
-    let closing = closing(&held).filter(|closing| closing.closed)?;
+    };
     let own = closing.lead_in..count.checked_sub(closing.lead_out)?;
-    let pieces = held.pieces().get(own.clone())?.iter().copied();
     let (blocks, pieces) = own
-        .zip(pieces)
-        .filter(|(_, piece)| piece.length() > 0.0)
+        .clone()
+        .zip(pieces.get(own)?.iter().copied())
+        .filter(|(_, piece)| closing.closed && piece.length() > 0.0)
         .unzip();
     Some(Contour { pieces, blocks })
 }

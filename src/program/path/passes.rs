@@ -150,16 +150,6 @@ pub(super) fn crosses_itself(way: &HeldWay) -> bool {
         })
 }
 
-/// All pieces of a way; `None` where they are not held.
-pub(crate) fn pieces_of(way: &dyn Way) -> Option<Vec<Segment>> {
-    let mut pieces = Vec::with_capacity(way.count());
-    way.pieces_about(Point::origin(), f64::INFINITY, &mut |_, piece| {
-        pieces.push(*piece);
-        false
-    })?;
-    Some(pieces)
-}
-
 /// True where two closed ways may be passes of one contour by their boxes, µm.
 pub(crate) fn lie_beside(one: &Bounds, other: &Bounds) -> bool {
     let apart = |a: Point, b: Point| (a - b).amax();

@@ -121,11 +121,6 @@ impl HeldWay {
         &self.pieces
     }
 
-    /// Marks that the next block is after a stop.
-    pub(crate) fn stop_here(&mut self) {
-        self.totals.stop.get_or_insert(self.pieces.len());
-    }
-
     /// Adds a block: its curve from the intended position, and the machine's position after it.
     pub(crate) fn push(&mut self, piece: Segment, is_arc: bool, end: Node) {
         self.pieces.push(piece);

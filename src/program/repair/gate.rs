@@ -34,6 +34,81 @@ pub(in crate::program) trait Tried: Report + Program + Clone {
 
     /// The lines of the cut around a line.
     fn cut_lines(&self, line: usize) -> Range<usize>;
+
+    /// The repairs of a finding that remove it: those that pass the gate first; the others are neither
+    /// preferred nor made by "fix all".
+    fn gated(&self, finding: &Finding, mut fixes: Vec<TextFix>) -> Vec<TextFix> {
+        if self.text().len() > TRIED || fixes.is_empty() {
+            // By what the language found out of it.
+            fixes
+                .iter_mut()
+                .filter(|fix| invents(&fix.kind) || !fix.in_fix_all)
+                .for_each(refuse);
+            return fixes;
+        }
+        let before = Judged::of(self, finding);
+        let (mut good, mut bad) = (Vec::new(), Vec::new());
+        for mut fix in fixes {
+            let tried = edited(self, &fix.edit);
+            let after = Judged::of(&tried, finding);
+            // Unreadable text may have hidden something.
+            let spoils = before.standing.is_better_than(&after.standing)
+                && (finding.rule != Rule::Syntax || invents(&fix.kind));
+            if after.still_says(&before, finding.rule) || spoils {
+                continue;
+            }
+            let (for_itself, by_a_slip) = (
+                speaks_for_itself(finding.rule),
+                is_by_a_slip(self, &fix.edit),
+            );
+            let passes = before
+                .standing
+                .allows(&after.standing, for_itself, by_a_slip)
+                && !(is_of_cut(finding.rule) && leaves_faults(&tried, &fix.edit));
+            if !passes || invents(&fix.kind) {
+                refuse(&mut fix);
+            }
+            if passes { &mut good } else { &mut bad }.push(fix);
+        }
+        good.append(&mut bad);
+        good
+    }
+
+    /// The repairs that fit together and leave the program no worse, as one sorted list of disjoint edits: all, or else one
+    /// after another as far as they pass. At most one changes a line.
+    fn together(&self, fixes: Vec<(Rule, TextFix)>) -> Vec<TextEdit> {
+        let fixes = one_of_each_cut(self, fixes);
+        let mut taken = Taken::default();
+        let fixes: Vec<(Rule, TextFix)> = fixes
+            .into_iter()
+            .filter(|(_, fix)| taken.take(self, &fix.edit))
+            .collect();
+        if fixes.is_empty() {
+            return Vec::new();
+        }
+        let before = Standing::of(self);
+        let all = taken.edits();
+        let for_itself = fixes.iter().all(|(rule, _)| speaks_for_itself(*rule));
+        let by_slips = fixes.iter().all(|(_, fix)| is_by_a_slip(self, &fix.edit));
+        if before.allows(&Standing::of(&edited(self, &all)), for_itself, by_slips) {
+            return all;
+        }
+        let (mut kept, mut present) = (Taken::default(), before);
+        let most = match self.text().len() > TRIED {
+            true => ONE_BY_ONE_OF_LONG,
+            false => ONE_BY_ONE,
+        };
+        for (rule, fix) in fixes.into_iter().take(most) {
+            let mut more = kept.clone();
+            more.take(self, &fix.edit);
+            let after = Standing::of(&edited(self, &more.clone().edits()));
+            let by_a_slip = is_by_a_slip(self, &fix.edit);
+            if present.allows(&after, speaks_for_itself(rule), by_a_slip) {
+                (kept, present) = (more, after);
+            }
+        }
+        kept.edits()
+    }
 }
 
 /// The properties of a program that a repair must not make worse.
@@ -231,92 +306,8 @@ fn is_by_a_slip(program: &impl Tried, edits: &[TextEdit]) -> bool {
     matches!(edits, [edit] if is_slip(found(edit).unwrap_or_default(), edit.text.as_bytes()))
 }
 
-/// The repairs of a finding that remove it: those that pass the gate first; the others are neither
-/// preferred nor made by "fix all".
-pub(in crate::program) fn gated(
-    program: &impl Tried,
-    finding: &Finding,
-    mut fixes: Vec<TextFix>,
-) -> Vec<TextFix> {
-    if program.text().len() > TRIED || fixes.is_empty() {
-        // By what the language found out of it.
-        fixes
-            .iter_mut()
-            .filter(|fix| invents(&fix.kind) || !fix.in_fix_all)
-            .for_each(refuse);
-        return fixes;
-    }
-    let before = Judged::of(program, finding);
-    let (mut good, mut bad) = (Vec::new(), Vec::new());
-    for mut fix in fixes {
-        let tried = edited(program, &fix.edit);
-        let after = Judged::of(&tried, finding);
-        // Unreadable text may have hidden something.
-        let spoils = before.standing.is_better_than(&after.standing)
-            && (finding.rule != Rule::Syntax || invents(&fix.kind));
-        if after.still_says(&before, finding.rule) || spoils {
-            continue;
-        }
-        let (for_itself, by_a_slip) = (
-            speaks_for_itself(finding.rule),
-            is_by_a_slip(program, &fix.edit),
-        );
-        let passes = before
-            .standing
-            .allows(&after.standing, for_itself, by_a_slip)
-            && !(is_of_cut(finding.rule) && leaves_faults(&tried, &fix.edit));
-        if !passes || invents(&fix.kind) {
-            refuse(&mut fix);
-        }
-        if passes { &mut good } else { &mut bad }.push(fix);
-    }
-    good.append(&mut bad);
-    good
-}
-
 fn refuse(fix: &mut TextFix) {
     (fix.preferred, fix.in_fix_all) = (false, false);
-}
-
-/// The repairs that fit together and leave the program no worse, as one sorted list of disjoint edits: all, or else one
-/// after another as far as they pass. At most one changes a line.
-pub(in crate::program) fn together(
-    program: &impl Tried,
-    fixes: Vec<(Rule, TextFix)>,
-) -> Vec<TextEdit> {
-    let fixes = one_of_each_cut(program, fixes);
-    let mut taken = Taken::default();
-    let fixes: Vec<(Rule, TextFix)> = fixes
-        .into_iter()
-        .filter(|(_, fix)| taken.take(program, &fix.edit))
-        .collect();
-    if fixes.is_empty() {
-        return Vec::new();
-    }
-    let before = Standing::of(program);
-    let all = taken.edits();
-    let for_itself = fixes.iter().all(|(rule, _)| speaks_for_itself(*rule));
-    let by_slips = fixes
-        .iter()
-        .all(|(_, fix)| is_by_a_slip(program, &fix.edit));
-    if before.allows(&Standing::of(&edited(program, &all)), for_itself, by_slips) {
-        return all;
-    }
-    let (mut kept, mut present) = (Taken::default(), before);
-    let most = match program.text().len() > TRIED {
-        true => ONE_BY_ONE_OF_LONG,
-        false => ONE_BY_ONE,
-    };
-    for (rule, fix) in fixes.into_iter().take(most) {
-        let mut more = kept.clone();
-        more.take(program, &fix.edit);
-        let after = Standing::of(&edited(program, &more.clone().edits()));
-        let by_a_slip = is_by_a_slip(program, &fix.edit);
-        if present.allows(&after, speaks_for_itself(rule), by_a_slip) {
-            (kept, present) = (more, after);
-        }
-    }
-    kept.edits()
 }
 
 /// Without the guesses about a cut in which something else is repaired: that may be what was wrong with it. And without

@@ -9,7 +9,7 @@ pub(super) mod search;
 use crate::finding::{FixKind, TextFix};
 use crate::geometry::Segment;
 use crate::program::path::{FEWEST_CROSSING, crossings_of};
-use crate::text::TextEdit;
+use crate::text::{SourceText, TextEdit};
 
 /// Whether a way crosses itself; `None` where more than the pieces `left` would be read to find out. What is read is
 /// taken from them.
@@ -37,10 +37,13 @@ pub(super) fn offered(
     found.enumerate().filter_map(fix).collect()
 }
 
-/// The fix of a spur, whose way out and way back stand in two lines: both go.
-pub(super) fn without_spur(lines: [String; 2], edits: [TextEdit; 2]) -> TextFix {
+/// The fix of a spur, whose way out and way back stand in two lines, each with what is shown of it: both go.
+pub(super) fn without_spur(text: &SourceText, lines: [(usize, String); 2]) -> TextFix {
+    let edits = lines
+        .each_ref()
+        .map(|(line, _)| TextEdit::new(text.whole_line(*line), ""));
     let kind = FixKind::Rewrite {
-        found: lines.join(say!(and)),
+        found: lines.map(|(_, shown)| shown).join(say!(and)),
         meant: String::new(),
     };
     TextFix::text(kind, false, edits.to_vec())

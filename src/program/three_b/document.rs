@@ -173,16 +173,6 @@ impl Document {
         self.stretches.get(at.stretch)?.entries.get(at.entry)
     }
 
-    #[cfg(test)]
-    pub(in crate::program) fn contours(&self) -> &Contours<JoinedCut> {
-        &self.view.contours
-    }
-
-    #[cfg(test)]
-    pub(in crate::program) fn judged(&self) -> [usize; 2] {
-        self.view.told.judged
-    }
-
     /// Bytes of an entry in the text.
     fn range_of(&self, at: At) -> Range<usize> {
         let byte = self.stretches.byte(at.stretch);

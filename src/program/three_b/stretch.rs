@@ -16,8 +16,8 @@ use super::words::{Word, Words};
 use crate::finding::{Fault, Rule};
 use crate::geometry::{Bounds, Point, Segment, Vector};
 use crate::program::numbering::Numbering;
+use crate::program::of_cut::{Counted, count};
 use crate::program::path::{HeldWay, Lay, Node, Writing, may_be_odd, odd_joint};
-use crate::program::report::{Counted, count};
 use std::borrow::Cow;
 use std::ops::{Deref, Range};
 

@@ -81,7 +81,7 @@ pub(crate) fn write_four_b(
     let paths = made;
     let mut blocks = Blocks::new(
         settings,
-        Some(Part {
+        Some(FourB {
             correction,
             radius,
             side: Side::Left,
@@ -171,7 +171,7 @@ fn transitions(settings: &Effective) -> (f64, f64) {
 }
 
 /// The additional data for proving a 4B program.
-struct Part {
+struct FourB {
     /// µm.
     correction: f64,
     /// Of its transitions, µm.
@@ -185,7 +185,7 @@ struct Part {
 const WIRE_GAP: f64 = 3.0;
 
 struct Blocks<'a> {
-    part: Option<Part>,
+    part: Option<FourB>,
     settings: &'a Effective,
     words: Words<'a>,
     out: Vec<u8>,
@@ -314,7 +314,7 @@ impl Writer for Blocks<'_> {
 impl<'a> Blocks<'a> {
     fn new(
         settings: &'a Effective,
-        part: Option<Part>,
+        part: Option<FourB>,
         notes: Option<&'a mut Notes>,
         paths: &[WirePath],
     ) -> Blocks<'a> {

@@ -3,7 +3,7 @@
 use crate::geometry::{Point, Segment};
 use crate::program::Language;
 use crate::program::iso::document::Document;
-use crate::program::numbering::renamed;
+use crate::program::numbering::Numbers;
 use crate::program::refactor::tests;
 use crate::text::edited;
 use proptest::prelude::*;
@@ -212,13 +212,13 @@ fn blocks_are_numbered_and_calls_follow() {
     );
     refuses("number", "N1 G01 X5\nGOTO 1\nM02\n", "GOTO");
     let document = read("M98 P7\nM02\nN7 G01 X1\nN8 M99\n");
-    let edits = renamed(&document, 12..13, 7, "70", 70).unwrap();
+    let edits = document.renamed(12..13, 7, "70", 70).unwrap();
     assert_eq!(
         String::from_utf8(edited(document.text().bytes(), &edits).unwrap()).unwrap(),
         "M98 P70\nM02\nN70 G01 X1\nN8 M99\n"
     );
     assert_eq!(
-        renamed(&document, 12..13, 7, "8", 8),
+        document.renamed(12..13, 7, "8", 8),
         Err("N8 is the block in line 4".into())
     );
 }

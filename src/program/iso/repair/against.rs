@@ -32,30 +32,24 @@ impl Against {
     }
 
     pub(super) fn plus(self, other: Against) -> Against {
-        Against {
-            hard: self.hard + other.hard,
-            soft: self.soft + other.soft,
-            vague: self.vague + other.vague,
-            open: self.open + other.open,
-            beside: self.beside + other.beside,
-            unlike: self.unlike + other.unlike,
-            back: self.back + other.back,
-            slits: self.slits + other.slits,
-            radiusless: self.radiusless + other.radiusless,
-        }
+        self.with(other, |own, other| own + other, 1.0)
     }
 
     pub(super) fn minus(self, other: Against) -> Against {
+        self.with(other, |own, other| own - other, -1.0)
+    }
+
+    fn with(self, other: Against, counts: impl Fn(u32, u32) -> u32, sign: f64) -> Against {
         Against {
-            hard: self.hard - other.hard,
-            soft: self.soft - other.soft,
-            vague: self.vague - other.vague,
-            open: self.open - other.open,
-            beside: self.beside - other.beside,
-            unlike: self.unlike - other.unlike,
-            back: self.back - other.back,
-            slits: self.slits - other.slits,
-            radiusless: self.radiusless - other.radiusless,
+            hard: counts(self.hard, other.hard),
+            soft: self.soft + sign * other.soft,
+            vague: self.vague + sign * other.vague,
+            open: counts(self.open, other.open),
+            beside: counts(self.beside, other.beside),
+            unlike: counts(self.unlike, other.unlike),
+            back: counts(self.back, other.back),
+            slits: counts(self.slits, other.slits),
+            radiusless: counts(self.radiusless, other.radiusless),
         }
     }
 }

@@ -24,6 +24,18 @@ pub(crate) struct Meant {
     pub(crate) evidence: f64,
 }
 
+impl Meant {
+    pub(super) fn new(line: Vec<u8>, found: &str, meant: &str) -> Meant {
+        Meant {
+            line,
+            found: found.to_owned(),
+            meant: meant.to_owned(),
+            is_calculated: false,
+            evidence: 0.0,
+        }
+    }
+}
+
 /// A change that makes a cut sound, or sounder.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Repair {

@@ -7,7 +7,7 @@ use crate::geometry::{Segment, Vector, left_normal};
 use crate::program::iso::block::Motion;
 use crate::program::iso::document::Document;
 use crate::program::iso::labels::LOOKED_BACK;
-use crate::program::iso::line::with_word;
+use crate::program::iso::line::{with_word, words_of_move};
 use crate::program::iso::moves::{
     Bend, CenterRule, Move, Place, Reading, added, distance, micrometres,
 };
@@ -45,35 +45,20 @@ impl Suspect<'_> {
         let before = self.way.machine_before(index);
         let (along, arc) = (way.end() - way.start(), way.as_arc());
         let style = &self.pool.styles[usize::from(before.inch)];
-        let nm = |um: f64| (um * 1e3).round() as i64;
-        let base = if before.incremental {
-            before.at
-        } else {
-            before.zero
-        };
-        let number = |axis: usize| {
-            let to = before.at[axis].wrapping_add(nm(along[axis]));
-            style.number(to.wrapping_sub(base[axis]))
-        };
-        let motion = arc.map_or(Motion::Line, |arc| Motion::turning(arc.sweep > 0.0));
-        let mut words = vec![
-            motion.word().to_owned(),
-            format!("X{}", number(0)),
-            format!("Y{}", number(1)),
-        ];
+        let nm = |by: Vector| [by.x, by.y].map(|um| (um * 1e3).round() as i64);
+        let mut motion = Motion::Line;
+        let mut center = None;
         if let Some(arc) = arc {
             let sign = match self.way.reading.rule(before.incremental) {
                 CenterRule::StartToCenter => 1.0,
                 CenterRule::CenterToStart => -1.0,
                 CenterRule::Absolute => return None,
             };
-            let center = (along + left_normal(along) / (arc.sweep / 2.0).tan()) / 2.0 * sign;
-            let number = |um: f64| style.number(nm(um));
-            words.extend([
-                format!("I{}", number(center.x)),
-                format!("J{}", number(center.y)),
-            ]);
+            motion = Motion::turning(arc.sweep > 0.0);
+            let to_center = (along + left_normal(along) / (arc.sweep / 2.0).tan()) / 2.0;
+            center = Some(nm(to_center * sign));
         }
+        let words = words_of_move(before, style, motion, added(before.at, nm(along)), center);
         let meant = words.join(if self.pool.is_parted { " " } else { "" });
         let line = match self.free_number(self.lines.start + index) {
             Some(number) => with_word(meant.as_bytes(), &format!("N{number}"), self.pool.is_parted),
@@ -87,15 +72,7 @@ impl Suspect<'_> {
             None if !before.incremental => prior::TANGENT,
             _ => prior::LOST_BLOCK,
         };
-        let found = String::new();
-        let meant = Meant {
-            line,
-            found,
-            meant,
-            is_calculated: false,
-            evidence: 0.0,
-        };
-        Some((meant, prior))
+        Some((Meant::new(line, "", &meant), prior))
     }
 
     /// The number of a block before a line, where there is room for one.

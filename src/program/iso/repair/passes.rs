@@ -1,7 +1,7 @@
 //! The other passes of a contour as evidence: a move that one of them has, too, is hardly wrong.
 
 use super::around::{LONGEST, cut_around};
-use super::scan::{Line, Way};
+use super::scan::{Line, Scanned};
 use super::shape::{Passes, Shape, backwards, shape, shapes};
 use crate::program::iso::block::{Block, Compensation};
 use crate::program::iso::document::Document;
@@ -21,7 +21,7 @@ impl Passes {
     pub(super) fn beside(
         document: &Document,
         lines: &Range<usize>,
-        way: &Way<'_>,
+        way: &Scanned<'_>,
     ) -> Option<Passes> {
         let own = shapes(way.reading, *way.machine_before(0), way.blocks());
         if own.len() < FEWEST {
@@ -69,7 +69,7 @@ impl Passes {
     /// What they say against other lines in the place of `count` ones, and how many lines were run for it.
     pub(super) fn against(
         &self,
-        way: &Way<'_>,
+        way: &Scanned<'_>,
         index: usize,
         count: usize,
         lines: &[Line],

@@ -48,7 +48,7 @@ struct End {
 }
 
 /// The lines of a cut with the state and the evidence before each.
-pub(crate) struct Way<'a> {
+pub(crate) struct Scanned<'a> {
     pub(crate) reading: &'a Reading,
     pub(crate) lines: Vec<Line>,
     /// Before each line, and after the last.
@@ -59,8 +59,8 @@ pub(crate) struct Way<'a> {
     loose_from: usize,
 }
 
-impl<'a> Way<'a> {
-    pub(crate) fn new(reading: &'a Reading, lines: Vec<Line>, machine: Machine) -> Way<'a> {
+impl<'a> Scanned<'a> {
+    pub(crate) fn new(reading: &'a Reading, lines: Vec<Line>, machine: Machine) -> Scanned<'a> {
         let mut scan = Scan {
             machine,
             against: Against::default(),
@@ -92,7 +92,7 @@ impl<'a> Way<'a> {
             ends[begun..].fill(Some(end));
         }
         before.push(scan);
-        Way {
+        Scanned {
             reading,
             lines,
             before,

@@ -1,9 +1,8 @@
 //! The findings that one slip may explain.
 
 use crate::finding::{Detail, Fault, Finding, Rule, Severity};
-use crate::program::by_chunk::ByChunk;
 use crate::program::iso::document::Document;
-use crate::program::of_cut::OfCut;
+use crate::program::work::{self, Work};
 use std::ops::Range;
 
 /// The first bytes of these findings, in the order of the text. Of very many only those are looked up that are asked for.
@@ -17,31 +16,30 @@ pub(crate) struct Troubles<'a> {
 
 impl<'a> Troubles<'a> {
     /// Those among some findings, and among what is kept of cuts.
-    pub(crate) fn of(
-        document: &'a Document,
-        findings: &[Finding],
-        told: Option<&'a ByChunk<OfCut>>,
-    ) -> Troubles<'a> {
+    pub(crate) fn of(document: &'a Document, findings: &[Finding]) -> Troubles<'a> {
         let findings = findings.iter().filter(|one| is_trouble(one));
         let findings = findings.filter_map(|one| Some(one.place.in_text()?.start));
         let mut findings: Vec<usize> = findings.collect();
         findings.sort_unstable();
         // Cuts follow each other, and what is found of one stands in it.
-        let of_chunk = move |told: &ByChunk<OfCut>, chunk: usize| {
-            let all = told.of(chunk).iter();
+        let of_chunk = move |chunk: usize| {
+            let all = document.told.of(chunk).iter();
             let own = all.filter(|one| may_be_slip(one.rule, one.severity, &one.detail));
-            let mut own: Vec<usize> = own.map(|one| one.range(document.chunks()).start).collect();
+            let mut own: Vec<usize> = own
+                .map(|one| one.range(|chunk| document.byte_of(chunk)).start)
+                .collect();
             own.sort_unstable();
             own
         };
-        let told = told.into_iter();
-        let told =
-            told.flat_map(move |told| (0..told.len()).flat_map(move |chunk| of_chunk(told, chunk)));
+        let told = (0..document.told.len()).flat_map(of_chunk);
         let (mut findings, mut told) = (findings.into_iter().peekable(), told.peekable());
-        let next = move || match (findings.peek(), told.peek()) {
-            (Some(finding), Some(told_at)) if told_at < finding => told.next(),
-            (Some(_), _) => findings.next(),
-            (None, _) => told.next(),
+        let next = move || {
+            work::add(Work::Troubles, 1);
+            match (findings.peek(), told.peek()) {
+                (Some(finding), Some(told_at)) if told_at < finding => told.next(),
+                (Some(_), _) => findings.next(),
+                (None, _) => told.next(),
+            }
         };
         Troubles {
             document,
@@ -49,12 +47,6 @@ impl<'a> Troubles<'a> {
             handed: 0,
             rest: Box::new(std::iter::from_fn(next)),
         }
-    }
-
-    /// How many were looked up.
-    #[cfg(test)]
-    pub(crate) fn looked_up(&self) -> usize {
-        self.known.len()
     }
 
     pub(super) fn next(&mut self) -> Option<usize> {

@@ -1,7 +1,7 @@
 //! The possible intended words of a line: typing and transmission errors, each undone.
 
 use super::found::Meant;
-use super::scan::{Line, Way};
+use super::scan::{Line, Scanned};
 use crate::program::iso::block::Motion;
 use crate::program::iso::document::Document;
 use crate::program::iso::line::with_word;
@@ -112,7 +112,7 @@ fn other_axis(letter: u8) -> u8 {
 
 impl Words<'_> {
     /// All intended lines that one slip could explain, with their evidence.
-    pub(crate) fn all(mut self, way: &Way<'_>) -> Vec<(Meant, f64)> {
+    pub(crate) fn all(mut self, way: &Scanned<'_>) -> Vec<(Meant, f64)> {
         self.of_tokens();
         let line = &way.lines[self.index];
         let mut machine = *self.before;
@@ -132,13 +132,9 @@ impl Words<'_> {
 
     /// `evidence` is a part of the whole `prior`.
     fn put_with(&mut self, line: Vec<u8>, prior: f64, evidence: f64, found: &str, meant: &str) {
-        let (found, meant) = (found.to_owned(), meant.to_owned());
         let meant = Meant {
-            line,
-            found,
-            meant,
-            is_calculated: false,
             evidence,
+            ..Meant::new(line, found, meant)
         };
         self.meant.push((meant, prior));
     }
@@ -408,7 +404,7 @@ impl Words<'_> {
     }
 
     /// Coordinates that close the cut, or that others have.
-    fn of_values(&mut self, behind: &Machine, way: &Way<'_>) {
+    fn of_values(&mut self, behind: &Machine, way: &Scanned<'_>) {
         if behind.incremental {
             let gaps = way.gaps(self.index);
             for axis in 0..2 {

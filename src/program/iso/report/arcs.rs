@@ -16,7 +16,7 @@ impl Report<'_> {
     pub(super) fn tight_of(&self, cut: &JoinedCut) -> Vec<(Tight, Range<usize>)> {
         let mut found = Vec::new();
         for &(index, part) in &cut.parts {
-            let Some(stretch) = self.document.stretches().get(index) else {
+            let Some(stretch) = self.document.stretches.get(index) else {
                 continue;
             };
             // Most programs have no arc as tight as any correction.

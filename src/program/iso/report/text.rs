@@ -260,7 +260,7 @@ impl Report<'_> {
 
     /// A program without a stated unit whose size or numbers suggest inches; else a size that no wire cuts.
     pub(super) fn unit(&mut self) {
-        let placed = self.document.stretches().iter().filter_map(|stretch| {
+        let placed = self.document.stretches.iter().filter_map(|stretch| {
             let by = micrometres(stretch.moved).coords;
             Some(stretch.bounds?.moved(by))
         });

@@ -4,70 +4,45 @@
 use super::super::cut::JoinedCut;
 use super::super::document::Document;
 use super::super::repair::Troubles;
-use super::{Report, sort, suspects};
+use super::{Report, suspects};
 use crate::finding::Finding;
-use crate::program::by_chunk::Begun;
+use crate::program::by_chunk::{Begun, ByChunk};
 use crate::program::contours::PartAt;
 use crate::program::of_cut::OfCut;
 use crate::program::path::HasCuts;
-use crate::program::report::{self, Counted, Found, place_of};
+use crate::program::report::{self, Found, Source, place_of};
 use std::ops::Range;
 
-/// The source of a finding.
-pub(in crate::program) enum Kept {
-    Found(Finding),
-    OfCut { stretch: usize, index: usize },
-}
-
 impl report::Report for Document {
-    type Kept = Kept;
+    type Own = Finding;
 
-    /// Those that are not kept, and those of the cuts that begin in each stretch.
-    fn groups(&self) -> usize {
-        1 + self.told().len()
+    fn byte_of(&self, chunk: usize) -> usize {
+        self.stretches.byte(chunk)
     }
 
-    fn tally(&self, group: usize) -> Option<(usize, &[Counted])> {
-        let tally = self.told().sum(group.checked_sub(1)?)?;
-        Some(tally.told(self.chunks()))
+    fn of_cuts(&self) -> &ByChunk<OfCut> {
+        &self.told
     }
 
-    fn found_in(&self, group: usize) -> impl Iterator<Item = Found<Kept>> {
-        let not_kept = || {
-            let mut others = self.report().finish();
-            let mut troubles = Troubles::of(self, &others, Some(self.told()));
-            others.extend(suspects(self, &mut troubles));
-            sort(&mut others);
-            others
-        };
-        let others = (group == 0).then(not_kept).into_iter().flatten();
-        let others = others.map(|finding: Finding| Found {
+    /// Those that are not kept.
+    fn own_groups(&self) -> usize {
+        1
+    }
+
+    fn own_in(&self, _: usize) -> impl Iterator<Item = Found<Source<Finding>>> {
+        let mut others = self.report().finish();
+        let mut troubles = Troubles::of(self, &others);
+        others.extend(suspects(self, &mut troubles));
+        others.into_iter().map(|finding| Found {
             rule: finding.rule,
             severity: finding.severity,
             place: place_of(&finding),
-            kept: Kept::Found(finding),
-        });
-        let stretch = group.wrapping_sub(1);
-        let of_cuts = self.told().of(stretch).iter().enumerate();
-        others.chain(of_cuts.map(move |(index, told)| {
-            let Range { start, end } = told.range(self.chunks());
-            Found {
-                rule: told.rule,
-                severity: told.severity,
-                place: (start, end),
-                kept: Kept::OfCut { stretch, index },
-            }
-        }))
+            source: Source::Own(finding),
+        })
     }
 
-    fn worded(&self, kept: Kept) -> Option<Finding> {
-        match kept {
-            Kept::Found(finding) => Some(finding),
-            Kept::OfCut { stretch, index } => {
-                let told = self.told().of(stretch).get(index)?;
-                Some(told.finding(self.chunks(), self.text()))
-            }
-        }
+    fn own_worded(&self, own: Finding) -> Option<Finding> {
+        Some(own)
     }
 
     fn plain(&self) -> Vec<Finding> {
@@ -76,21 +51,10 @@ impl report::Report for Document {
 }
 
 impl Document {
-    /// How many findings are looked up to find the slips that explain them.
-    #[cfg(test)]
-    pub(in crate::program) fn troubles_looked_up(&self) -> usize {
-        let others = self.report().finish();
-        let mut troubles = Troubles::of(self, &others, Some(self.told()));
-        let mut fresh = self.clone();
-        fresh.repairs = Default::default();
-        suspects(&fresh, &mut troubles);
-        troubles.looked_up()
-    }
-
     /// Judges and marks the `doubtful` cuts that begin in a range, where the verdict depends on
     /// nothing else, and reports where cuts there cross themselves.
     pub(in crate::program::iso) fn tell(
-        &mut self,
+        &self,
         places: Range<PartAt>,
         doubtful: &mut [JoinedCut],
     ) -> Vec<OfCut> {
@@ -105,13 +69,8 @@ impl Document {
             }
             (cut.begin(), std::mem::take(&mut report.findings))
         });
-        let kept = (self.chunks(), self.contours());
-        let (told, asked) = OfCut::all(self, kept, places, judged, |_| true);
-        #[cfg(test)]
-        (self.judged = asked);
-        #[cfg(not(test))]
-        let _ = asked;
-        told
+        let kept = (&self.stretches, &self.contours);
+        OfCut::all(self, kept, places, judged, |_| true)
     }
 }
 

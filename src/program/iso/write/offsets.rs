@@ -8,21 +8,13 @@ use crate::settings::Profile;
 
 /// What a path keeps of the program that it comes from.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Kept {
+pub(crate) struct Carried {
     /// The number of the place of the correction in the control's table.
     pub(crate) register: Option<u32>,
     /// The correction that the program states there, mm.
     pub(crate) correction: Option<f64>,
     /// It goes on where the path before it ends, without a stop.
     pub(crate) goes_on: bool,
-}
-
-impl Kept {
-    pub(crate) const NOTHING: Kept = Kept {
-        register: None,
-        correction: None,
-        goes_on: false,
-    };
 }
 
 /// The place of the correction that a control reads from the lines of a profile at the begin of a contour, where the
@@ -79,7 +71,7 @@ impl Lines<'_> {
     }
 
     /// What stands in the registers that the program named: as it says, or, where there is but one, by the settings.
-    fn kept_offsets(&self, kept: &[Kept]) -> Vec<(String, f64)> {
+    fn kept_offsets(&self, kept: &[Carried]) -> Vec<(String, f64)> {
         let mut registers: Vec<(u32, Option<f64>)> = Vec::new();
         for own in kept {
             if let Some(register) = own.register
@@ -97,7 +89,7 @@ impl Lines<'_> {
     }
 
     /// Notes what stands in each register, and says it in comments where a header is asked for.
-    pub(super) fn say_offsets(&mut self, kept: &[Kept], at: Node) -> Proved {
+    pub(super) fn say_offsets(&mut self, kept: &[Carried], at: Node) -> Proved {
         let register = |pass: usize| match self.names_registers() {
             true => self.register(pass),
             false => String::new(),

@@ -4,6 +4,7 @@ use super::super::repair::Scope;
 use super::super::rules::TextFix;
 use super::{At, JoinedCut};
 use crate::program::contours::PartAt;
+use crate::program::work::{self, Work};
 use std::collections::BTreeMap;
 use std::sync::{Mutex, OnceLock, PoisonError};
 
@@ -15,9 +16,6 @@ type OfCuts = BTreeMap<([PartAt; 2], bool, Option<usize>, Scope), Vec<TextFix>>;
 pub(super) struct Asked {
     fixes: Mutex<OfCuts>,
     faulty_numbers: OnceLock<BTreeMap<At, Option<u32>>>,
-    /// How often repairs were worked out.
-    #[cfg(test)]
-    searches: std::sync::atomic::AtomicUsize,
 }
 
 impl Asked {
@@ -33,8 +31,7 @@ impl Asked {
         if let Some(known) = held().get(&key) {
             return known.clone();
         }
-        #[cfg(test)]
-        (self.searches).fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+        work::add(Work::Repairs, 1);
         let found = found();
         held().insert(key, found.clone());
         found
@@ -67,11 +64,7 @@ impl PartialEq for Asked {
 mod tests {
     use crate::program::numbering::Renumbering;
     use crate::program::three_b::Document;
-
-    fn searches(document: &Document) -> usize {
-        let searches = &document.view.asked.searches;
-        searches.load(std::sync::atomic::Ordering::Relaxed)
-    }
+    use crate::program::work::{self, Work};
 
     #[test]
     fn a_cut_is_searched_once_for_all_its_findings() {
@@ -87,13 +80,12 @@ mod tests {
             fixes.collect::<Vec<_>>()
         };
         let before = asked(&document);
-        assert_eq!(searches(&document), 1);
+        assert_eq!(work::take(Work::Repairs), 1);
         assert_eq!(asked(&document), before);
-        assert_eq!(searches(&document), 1);
+        assert_eq!(work::take(Work::Repairs), 0);
         // What was known of the text before an edit does not count after it.
         document.edit(0..0, "\n");
-        assert_eq!(searches(&document), 0);
         asked(&document);
-        assert_eq!(searches(&document), 1);
+        assert_eq!(work::take(Work::Repairs), 1);
     }
 }

@@ -1,56 +1,15 @@
 //! The contours of a program: its open cuts, each with what goes on after its stops.
 
-use super::cuts::joined;
+use super::super::sum::{Sum, is_jump};
 use super::{At, Document, JoinedCut};
 use crate::program::by_chunk::Begun;
-use crate::program::contours::{Contour, Followed, PartAt};
-use crate::program::path::{BehindStops, Ends, HasCuts, KnownTabs, Way, goes_on};
-use std::ops::Range;
-
-/// An open cut and the cuts after its stops.
-struct OpenCuts<'a> {
-    document: &'a Document,
-    /// All as one, and all but the last, which is the first while there is no other.
-    whole: JoinedCut,
-    before: JoinedCut,
-    last: JoinedCut,
-    /// The starts of the cuts after the first.
-    begins: Vec<PartAt>,
-}
-
-impl BehindStops for OpenCuts<'_> {
-    fn take_next(&mut self) -> Option<()> {
-        let begin = self.document.part_behind(self.whole.parts[1]);
-        self.last = self.document.cut_from(begin)?;
-        let whole = joined(self.whole.clone(), &self.last);
-        self.before = std::mem::replace(&mut self.whole, whole);
-        self.begins.push(begin);
-        Some(())
-    }
-
-    fn ends(&self) -> Ends {
-        self.document.ends(&self.whole)
-    }
-
-    fn way(&self, cuts: Range<usize>) -> impl Way {
-        self.document.way(match (cuts.start, cuts.end) {
-            (0, end) if end > self.begins.len() => &self.whole,
-            (0, _) => &self.before,
-            _ => &self.last,
-        })
-    }
-
-    fn last_mark(&self) -> u64 {
-        self.document.mark(&self.last)
-    }
-
-    fn last_stands_alone(&self) -> bool {
-        let last = &self.last;
-        last.sum.blocks > 0 && (last.is_jump || self.document.is_closed(last))
-    }
-}
+use crate::program::contours::PartAt;
+use crate::program::followed::Followed;
+use crate::program::path::HasCuts;
 
 impl Followed for Document {
+    const PIECES_ARE_ONE: bool = true;
+
     /// Of the cuts within one stretch only those that may be open or cross themselves.
     fn next_cut(&self, from: PartAt, before: PartAt) -> Option<JoinedCut> {
         let outer = &self.view.outer;
@@ -83,45 +42,69 @@ impl Followed for Document {
         self.part_behind(cut.parts[1])
     }
 
-    fn follow(&self, cut: &JoinedCut, known: &mut KnownTabs) -> Option<Contour<JoinedCut>> {
+    /// The blocks from a part on, up to the next word; `None` after the end of the program.
+    fn cut_from(&self, start: PartAt) -> Option<JoinedCut> {
+        let end = self.view.end;
+        let mut cut: Option<JoinedCut> = None;
+        let (mut stretch, mut index) = start;
+        while let Some(of) = self.stretches.get(stretch) {
+            let at = |entry: usize| At { stretch, entry };
+            for (nth, part) in of.parts.iter().enumerate().skip(index) {
+                if end.is_some_and(|end| end < at(part.entries().start)) {
+                    return cut;
+                }
+                let own = cut.get_or_insert(JoinedCut {
+                    parts: [(stretch, nth); 2],
+                    sum: Sum::default(),
+                    is_jump: false,
+                    stop: None,
+                });
+                own.parts[1] = (stretch, nth);
+                own.sum = own.sum.then(&of.sum(part));
+                if part.word.is_some() {
+                    let is_end = end == Some(at(part.entries().end));
+                    own.is_jump = start != (0, 0)
+                        && self.is_behind_word(start)
+                        && !is_end
+                        && is_jump(&own.sum)
+                        && !self.stops_again((stretch, nth));
+                    return cut;
+                }
+            }
+            (stretch, index) = (stretch + 1, 0);
+        }
+        cut
+    }
+
+    fn may_go_on(&self, cut: &JoinedCut) -> bool {
         let is_empty = cut.sum.blocks + cut.sum.unread == 0;
-        if cut.is_jump
+        !(cut.is_jump
             || is_empty
             || !self.may_be_open(cut)
             || self.goes_round(cut)
-            || self.ends_open(cut)
-        {
-            return None;
+            || self.ends_open(cut))
+    }
+
+    fn stop_between(&self, _: &JoinedCut, behind: &JoinedCut) -> (usize, usize) {
+        behind.begin()
+    }
+
+    fn joined(&self, cut: JoinedCut, behind: &JoinedCut) -> JoinedCut {
+        JoinedCut {
+            parts: [cut.parts[0], behind.parts[1]],
+            sum: cut.sum.then(&behind.sum),
+            is_jump: false,
+            stop: cut.stop.or(Some(cut.sum.blocks)),
         }
-        let mut open = OpenCuts {
-            document: self,
-            whole: cut.clone(),
-            before: cut.clone(),
-            last: cut.clone(),
-            begins: Vec::new(),
-        };
-        let is_tab = goes_on(&mut open, known);
-        let whole = open.whole;
-        let behind = self.behind(&whole);
-        let next = self.cut_from(behind);
-        let reach = next.map_or(self.stretches.len(), |next| next.parts[1].0);
-        Some(match is_tab {
-            Some(is_tab) => Contour {
-                tabs: open.begins,
-                whole: is_tab.then_some(whole),
-                is_open: false,
-                behind,
-                reach,
-            },
-            None => Contour {
-                tabs: Vec::new(),
-                whole: None,
-                // To and fro on one way it closes.
-                is_open: !self.is_closed(cut),
-                behind: self.behind(cut),
-                reach,
-            },
-        })
+    }
+
+    fn stands_alone(&self, cut: &JoinedCut) -> bool {
+        cut.sum.blocks > 0 && (cut.is_jump || self.is_closed(cut))
+    }
+
+    /// To and fro on one way it closes.
+    fn stays_open(&self, cut: &JoinedCut) -> bool {
+        !self.is_closed(cut)
     }
 }
 

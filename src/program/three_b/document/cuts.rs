@@ -1,9 +1,9 @@
 //! The division of a program into contours and the ways between them: the blocks from one word to the next.
 
 use super::super::entry::{BlockEntry, Entry};
-use super::super::sum::{Sum, is_jump};
 use super::{At, Document, JoinedCut, PartAt};
 use crate::program::chunks::Reread;
+use crate::program::followed::Followed;
 use std::ops::Range;
 
 impl Document {
@@ -76,42 +76,8 @@ impl Document {
         Some(last)
     }
 
-    /// The blocks from a part on, up to the next word; `None` after the end of the program.
-    pub(super) fn cut_from(&self, start: PartAt) -> Option<JoinedCut> {
-        let end = self.view.end;
-        let mut cut: Option<JoinedCut> = None;
-        let (mut stretch, mut index) = start;
-        while let Some(of) = self.stretches.get(stretch) {
-            let at = |entry: usize| At { stretch, entry };
-            for (nth, part) in of.parts.iter().enumerate().skip(index) {
-                if end.is_some_and(|end| end < at(part.entries().start)) {
-                    return cut;
-                }
-                let own = cut.get_or_insert(JoinedCut {
-                    parts: [(stretch, nth); 2],
-                    sum: Sum::default(),
-                    is_jump: false,
-                    stop: None,
-                });
-                own.parts[1] = (stretch, nth);
-                own.sum = own.sum.then(&of.sum(part));
-                if part.word.is_some() {
-                    let is_end = end == Some(at(part.entries().end));
-                    own.is_jump = start != (0, 0)
-                        && self.is_behind_word(start)
-                        && !is_end
-                        && is_jump(&own.sum)
-                        && !self.stops_again((stretch, nth));
-                    return cut;
-                }
-            }
-            (stretch, index) = (stretch + 1, 0);
-        }
-        cut
-    }
-
     /// Whether a word stands somewhere before a part at which a cut begins.
-    fn is_behind_word(&self, (stretch, part): PartAt) -> bool {
+    pub(super) fn is_behind_word(&self, (stretch, part): PartAt) -> bool {
         part > 0
             || self.stretches[..stretch.min(self.stretches.len())]
                 .iter()
@@ -212,7 +178,7 @@ impl Document {
             else {
                 break;
             };
-            cut = joined(before, &cut);
+            cut = self.joined(before, &cut);
         }
         loop {
             let next = self.part_behind(cut.parts[1]);
@@ -220,7 +186,7 @@ impl Document {
             let Some(behind) = is_tab.then(|| self.cut_from(next)).flatten() else {
                 break;
             };
-            cut = joined(cut, &behind);
+            cut = self.joined(cut, &behind);
         }
         Some(cut)
     }
@@ -241,11 +207,11 @@ impl Document {
             .cut_from(self.part_behind(cut.parts[1]))
             .filter(is_open);
         let whole = match &before {
-            Some(before) => joined(before.clone(), cut),
+            Some(before) => self.joined(before.clone(), cut),
             None => cut.clone(),
         };
         match behind {
-            Some(behind) => Some(joined(whole, &behind)),
+            Some(behind) => Some(self.joined(whole, &behind)),
             None => before.map(|_| whole),
         }
     }
@@ -330,16 +296,6 @@ impl Document {
             of.parts
                 .partition_point(|part| part.entries().end <= at.entry)
         })
-    }
-}
-
-/// A cut and the one after its stop as one contour.
-pub(super) fn joined(cut: JoinedCut, behind: &JoinedCut) -> JoinedCut {
-    JoinedCut {
-        parts: [cut.parts[0], behind.parts[1]],
-        sum: cut.sum.then(&behind.sum),
-        is_jump: false,
-        stop: cut.stop.or(Some(cut.sum.blocks)),
     }
 }
 

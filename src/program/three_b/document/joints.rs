@@ -10,7 +10,6 @@ use crate::geometry::{Point, Segment, Vector};
 use crate::program::contours::PartAt;
 use crate::program::path::{may_be_odd, odd_joint, tolerance};
 use crate::program::repair::without_spur;
-use crate::text::TextEdit;
 use std::ops::Range;
 
 /// Blocks on either side of the end of a stretch that decide about its joints.
@@ -165,16 +164,14 @@ impl Document {
                 return None;
             }
         }
-        let edits = [out, back].map(|at| {
-            let line = self.text.line_of(self.range_of(at).start);
-            TextEdit::new(self.text.whole_line(line), "")
-        });
         let shown = |at: At| {
-            let own = self.text.bytes().get(self.range_of(at));
-            String::from_utf8_lossy(own.unwrap_or_default()).into_owned()
+            let range = self.range_of(at);
+            let own = self.text.bytes().get(range.clone()).unwrap_or_default();
+            let shown = String::from_utf8_lossy(own).into_owned();
+            (self.text.line_of(range.start), shown)
         };
         both.is_within(tolerance(0))
-            .then(|| vec![without_spur([out, back].map(shown), edits)])
+            .then(|| vec![without_spur(&self.text, [out, back].map(shown))])
     }
 }
 

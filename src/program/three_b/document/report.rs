@@ -5,81 +5,71 @@ use super::super::rules::{self, Counts};
 use super::super::stretch::Local;
 use super::{Document, JoinedCut};
 use crate::finding::{Detail, Finding, Severity};
+use crate::program::by_chunk::ByChunk;
+use crate::program::of_cut::{Counted, OfCut};
 use crate::program::repair::gate::Tried;
-use crate::program::report::{Counted, Found, Report, place_of};
+use crate::program::report::{Found, Report, Source, place_of};
 use crate::settings::SideSetting;
 use std::ops::Range;
 
 /// The place where a finding is stored.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::program) enum Kept {
+pub(in crate::program) enum Stored {
     InBlock { stretch: usize, index: usize },
-    OfCut { stretch: usize, index: usize },
     OnWhole { index: usize },
 }
 
 impl Report for Document {
-    type Kept = Kept;
+    type Own = Stored;
 
-    /// The faults of each stretch, those of the cuts that begin in each, and those of the whole.
-    fn groups(&self) -> usize {
-        2 * self.stretches.len() + 1
+    fn byte_of(&self, chunk: usize) -> usize {
+        self.stretches.byte(chunk)
     }
 
-    fn tally(&self, group: usize) -> Option<(usize, &[Counted])> {
-        match self.stretches.get(group) {
-            Some(of) => Some((self.stretches.byte(group), of.tally.as_deref()?)),
-            None => {
-                let tally = self.view.told.found().sum(group - self.stretches.len())?;
-                Some(tally.told(&self.stretches))
+    fn of_cuts(&self) -> &ByChunk<OfCut> {
+        &self.view.told.found
+    }
+
+    /// The faults of each stretch, and those of the whole.
+    fn own_groups(&self) -> usize {
+        self.stretches.len() + 1
+    }
+
+    fn own_tally(&self, group: usize) -> Option<(usize, &[Counted])> {
+        let tally = self.stretches.get(group)?.tally.as_deref()?;
+        Some((self.stretches.byte(group), tally))
+    }
+
+    fn own_in(&self, stretch: usize) -> impl Iterator<Item = Found<Source<Stored>>> {
+        let of = self.stretches.get(stretch);
+        let faults = of.map_or(&[][..], |of| &of.faults).iter().enumerate();
+        let counting = faults.filter(move |(_, local)| self.counts(stretch, local));
+        let in_blocks = counting.map(move |(index, local)| {
+            let base = self.stretches.byte(stretch);
+            Found {
+                rule: local.rule,
+                severity: self.own_severity(stretch, local),
+                place: (base + local.range.start, base + local.range.end),
+                source: Source::Own(Stored::InBlock { stretch, index }),
             }
-        }
-    }
-
-    fn found_in(&self, group: usize) -> impl Iterator<Item = Found<Kept>> {
-        let faults = self.stretches.get(group).map_or(&[][..], |of| &of.faults);
-        let counting = faults.iter().enumerate();
-        let counting = counting.filter(move |(_, local)| self.counts(group, local));
-        let in_blocks = counting.map(move |(index, local)| Found {
-            rule: local.rule,
-            severity: self.own_severity(group, local),
-            place: (local.range.start + self.stretches.byte(group), 0),
-            kept: Kept::InBlock {
-                stretch: group,
-                index,
-            },
         });
-        let stretch = group.wrapping_sub(self.stretches.len());
-        let of_cuts = self.view.told.found().of(stretch).iter().enumerate();
-        let of_cuts = of_cuts.map(move |(index, told)| Found {
-            rule: told.rule,
-            severity: told.severity,
-            place: (told.range(&self.stretches).start, 0),
-            kept: Kept::OfCut { stretch, index },
-        });
-        let is_last = group + 1 == self.groups();
         let of_whole = self.view.findings.iter().enumerate();
-        let of_whole = of_whole.filter(move |_| is_last);
-        let on_whole = of_whole.map(|(index, finding)| Found {
+        let of_whole = of_whole.filter(move |_| of.is_none());
+        in_blocks.chain(of_whole.map(|(index, finding)| Found {
             rule: finding.rule,
             severity: finding.severity,
-            place: (place_of(finding).0, 0),
-            kept: Kept::OnWhole { index },
-        });
-        in_blocks.chain(of_cuts).chain(on_whole)
+            place: place_of(finding),
+            source: Source::Own(Stored::OnWhole { index }),
+        }))
     }
 
-    fn worded(&self, kept: Kept) -> Option<Finding> {
-        match kept {
-            Kept::InBlock { stretch, index } => {
+    fn own_worded(&self, own: Stored) -> Option<Finding> {
+        match own {
+            Stored::InBlock { stretch, index } => {
                 let local = self.stretches.get(stretch)?.faults.get(index)?;
                 Some(self.materialized(stretch, local))
             }
-            Kept::OfCut { stretch, index } => {
-                let told = self.view.told.found().of(stretch).get(index)?;
-                Some(told.finding(&self.stretches, &self.text))
-            }
-            Kept::OnWhole { index } => self.view.findings.get(index).cloned(),
+            Stored::OnWhole { index } => self.view.findings.get(index).cloned(),
         }
     }
 }

@@ -13,9 +13,11 @@ use crate::geometry::Vector;
 use crate::program::by_chunk::{Begun, ByChunk};
 use crate::program::chunks::Reread;
 use crate::program::contours::{PartAt, Touched};
+use crate::program::followed::Followed;
 use crate::program::numbering;
 use crate::program::of_cut::OfCut;
 use crate::program::path::{HasCuts, tolerance};
+use crate::program::work::{self, Work};
 use crate::toolpath::each;
 use rustc_hash::FxHashMap;
 
@@ -66,18 +68,8 @@ type Blamed = Option<Box<(usize, Fault)>>;
 /// All findings about single contours, in the order in which the contours begin.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Told {
-    found: ByChunk<OfCut>,
+    pub(super) found: ByChunk<OfCut>,
     searched: ByChunk<Searched>,
-    /// How many contours were judged for the last edit, and in how many of them a block to blame
-    /// was searched for.
-    #[cfg(test)]
-    pub(super) judged: [usize; 2],
-}
-
-impl Told {
-    pub(super) fn found(&self) -> &ByChunk<OfCut> {
-        &self.found
-    }
 }
 
 impl Document {
@@ -119,14 +111,10 @@ impl Document {
         let some = begins.chunks(JUDGED_AT_ONCE);
         let judged = some.flat_map(|some| self.judge_open(some, &mut known, &mut searched));
         let kept = (&self.stretches, contours);
-        let (found, asked) = OfCut::all(self, kept, from..to, judged, |cut| !self.is_odd(cut));
-        let searches = known.len() - known_before;
+        let found = OfCut::all(self, kept, from..to, judged, |cut| !self.is_odd(cut));
+        work::add(Work::Blames, known.len() - known_before);
         told.found.splice(&touched, found);
         told.searched.splice(&touched, searched);
-        #[cfg(test)]
-        (told.judged = [asked, searches]);
-        #[cfg(not(test))]
-        let _ = (asked, searches);
         self.view.told = told;
     }
 

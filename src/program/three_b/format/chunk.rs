@@ -17,7 +17,7 @@ pub(super) struct Chunk {
     /// Blocks, words and headers of all lines, without faults and other text.
     pub(crate) items: Vec<Item>,
     /// The ends of the blocks among them.
-    pub(crate) ways: Vec<Option<Way>>,
+    pub(crate) ways: Vec<Option<Travel>>,
     /// The verdict on their stated end points, one for each item.
     pub(crate) stated: Vec<Stated>,
     /// Blocks before these lines.
@@ -34,7 +34,7 @@ pub(super) struct Line {
 
 /// Where a block leads, µm.
 #[derive(Clone, Copy)]
-pub(super) struct Way {
+pub(super) struct Travel {
     pub(crate) by: Vector,
     pub(crate) is_arc: bool,
 }
@@ -89,12 +89,12 @@ impl Chunk {
     }
 }
 
-fn way_of(item: &Item) -> Option<Way> {
+fn way_of(item: &Item) -> Option<Travel> {
     let Item::Block { block, .. } = item else {
         return None;
     };
     let segment = decode(block, Point::origin()).ok()?;
-    Some(Way {
+    Some(Travel {
         by: segment.end().coords,
         is_arc: segment.as_arc().is_some(),
     })

@@ -15,12 +15,12 @@ const FEW_EDITS: usize = 8;
 /// The edits that bring lines into a layout.
 pub(crate) struct Formatted {
     pub(crate) edits: Vec<TextEdit>,
-    pub(crate) kept: Option<Kept>,
+    pub(crate) kept: Option<Reason>,
 }
 
 /// Why end points and block numbers stay as they stand: a finding that would go or come with them, or that says that
 /// they would be worked out from wrong blocks.
-pub(crate) struct Kept {
+pub(crate) struct Reason {
     pub(crate) rule: Rule,
     /// From 0.
     pub(crate) line: usize,
@@ -64,7 +64,7 @@ pub(crate) fn guarded(
     let line = place.map_or(0, |range| text.line_of(range.start.min(text.len())));
     Formatted {
         edits: kept,
-        kept: Some(Kept {
+        kept: Some(Reason {
             rule: reason.rule,
             line,
         }),

@@ -1,7 +1,7 @@
 //! The machine on its way through a program that is formatted, and the verdict on its stated end points.
 
 use super::Ends;
-use super::chunk::{Chunk, Line, Stated, Way, count_blocks, has_end};
+use super::chunk::{Chunk, Line, Stated, Travel, count_blocks, has_end};
 use crate::geometry::Point;
 use crate::program::three_b::around::StatedPoint;
 use crate::program::three_b::block::Node;
@@ -103,7 +103,12 @@ impl Stand {
     /// Where stated points stay in the text, later ones are compared with them; where they are
     /// dropped, later ones are compared with the blocks alone, so that formatting again finds the
     /// same.
-    fn go_on(&mut self, stated: Option<StatedPoint>, way: Option<Way>, layout: Layout) -> Stated {
+    fn go_on(
+        &mut self,
+        stated: Option<StatedPoint>,
+        way: Option<Travel>,
+        layout: Layout,
+    ) -> Stated {
         let stated = stated
             .and_then(|StatedPoint { at: [x, y], .. }| node_of(Point::new(x * 1000.0, y * 1000.0)));
         let told = if layout == Layout::Checking {
@@ -112,7 +117,7 @@ impl Stand {
             None
         };
         match way {
-            Some(Way { by, is_arc }) => {
+            Some(Travel { by, is_arc }) => {
                 self.arcs += f64::from(u8::from(is_arc));
                 self.at += by;
             }

@@ -126,15 +126,16 @@ pub(super) fn rows(
 }
 
 /// Where blocks begin and end, and their pieces, µm.
-type Way = (Point, Point, Segment);
+type PlacedPiece = (Point, Point, Segment);
 
 /// The nodes of each row on the µm grid, from and to. Contours close exactly: the drift of their arcs is taken back arc
 /// by arc. A full circle ends where it begins, and has none.
-fn nodes(pieces: &[Way], contours: &[Cut]) -> Result<Vec<(Node, Node)>, String> {
+fn nodes(pieces: &[PlacedPiece], contours: &[Cut]) -> Result<Vec<(Node, Node)>, String> {
     let node = |point: Point| {
         snap(point).ok_or_else(|| say!(the_path_runs_too_far_out_for_a_program).to_owned())
     };
-    let is_arc = |(_, _, piece): &Way| piece.as_arc().is_some_and(|arc| !arc.is_full_turn());
+    let is_arc =
+        |(_, _, piece): &PlacedPiece| piece.as_arc().is_some_and(|arc| !arc.is_full_turn());
     let mut nodes = Vec::with_capacity(pieces.len());
     // What has been taken back so far.
     let mut shift = Vector::zeros();
