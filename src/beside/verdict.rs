@@ -6,6 +6,7 @@ use super::against_reference::Told;
 use super::comparison::FEW;
 use super::difference::Difference;
 use super::reference::Under;
+use super::sides::Sides;
 use super::traced::Traced;
 use super::walk::Kind;
 
@@ -38,12 +39,17 @@ pub(super) fn is_certain(traced: &Traced, told: &Told, under: &Under) -> bool {
         0 | 1 => f64::INFINITY,
         _ => FAR,
     };
+    // Where the side is a guess, the words of another one are no change.
+    let is_of_side = |one: &Difference| matches!(one.kind, Kind::Side { .. } | Kind::Turned { .. });
+    let is_of_other_side = under.sides != Sides::AsSet && told.words.iter().any(is_of_side);
     match &told.comparison.differences[..] {
-        // Words that differ may be those of another side.
-        _ if told.elsewhere > 0 || !told.words.is_empty() => false,
-        [] => told.is_exact(),
-        // Hardly any setting has one way alone elsewhere by so little.
-        [one] if one.kind == Kind::Lead => told.is_exact() && one.off <= SLIGHT,
+        _ if told.elsewhere > 0 || is_of_other_side => false,
+        [] => told.is_exact() && told.words.is_empty(),
+        // Hardly any setting has one way alone elsewhere by so little; but a length that was measured may be that of a way
+        // to a hole.
+        [one] if one.kind == Kind::Lead => {
+            told.is_exact() && one.off <= SLIGHT && is_round(under.settings.lead_in)
+        }
         [one]
             if told.is_exact()
                 && !told.has_gap
@@ -54,6 +60,13 @@ pub(super) fn is_certain(traced: &Traced, told: &Told, under: &Under) -> bool {
         }
         _ => false,
     }
+}
+
+/// A length, mm, as somebody sets it.
+fn is_round(mm: f64) -> bool {
+    const ROUND: f64 = 0.05;
+    let rest = mm / ROUND - (mm / ROUND).round();
+    rest.abs() <= 1e-6
 }
 
 /// Of guesses that are not exact the nearest comes first: one that is farther off may hide a change. They come before
