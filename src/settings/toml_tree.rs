@@ -38,7 +38,10 @@ fn node(value: &Spanned<DeValue<'_>>) -> Node {
         DeValue::Integer(integer) => match i64::from_str_radix(integer.as_str(), integer.radix()) {
             Ok(number) => Value::Number(number as f64),
             Err(error) => match error.kind() {
-                IntErrorKind::PosOverflow | IntErrorKind::NegOverflow => Value::Number(f64::NAN),
+                // Too large for any setting, which is said with the number.
+                IntErrorKind::PosOverflow | IntErrorKind::NegOverflow => {
+                    Value::Number(integer.as_str().parse().unwrap_or(f64::NAN))
+                }
                 _ => Value::Null,
             },
         },
