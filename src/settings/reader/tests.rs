@@ -165,7 +165,7 @@ fn a_misfit_is_named_with_its_place_and_the_other_keys_hold() {
     check(
         "correction = 99999999999999999999",
         "99999999999999999999",
-        "correction is 100000000000000000000, expected a number up to 1000000000000",
+        "correction is 1e20, expected a number up to 1000000000000",
     );
     check(
         "program = { start-hole = 1e308 }",
