@@ -154,9 +154,9 @@ impl AsRef<[Segment]> for Run {
 }
 
 /// The passes of the longest contour, each from stop to stop; pieces that cut off its tab do not count, and neither do
-/// ways back along a pass. Under the control these have its register; in 4B, where nothing tells them from passes that
-/// run back, they count where `as_passes` says so.
-pub(super) fn passes(traced: &Traced, as_passes: bool) -> Vec<Vec<Segment>> {
+/// ways back along a pass. Under the control these have its register; in 4B nothing tells them from passes that run back,
+/// and they count as such.
+pub(super) fn passes(traced: &Traced) -> Vec<Vec<Segment>> {
     let Some(longest) = cuts(traced).max_by_key(|cut| cut.len()) else {
         return Vec::new();
     };
@@ -176,10 +176,15 @@ pub(super) fn passes(traced: &Traced, as_passes: bool) -> Vec<Vec<Segment>> {
     let is_offset = traced.blocks.iter().any(Block::is_offset);
     let may_go_back = |one: &Run, other: &Run| match is_offset {
         true => one.register.is_some() && one.register == other.register,
-        false => !(traced.four_b && as_passes),
+        false => !traced.four_b,
     };
     let runs = without_ways_back(runs, PARALLEL, may_go_back).into_iter();
     runs.map(|run| run.segments).collect()
+}
+
+/// How many passes there are where those that go back along the one before are ways back.
+pub(super) fn passes_one_way(passes: &[Vec<Segment>]) -> usize {
+    without_ways_back(passes.iter().collect(), PARALLEL, |_, _| true).len()
 }
 
 /// How much nearer to the wall each pass runs than the first, µm: the distance that most of its length beside the first

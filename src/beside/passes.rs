@@ -63,10 +63,10 @@ fn transitions(radii: &[f64]) -> Option<f64> {
 /// Corrections that a program may have been written with, mm; those of several passes fall.
 pub(super) fn corrections(drawn: &Drawn, traced: &Traced) -> Vec<Vec<f64>> {
     let scale = drawn.unit_mm * 1e3;
-    let mut passes = measure::passes(traced, true);
-    passes.truncate(PASSES);
+    let mut passes = measure::passes(traced);
     // Where 4B leaves a tab, every other one may be a way back.
-    let fewer = traced.four_b.then(|| measure::passes(traced, false).len());
+    let fewer = traced.four_b.then(|| measure::passes_one_way(&passes));
+    passes.truncate(PASSES);
     let fewer = fewer.filter(|count| (1..passes.len()).contains(count));
     let steps = measure::steps(&passes).filter(|steps| steps.len() > 1);
     let first = [0.0];

@@ -56,7 +56,7 @@ fn tabs_of<'a>(heads: impl Iterator<Item = &'a Head>) -> usize {
     heads.map(|head| head.tabs as usize).sum()
 }
 
-/// A contour that crosses or coincides with itself, and where.
+/// A contour that crosses or coincides with itself, or of which an offset loses something, and where.
 type Crossing<C> = (C, Arc<Found>);
 
 impl<C: Begun> Begun for Crossing<C> {
@@ -73,7 +73,7 @@ impl<C: Begun> Begun for Crossing<C> {
     fn sum(_: &[Crossing<C>]) {}
 }
 
-/// The contours of a program that stop, are open or cross themselves.
+/// The contours of a program that stop, are open, cross themselves or lose something by the offset of the control.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::program) struct Contours<C: Begun> {
     heads: ByChunk<Head>,
@@ -94,7 +94,7 @@ impl<C: Begun> Default for Contours<C> {
 
 impl<C: Begun + Clone> Contours<C> {
     /// Looks at the cuts that were touched, and at those whose contours depend on them: each
-    /// contour is handed out, with whether it crosses itself where that had to be found. Returns
+    /// contour is handed out, with whether something was found of it where that was looked for. Returns
     /// all that was looked at.
     pub(crate) fn look<'a, D: Followed<Cut = C>>(
         &mut self,

@@ -121,8 +121,8 @@ pub(crate) fn cuts_to_write(document: &Document, switches: bool) -> Cuts {
     let leans = !trace.upper.iter().all(Vec::is_empty) || trace.upper_unknown.is_some();
     let trace = trace.into_meant();
     let stated = stated_ends(document);
-    let part_arcs = match document {
-        Document::ThreeB(program) => program.part_arcs(),
+    let part_sides = match document {
+        Document::ThreeB(program) => program.part_sides(),
         Document::Iso(_) => FxHashMap::default(),
     };
     let mut cuts = Cuts {
@@ -178,13 +178,9 @@ pub(crate) fn cuts_to_write(document: &Document, switches: bool) -> Cuts {
             if let Some(span) = spans.peek() {
                 let contour = span.contour_steps();
                 if contour.contains(&index) {
-                    if let Some(&is_concave) = part_arcs.get(&step.range.start)
-                        && let Some(arc) = ideal.as_arc()
-                    {
-                        let is_left = (arc.sweep > 0.0) == is_concave;
-                        let side = if is_left { Side::Left } else { Side::Right };
-                        open.part_side.get_or_insert(side);
-                    }
+                    open.part_side = open
+                        .part_side
+                        .or(part_sides.get(&step.range.start).copied());
                     let is_first = open.segments.len() == open.lead_in;
                     if !is_first && step.side != open.side {
                         open.switched.get_or_insert(step.line);

@@ -11,7 +11,7 @@ use super::crossing::{
 use super::known_tabs::KnownTabs;
 use super::offset_losses::{ControlOffset, Loss, losses};
 use super::parted::{Blocks, Part, PartedWay, SLACK, micrometres};
-use super::passes::{Before, MOST_PASSES, passes};
+use super::passes::{Before, MOST_PASSES, Passes, passes};
 use super::way::Way;
 use crate::finding::{Detail, Fault, Finding, NotJudged, Place, Rule, Severity};
 use crate::geometry::{Bounds, Boxes, Segment, Vector};
@@ -62,9 +62,12 @@ impl Known {
             Some(found) => found.clone(),
             None => {
                 let way = way();
-                let mut found = self.search(&way);
+                let before = self.passed.as_ref().and_then(|before| before.like(&way));
+                let passes = passes(&way, before);
+                let first_pass = passes.all.first().map_or(way.count(), |pass| pass.end);
+                let mut found = self.search(&way, passes);
                 if let Some(offset) = offset.filter(|_| found.is_clean()) {
-                    let losses = losses(&way, offset);
+                    let losses = losses(&way, first_pass, offset);
                     found.is_too_long = losses.is_none();
                     found.losses = losses.unwrap_or_default();
                 }
@@ -78,14 +81,12 @@ impl Known {
         found
     }
 
-    fn search(&mut self, way: &PartedWay<'_>) -> Found {
+    fn search(&mut self, way: &PartedWay<'_>, passes: Passes) -> Found {
         if let [one] = &way.parts[..]
             && !one.lay.may_cross()
         {
             return Found::default();
         }
-        let before = self.passed.as_ref().and_then(|before| before.like(way));
-        let passes = passes(way, before);
         if passes.all.is_empty() {
             return search(way, self);
         }
@@ -194,12 +195,8 @@ pub(crate) struct Found {
 
 impl Found {
     pub(crate) fn is_clean(&self) -> bool {
-        !self.crosses() && self.losses.is_empty() && !self.is_too_long
-    }
-
-    /// It crosses itself, as far as is known.
-    pub(crate) fn crosses(&self) -> bool {
-        !self.crossings.is_empty() || self.is_crowded
+        let crosses = !self.crossings.is_empty() || self.is_crowded;
+        !crosses && self.losses.is_empty() && !self.is_too_long
     }
 
     /// The crossings and losses to report of a way, whose last block stands at some bytes of the text.

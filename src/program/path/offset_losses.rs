@@ -6,7 +6,6 @@
 
 use super::contour::closing;
 use super::lay::mixed;
-use super::passes::passes;
 use super::polyline::{is_halved, polyline};
 use super::tight::{ROUNDING, UM_IN_MM};
 use super::way::{HeldWay, Node, Way};
@@ -56,11 +55,9 @@ pub(in crate::program) struct Loss {
     pub(super) detail: Detail,
 }
 
-/// The losses of a way; `None` where it holds a contour of too many blocks.
-pub(super) fn losses(way: &dyn Way, offset: ControlOffset) -> Option<Vec<Loss>> {
+/// The losses of the first pass of a way, of `count` blocks; `None` where these are too many.
+pub(super) fn losses(way: &dyn Way, count: usize, offset: ControlOffset) -> Option<Vec<Loss>> {
     let is_nothing = offset.checked() <= 0.0;
-    let first_pass = passes(way, None).all.first().map(|pass| pass.end);
-    let count = first_pass.unwrap_or(way.count());
     if is_nothing || count < 2 {
         return Some(Vec::new());
     }

@@ -6,9 +6,10 @@ use super::super::moves::Course;
 use super::super::part::Tight;
 use super::super::tilt::{Doubtful, STEEPEST, TiltedArc, Unknown};
 use super::Report;
+use crate::drawing::wire_side;
 use crate::finding::{Detail, Fault, NoFix, Rule, Severity, Side, SmallRadius};
 use crate::program::path::{UM_IN_MM, is_tight};
-use crate::settings::{Compensation, SideSetting};
+use crate::settings::Compensation;
 use std::ops::Range;
 
 impl Report<'_> {
@@ -60,11 +61,12 @@ impl Report<'_> {
             let wire_side = match step.side {
                 Some(side) => side,
                 None if self.limits.compensation == Compensation::Path => continue,
-                None => match (self.limits.side, orientation) {
-                    (SideSetting::Opening, 1..) | (SideSetting::Punch, ..=-1) => Side::Left,
-                    (SideSetting::Opening, ..=-1) | (SideSetting::Punch, 1..) => Side::Right,
-                    _ => side_of_center,
-                },
+                None => {
+                    let role = self.limits.side.role();
+                    let by_settings =
+                        role.and_then(|role| wire_side(role, true, orientation as f64));
+                    by_settings.unwrap_or(side_of_center)
+                }
             };
             let required = self.document.correction(step.offset);
             if wire_side == side_of_center

@@ -15,7 +15,8 @@ fn way(points: &[[f64; 2]]) -> HeldWay {
 
 fn found(points: &[[f64; 2]], side: Side, correction: f64) -> Vec<(Rule, usize, Option<usize>)> {
     let offset = ControlOffset { side, correction };
-    let all = losses(&way(points), offset).unwrap();
+    let way = way(points);
+    let all = losses(&way, way.count(), offset).unwrap();
     let place = |loss: &Loss| (loss.rule, loss.block, loss.other);
     all.iter().map(place).collect()
 }
@@ -108,8 +109,14 @@ fn a_contour_of_too_many_blocks_is_not_looked_at() {
         side: Side::Left,
         correction: 100.0,
     };
-    assert_eq!(losses(&way(&ring(MOST_BLOCKS)), offset), Some(Vec::new()));
-    assert_eq!(losses(&way(&ring(MOST_BLOCKS + 1)), offset), None);
+    assert_eq!(
+        losses(&way(&ring(MOST_BLOCKS)), MOST_BLOCKS, offset),
+        Some(Vec::new())
+    );
+    assert_eq!(
+        losses(&way(&ring(MOST_BLOCKS + 1)), MOST_BLOCKS + 1, offset),
+        None
+    );
 }
 
 #[test]

@@ -6,6 +6,7 @@ use super::super::entry::{Entry, What};
 use super::super::pieces::{Field, pieces};
 use super::super::sum::is_jump;
 use super::{At, Document};
+use crate::finding::Side;
 use crate::geometry::{Point, Vector};
 use crate::program::path::{Kind, Step, Trace, Writing};
 use crate::program::steps::{self, Program, Sum};
@@ -32,12 +33,12 @@ impl Document {
         Some(self.stretches.place(at.stretch).lines.start + entry.line as usize)
     }
 
-    /// The arcs of the part in 4B, by the byte at which their blocks begin: true where the wire runs inside of the arc.
-    pub(in crate::program) fn part_arcs(&self) -> FxHashMap<usize, bool> {
+    /// On which side of the arcs of the part the wire runs in 4B, by the byte at which their blocks begin.
+    pub(in crate::program) fn part_sides(&self) -> FxHashMap<usize, Side> {
         let all = self.entries(0..self.stretches.len());
-        let of_part = all.filter_map(|(at, entry)| Some((at, entry.block()?.part()?)));
+        let of_part = all.filter_map(|(at, entry)| Some((at, entry.block()?.side_of_wire()?)));
         of_part
-            .map(|(at, part)| (self.range_of(at).start, part.concave))
+            .map(|(at, side)| (self.range_of(at).start, side))
             .collect()
     }
 

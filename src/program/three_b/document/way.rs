@@ -3,13 +3,12 @@
 use super::super::decode::meant;
 use super::super::entry::{BlockEntry, Entry, Move, travel_of};
 use super::{At, Document, JoinedCut};
-use crate::finding::Side;
+use crate::drawing::wire_side;
 use crate::geometry::{Point, Segment};
 use crate::program::path::{
     Blocks, ControlOffset, Ends, HasCuts, Lay, MOST_BLOCKS, Node, Part, PartedWay, UM_IN_MM,
     Writing, mixed,
 };
-use crate::settings::SideSetting;
 use std::borrow::Cow;
 use std::ops::Range;
 
@@ -107,14 +106,9 @@ impl HasCuts for Document {
         let blocks = entries.filter_map(|at| self.entry(at)?.block());
         let mut sides = blocks.filter_map(BlockEntry::side_of_wire);
         let by_settings = || {
-            let is_opening = match self.limits.side {
-                SideSetting::Opening => true,
-                SideSetting::Punch => false,
-                _ => return None,
-            };
-            let is_left = (cut.sum.twice_area > 0.0) == is_opening;
-            let side = if is_left { Side::Left } else { Side::Right };
-            self.limits.holds_part.then_some(side)
+            let role = self.limits.side.role();
+            let role = role.filter(|_| self.limits.holds_part)?;
+            wire_side(role, true, cut.sum.twice_area)
         };
         Some(ControlOffset {
             side: sides.next().or_else(by_settings)?,
