@@ -209,6 +209,11 @@ impl Pairs<'_> {
                 Some(apart) if is_in_our_words && !is_circle && !is_said_otherwise(apart) => {
                     away.max(apart)
                 }
+                // From wherever it is begun, a circle of another size is another one.
+                Some(_) if is_circle && !words.are_same => {
+                    let radius = own.segment().and_then(Segment::as_arc).zip(arc);
+                    away.max(radius.map_or(0.0, |(own, meant)| (own.radius - meant.radius).abs()))
+                }
                 _ => away,
             };
             beside += if off <= ALIKE { away } else { 0.0 };

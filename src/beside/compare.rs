@@ -151,7 +151,11 @@ fn is_one_off(seen: &Comparison, by: RangeInclusive<f64>) -> bool {
 /// One block differs, by so little that nobody sets anything otherwise.
 fn is_slip(told: &Told) -> bool {
     let is_one = is_one_off(&told.comparison, 0.0..=SLIP);
-    is_one && told.is_exact() && told.elsewhere == 0 && !told.has_gap
+    // A way in that is shorter by as much as a circle is larger comes from another correction.
+    let is_way = |one: &Difference| one.kind == Kind::Lead;
+    let is_way = told.comparison.differences.iter().any(is_way);
+    let is_alone = !is_way || told.is_one_change();
+    is_one && is_alone && told.is_exact() && told.elsewhere == 0 && !told.has_gap
 }
 
 /// The same where the settings are not known to the last digit.

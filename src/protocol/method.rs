@@ -4,17 +4,46 @@ use super::*;
 use schemars::generate::SchemaGenerator;
 use serde_json::{Map, Value};
 
-/// Turns rows into the names and the part of the schema that says what each takes and gives.
-macro_rules! methods {
-    ($($constant:ident $name:literal $(by $sender:ident)? { $($key:ident: $type:ty),+ })*) => {
-        $(pub(crate) const $constant: &str = $name;)*
+/// A message as a type. Whoever sends it, answers it or describes it takes its name and types from here.
+pub(crate) trait Message {
+    const NAME: &'static str;
+    type Params;
+    /// `()` where nothing is answered.
+    type Answer;
+}
+
+/// What the table says of an answer; nothing where there is none.
+macro_rules! answer {
+    () => {
+        ()
+    };
+    ($answer:ty) => {
+        $answer
+    };
+}
+
+/// Turns rows into types, and into the part of the schema that says what each message takes and gives.
+macro_rules! messages {
+    ($($message:ident $name:literal $(by $sender:ident)? ($params:ty) $(-> $answer:ty)? $(, refused by $error:ty)?;)*) => {
+        /// The messages as types.
+        pub(crate) mod messages {
+            $(pub(crate) enum $message {})*
+        }
+
+        $(impl Message for messages::$message {
+            const NAME: &'static str = $name;
+            type Params = $params;
+            type Answer = answer!($($answer)?);
+        })*
 
         pub(super) fn methods(types: &mut SchemaGenerator) -> Map<String, Value> {
             let mut methods = Map::new();
             $(
                 let mut method = Map::new();
                 $(method.insert("sentBy".into(), stringify!($sender).into());)?
-                $(method.insert(stringify!($key).into(), types.subschema_for::<$type>().to_value());)+
+                method.insert("params".into(), types.subschema_for::<$params>().to_value());
+                $(method.insert("result".into(), types.subschema_for::<$answer>().to_value());)?
+                $(method.insert("errorData".into(), types.subschema_for::<$error>().to_value());)?
                 methods.insert($name.into(), method.into());
             )*
             methods
@@ -22,26 +51,26 @@ macro_rules! methods {
     };
 }
 
-methods! {
-    DID_OPEN_DRAWING "wedm/didOpenDrawing" { params: OpenDrawing }
-    DID_CHANGE_DRAWING "wedm/didChangeDrawing" { params: ChangeDrawing }
-    DID_CLOSE_DRAWING "wedm/didCloseDrawing" { params: CloseDrawing }
-    INSPECT "wedm/inspect" { params: Inspect, result: Inspection }
-    CONTOURS "wedm/contours" { params: DrawingName, result: Contours }
-    TOOLPATH "wedm/toolpath" { params: OptionsOf, result: Toolpath }
-    PICTURE "wedm/picture" { params: OptionsOf, result: Picture }
-    EXPORT "wedm/export" { params: Export, result: Exported }
-    HOLES "wedm/holes" { params: Holes, result: Exported }
-    REPAIRS "wedm/repairs" { params: RepairsOf, result: Repairs }
-    FIT "wedm/fit" { params: OptionsOf, result: Fit, errorData: Refused }
-    PAIR "wedm/pair" { params: Generate, result: PairPrograms, errorData: Refused }
-    SIMULATE "wedm/simulate" { params: Simulate, result: Simulation }
-    LOCATE "wedm/locate" { params: Locate, result: Option<Located> }
-    SETTINGS "wedm/settings" { params: DrawingName, result: SettingsInForce }
-    RULE_PAGE "wedm/rulePage" { params: RulePage, result: RulePageText }
-    GENERATE "wedm/generate" { params: Generate, result: Program, errorData: Refused }
-    APPLY_DRAWING_EDIT "wedm/applyDrawingEdit" by server { params: ApplyDrawingEdit, result: Applied }
-    RESEND_DRAWING "wedm/resendDrawing" by server { params: ResendDrawing, result: Resent }
+messages! {
+    DidOpenDrawing "wedm/didOpenDrawing" (OpenDrawing);
+    DidChangeDrawing "wedm/didChangeDrawing" (ChangeDrawing);
+    DidCloseDrawing "wedm/didCloseDrawing" (CloseDrawing);
+    Inspect "wedm/inspect" (Inspect) -> Inspection;
+    Contours "wedm/contours" (DrawingName) -> Contours;
+    Toolpath "wedm/toolpath" (OptionsOf) -> Toolpath;
+    Picture "wedm/picture" (OptionsOf) -> Picture;
+    Export "wedm/export" (Export) -> Exported;
+    Holes "wedm/holes" (Holes) -> Exported;
+    Repairs "wedm/repairs" (RepairsOf) -> Repairs;
+    Fit "wedm/fit" (OptionsOf) -> Fit, refused by Refused;
+    Pair "wedm/pair" (Generate) -> PairPrograms, refused by Refused;
+    Simulate "wedm/simulate" (Simulate) -> Simulation;
+    Locate "wedm/locate" (Locate) -> Option<Located>;
+    Settings "wedm/settings" (DrawingName) -> SettingsInForce;
+    RulePage "wedm/rulePage" (RulePage) -> RulePageText;
+    Generate "wedm/generate" (Generate) -> Program, refused by Refused;
+    ApplyDrawingEdit "wedm/applyDrawingEdit" by server (ApplyDrawingEdit) -> Applied;
+    ResendDrawing "wedm/resendDrawing" by server (ResendDrawing) -> Resent;
 }
 
 /// The command that a drawing's code actions hold.

@@ -19,10 +19,7 @@ pub fn schema() -> Value {
     });
     let settings = of::<Settings>(&mut types);
     let data = of::<FindingData>(&mut types);
-    let mut definitions = types.take_definitions(true);
-    settings::rows()
-        .iter()
-        .for_each(|row| declare(&mut definitions, row));
+    let definitions = declared(&mut types);
     json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "wedm protocol",
@@ -38,11 +35,10 @@ pub fn schema() -> Value {
 
 /// The JSON Schema of `wedm.toml`.
 pub(crate) fn settings_schema() -> Value {
-    let mut whole = schema();
-    let mut part = |name| whole.get_mut(name).map(Value::take).unwrap_or_default();
-    let (settings, types) = (part("settings"), part("$defs"));
-    let mut definitions = Map::new();
-    gather(&settings, &types, &mut definitions);
+    let mut types = SchemaSettings::draft2020_12().into_generator();
+    let settings = types.subschema_for::<Settings>().to_value();
+    let mut definitions = declared(&mut types);
+    definitions.values_mut().for_each(hyphen);
     let of_rules = [
         ("Settings", "/properties/rules"),
         (
@@ -103,28 +99,19 @@ fn name_rules(table: &mut Value) {
     table["additionalProperties"] = json!(false);
 }
 
-/// Copies the types that a part of the schema leads to, the keys of tables as TOML has them.
-fn gather(part: &Value, from: &Value, into: &mut Map<String, Value>) {
-    match part {
-        Value::Array(items) => items.iter().for_each(|item| gather(item, from, into)),
-        Value::Object(keys) => {
-            let name = keys.get("$ref").and_then(Value::as_str);
-            if let Some(name) = name.and_then(|path| path.strip_prefix("#/$defs/"))
-                && !into.contains_key(name)
-            {
-                let mut definition = from[name].clone();
-                if let Some(Value::Object(properties)) = definition.get_mut("properties") {
-                    *properties = std::mem::take(properties)
-                        .into_iter()
-                        .map(|(key, value)| (hyphened(&key), value))
-                        .collect();
-                }
-                into.insert(name.into(), definition.clone());
-                gather(&definition, from, into);
-            }
-            keys.values().for_each(|value| gather(value, from, into));
-        }
-        _ => {}
+/// The types so far, with what the rows of the keys say of them.
+fn declared(types: &mut SchemaGenerator) -> Map<String, Value> {
+    let mut definitions = types.take_definitions(true);
+    let rows = settings::rows();
+    rows.iter().for_each(|row| declare(&mut definitions, row));
+    definitions
+}
+
+/// Gives a type its keys as TOML has them.
+fn hyphen(definition: &mut Value) {
+    if let Some(Value::Object(properties)) = definition.get_mut("properties") {
+        let keys = std::mem::take(properties).into_iter();
+        *properties = keys.map(|(key, value)| (hyphened(&key), value)).collect();
     }
 }
 

@@ -2,8 +2,10 @@
 
 use super::transport::Writer;
 use crate::message::readable;
+use crate::protocol::method::Message;
 use rustc_hash::FxHashMap;
 use serde::Serialize;
+use serde::de::DeserializeOwned;
 use serde_json::Value;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -114,6 +116,18 @@ impl<S: 'static> Client<S> {
                 then: Box::new(then),
             },
         );
+    }
+
+    /// Sends a request of the name space `wedm/`, and reads its answer.
+    pub(crate) fn ask_own<M: Message<Params: Serialize, Answer: DeserializeOwned>>(
+        &mut self,
+        params: M::Params,
+        then: impl FnOnce(&mut S, Result<M::Answer, String>) + Send + 'static,
+    ) {
+        self.ask(M::NAME, params, move |state, answer| {
+            let read = |answer| serde_json::from_value(answer).map_err(|error| error.to_string());
+            then(state, answer.and_then(read));
+        });
     }
 
     /// A line for the client's log.

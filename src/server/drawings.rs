@@ -5,7 +5,8 @@ use super::judge::Task;
 use super::open::Open;
 use super::state::State;
 use crate::drawing::Drawing;
-use crate::protocol::{self, DrawingChange, ResendDrawing, Resent, method};
+use crate::protocol::method::{Message, messages};
+use crate::protocol::{self, DrawingChange, ResendDrawing, Resent};
 use serde_json::Value;
 use std::sync::Arc;
 
@@ -125,16 +126,12 @@ pub(super) fn refuse(state: &mut State, uri: &Arc<str>, reason: &str) {
     };
     let uri = uri.clone();
     let about = uri.clone();
-    let take = move |state: &mut State, answer: Result<Value, String>| {
+    let take = move |state: &mut State, answer: Result<Resent, String>| {
         // A drawing that was closed meanwhile stays closed.
         if !state.resending.remove(&uri) {
             return;
         }
-        let drawing = answer
-            .and_then(|answer| {
-                serde_json::from_value::<Resent>(answer).map_err(|error| error.to_string())
-            })
-            .and_then(|resent| resent_drawing(state, &uri, resent));
+        let drawing = answer.and_then(|resent| resent_drawing(state, &uri, resent));
         if let Err(reason) = drawing {
             state
                 .client
@@ -143,8 +140,8 @@ pub(super) fn refuse(state: &mut State, uri: &Arc<str>, reason: &str) {
     };
     state
         .client
-        .ask(method::RESEND_DRAWING, params, move |state, answer| {
-            state.in_turn(method::RESEND_DRAWING, about, move |state| {
+        .ask_own::<messages::ResendDrawing>(params, move |state, answer| {
+            state.in_turn(messages::ResendDrawing::NAME, about, move |state| {
                 take(state, answer)
             });
         });

@@ -9,7 +9,8 @@ use super::handlers::*;
 use super::state::{Mailbox, Reply, State};
 use super::transport::AsWritten;
 use super::{parent, texts};
-use crate::protocol::{self, method};
+use crate::protocol::RulePageText;
+use crate::protocol::method::{Message, SCALE_COMMAND, messages};
 use crate::rule::Rule;
 use ls_types::request::*;
 use ls_types::*;
@@ -47,15 +48,18 @@ macro_rules! requests {
     )*};
 }
 
-/// Requests of the name space `wedm/`: name, type of the params, title of the progress, what the handler holds,
-/// handler.
+/// Requests of the name space `wedm/`: name, message, what the handler holds, title of the progress, handler. What a
+/// handler takes and answers are the types of the published schema.
 macro_rules! own_requests {
-    ($($name:ident: $method:path, $params:ty, $reach:ident, $title:ident => $handler:path;)*) => {
+    ($($name:ident: $message:ident, $reach:ident, $title:ident => $handler:path;)*) => {
         impl Backend {$(
             async fn $name(&self, params: Value) -> Result<Value> {
-                let (params, about) = read::<$params>(params)?;
-                let method = Method {
-                    name: $method,
+                let (params, about) = read(params)?;
+                let method = Method::<
+                    <messages::$message as Message>::Params,
+                    <messages::$message as Message>::Answer,
+                > {
+                    name: messages::$message::NAME,
                     title: say!($title),
                     reach: Reach::$reach,
                     handler: $handler,
@@ -65,24 +69,24 @@ macro_rules! own_requests {
         )*}
 
         fn with_own_requests(build: LspServiceBuilder<Backend>) -> LspServiceBuilder<Backend> {
-            build$(.custom_method($method, Backend::$name))*
+            build$(.custom_method(messages::$message::NAME, Backend::$name))*
         }
     };
 }
 
 own_requests! {
-    inspect: method::INSPECT, protocol::Inspect, Document, listing_radii => inspect::inspect;
-    contours: method::CONTOURS, protocol::DrawingName, Document, listing_contours => contours::contours;
-    toolpath: method::TOOLPATH, protocol::OptionsOf, Document, laying_the_wires_path => toolpath::toolpath;
-    picture: method::PICTURE, protocol::OptionsOf, Document, drawing_the_picture => picture::picture;
-    export: method::EXPORT, protocol::Export, Document, drawing_the_picture => picture::export;
-    holes: method::HOLES, protocol::Holes, Document, laying_the_wires_path => toolpath::holes;
-    repairs: method::REPAIRS, protocol::RepairsOf, Document, looking_for_fixes => picture::repairs;
-    generate: method::GENERATE, protocol::Generate, Long, generating_the_program => generate::generate;
-    fit: method::FIT, protocol::OptionsOf, Document, holding_the_parts_in_each_other => pair::fit;
-    pair: method::PAIR, protocol::Generate, Long, generating_the_programs => pair::pair;
-    simulate: method::SIMULATE, protocol::Simulate, Document, following_the_program => simulate::simulate;
-    locate: method::LOCATE, protocol::Locate, Place, locating => locate::locate;
+    inspect: Inspect, Document, listing_radii => inspect::inspect;
+    contours: Contours, Document, listing_contours => contours::contours;
+    toolpath: Toolpath, Document, laying_the_wires_path => toolpath::toolpath;
+    picture: Picture, Document, drawing_the_picture => picture::picture;
+    export: Export, Document, drawing_the_picture => picture::export;
+    holes: Holes, Document, laying_the_wires_path => toolpath::holes;
+    repairs: Repairs, Document, looking_for_fixes => picture::repairs;
+    generate: Generate, Long, generating_the_program => generate::generate;
+    fit: Fit, Document, holding_the_parts_in_each_other => pair::fit;
+    pair: Pair, Long, generating_the_programs => pair::pair;
+    simulate: Simulate, Document, following_the_program => simulate::simulate;
+    locate: Locate, Place, locating => locate::locate;
 }
 
 impl LanguageServer for Backend {
@@ -199,7 +203,7 @@ impl LanguageServer for Backend {
     }
 
     async fn execute_command(&self, params: ExecuteCommandParams) -> Result<Option<LSPAny>> {
-        if params.command != method::SCALE_COMMAND {
+        if params.command != SCALE_COMMAND {
             let edit = commands::drawing_edit(&params.command, params.arguments)?;
             let about = Some(edit.uri.as_str().into());
             return self
@@ -258,11 +262,14 @@ pub(super) fn service(
         orphaned,
     });
     let build = with_own_requests(build)
-        .custom_method(method::DID_OPEN_DRAWING, Backend::did_open_drawing)
-        .custom_method(method::DID_CHANGE_DRAWING, Backend::did_change_drawing)
-        .custom_method(method::DID_CLOSE_DRAWING, Backend::did_close_drawing)
-        .custom_method(method::SETTINGS, Backend::settings)
-        .custom_method(method::RULE_PAGE, Backend::rule_page);
+        .custom_method(messages::DidOpenDrawing::NAME, Backend::did_open_drawing)
+        .custom_method(
+            messages::DidChangeDrawing::NAME,
+            Backend::did_change_drawing,
+        )
+        .custom_method(messages::DidCloseDrawing::NAME, Backend::did_close_drawing)
+        .custom_method(messages::Settings::NAME, Backend::settings)
+        .custom_method(messages::RulePage::NAME, Backend::rule_page);
     #[cfg(feature = "testing")]
     let build = build
         .custom_method("wedm/test/panic", Backend::test_panic)
@@ -364,11 +371,11 @@ impl Backend {
         match Sent::read(params) {
             Ok(sent) => {
                 let about = sent.uri.clone();
-                self.tell(method::DID_OPEN_DRAWING, Some(about), move |state| {
+                self.tell(messages::DidOpenDrawing::NAME, Some(about), move |state| {
                     drawings::open(state, sent)
                 });
             }
-            Err(reason) => self.ignored(method::DID_OPEN_DRAWING, &reason),
+            Err(reason) => self.ignored(messages::DidOpenDrawing::NAME, &reason),
         }
     }
 
@@ -376,25 +383,27 @@ impl Backend {
         match SentChanges::read(params) {
             Ok(sent) => {
                 let about = sent.uri.clone();
-                self.tell_change(method::DID_CHANGE_DRAWING, about, move |state| {
+                self.tell_change(messages::DidChangeDrawing::NAME, about, move |state| {
                     drawings::change(state, sent)
                 });
             }
-            Err(reason) => self.ignored(method::DID_CHANGE_DRAWING, &reason),
+            Err(reason) => self.ignored(messages::DidChangeDrawing::NAME, &reason),
         }
     }
 
-    async fn did_close_drawing(&self, params: protocol::CloseDrawing) {
+    async fn did_close_drawing(&self, params: <messages::DidCloseDrawing as Message>::Params) {
         let uri: Arc<str> = params.drawing.uri.into();
-        self.tell(method::DID_CLOSE_DRAWING, Some(uri.clone()), move |state| {
-            drawings::close(state, &uri)
-        });
+        self.tell(
+            messages::DidCloseDrawing::NAME,
+            Some(uri.clone()),
+            move |state| drawings::close(state, &uri),
+        );
     }
 
     /// The settings in force do not depend on the document's content: this does not wait for judging.
     async fn settings(&self, params: Value) -> Result<Value> {
-        let (params, _) = read::<protocol::DrawingName>(params)?;
-        self.ask(method::SETTINGS, None, move |state, reply| {
+        let (params, _) = read::<<messages::Settings as Message>::Params>(params)?;
+        self.ask(messages::Settings::NAME, None, move |state, reply| {
             let in_force = serde_json::to_value(settings::settings(state, &params.uri));
             let _ = reply.send(in_force.map_err(|error| internal(error.to_string())));
         })
@@ -402,10 +411,13 @@ impl Backend {
     }
 
     /// Does not depend on any document.
-    async fn rule_page(&self, params: protocol::RulePage) -> Result<protocol::RulePageText> {
+    async fn rule_page(
+        &self,
+        params: <messages::RulePage as Message>::Params,
+    ) -> Result<<messages::RulePage as Message>::Answer> {
         let unknown = || Error::invalid_params(say!(there_is_no_rule_named, params.rule));
         let rule = Rule::named(&params.rule).ok_or_else(unknown)?;
-        Ok(protocol::RulePageText { text: rule.page() })
+        Ok(RulePageText { text: rule.page() })
     }
 
     #[cfg(feature = "testing")]

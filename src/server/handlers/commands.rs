@@ -1,7 +1,8 @@
 //! `workspace/executeCommand`: asks the client to change its drawing, or its program's text.
 
 use crate::program;
-use crate::protocol::{Applied, ApplyDrawingEdit, DrawingEdit, ScaleProgram, method};
+use crate::protocol::method::{self, messages};
+use crate::protocol::{Applied, ApplyDrawingEdit, DrawingEdit, ScaleProgram};
 use crate::server::context::RequestContext;
 use crate::server::errors::{internal, moved_on, refused};
 use crate::server::state::{Reply, State};
@@ -44,11 +45,8 @@ pub(in crate::server) fn apply_drawing_edit(
     }
     let params = ApplyDrawingEdit { edit };
     let client = &mut state.client;
-    client.ask(method::APPLY_DRAWING_EDIT, params, move |_, answer| {
-        let applied = answer.and_then(|answer| {
-            serde_json::from_value::<Applied>(answer).map_err(|error| error.to_string())
-        });
-        let applied = applied.unwrap_or_else(|reason| Applied {
+    client.ask_own::<messages::ApplyDrawingEdit>(params, move |_, answer| {
+        let applied = answer.unwrap_or_else(|reason| Applied {
             applied: false,
             failure_reason: Some(reason),
         });

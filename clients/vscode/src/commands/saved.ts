@@ -1,18 +1,35 @@
 // A command of the program reads files, not what stands in editors: it is saved first.
 
+import { setTimeout as pause } from "node:timers/promises";
 import * as vscode from "vscode";
 import { isOurs } from "../languages";
 import { t } from "../words";
+
+/** How long a file is given to be saved, ms. */
+const PATIENCE = 3000;
+/** How long it is left alone between two attempts, ms. */
+const PAUSE = 100;
 
 /** Saves what the program will read of these files and folders; false where one could not be saved, which has been said then. */
 export async function saved(targets: readonly vscode.Uri[]): Promise<boolean> {
   const changed = vscode.workspace.textDocuments.filter((document) => document.isDirty && isRead(document, targets));
   for (const document of changed) {
-    // False where VS Code has saved it by itself meanwhile, too.
-    if (!(await document.save()) && document.isDirty) {
+    if (!(await isSaved(document))) {
       void vscode.window.showErrorMessage(t("Wire EDM: {0} must be saved first.", vscode.workspace.asRelativePath(document.uri)));
       return false;
     }
+  }
+  return true;
+}
+
+/** VS Code also answers false where it saves the file by itself meanwhile (auto save), and tells later that it is saved. */
+async function isSaved(document: vscode.TextDocument): Promise<boolean> {
+  const until = Date.now() + PATIENCE;
+  while (!(await document.save()) && document.isDirty) {
+    if (Date.now() > until) {
+      return false;
+    }
+    await pause(PAUSE);
   }
   return true;
 }

@@ -29,7 +29,14 @@ export class Checks {
   async fail(name: string, error: unknown): Promise<void> {
     this.failed += 1;
     console.log(`  FAILED  ${name}: ${error instanceof Error ? (error.stack ?? error.message) : String(error)}`);
+    console.log(`  what stands there: ${JSON.stringify(await this.#said())}`);
     await this.shot(`failed-${name.replaceAll(/\W+/g, "-")}`);
+  }
+
+  /** What the window says to its user: notices, the question that is asked, the tab in front. */
+  async #said(): Promise<string[] | undefined> {
+    const said = this.page?.locator(".notification-list-item:visible, .quick-input-widget:visible, .tabs-container .tab.active");
+    return said?.allInnerTexts().catch(() => []);
   }
 
   async shot(name: string): Promise<void> {

@@ -146,6 +146,22 @@ export async function deliver(checks: Checks): Promise<void> {
       expectEqual("saved", (await text("washer.dxf")()).includes("\n40\n6\n"), true);
       await window.command("Notifications: Clear All Notifications");
     });
+    await checks.check("a report is made where VS Code saves the drawing by itself at that very moment, too", async () => {
+      // A second after the last key auto save begins: the command asks for its save shortly before, in its midst, and after it.
+      for (const after of [860, 900, 940, 980, 1020]) {
+        await window.turnTo("washer.dxf");
+        await window.goToLine(WASHER.split("\n").indexOf("40") + 2);
+        await host.page.keyboard.press("Shift+End");
+        await host.page.keyboard.type("5");
+        const typed = Date.now();
+        await window.command("Wire EDM: Make a Report…");
+        await asked("The folder that it is written to");
+        await host.page.waitForTimeout(Math.max(0, typed + after - Date.now()));
+        await host.page.keyboard.press("Enter");
+        await window.notification("the report is written: report/index.html").waitFor();
+        await window.command("Notifications: Clear All Notifications");
+      }
+    });
     await checks.check("a report of a drawing is made from the Explorer, and says that there are errors", async () => {
       await writeFile(join(host.folder, "wedm.toml"), 'side = "opening"\n');
       await host.page.locator(".explorer-folders-view .monaco-list-row", { hasText: "tight.dxf" }).first().click({ button: "right" });
