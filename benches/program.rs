@@ -208,9 +208,9 @@ fn reading(c: &mut Criterion) {
     group.bench_function("one character, edit to findings", |b| {
         b.iter(|| {
             if is_in {
-                document.edit(at..at + 1, "")
+                document.edit(at..at + 1, "");
             } else {
-                document.edit(at..at, "1")
+                document.edit(at..at, "1");
             }
             is_in = !is_in;
             black_box(document.findings(&settings, 500))
@@ -295,9 +295,9 @@ fn iso_programs(c: &mut Criterion) {
         group.bench_function("one character, edit to findings", |b| {
             b.iter(|| {
                 if is_in {
-                    document.edit(at..at + 1, "")
+                    document.edit(at..at + 1, "");
                 } else {
-                    document.edit(at..at, "5")
+                    document.edit(at..at, "5");
                 }
                 is_in = !is_in;
                 black_box(document.findings(&settings, 500))

@@ -202,7 +202,11 @@ impl Document {
                 self.since.add_edit(lines, document, &delta.touched);
                 self.analysis.update(document.drawing(), &delta);
             }
-            Source::Program(program) => program.edit(range, replacement),
+            Source::Program(program) => {
+                let touched = program.text().line_of(range.start).saturating_sub(1);
+                let moved = program.edit(range, replacement);
+                self.since.add_program_edit(touched.min(moved));
+            }
             Source::Cad(_) => {}
         }
     }

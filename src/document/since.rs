@@ -20,6 +20,8 @@ pub(crate) struct Since {
     segments: FxHashMap<EntityId, Range<usize>>,
     /// In their order.
     edits: Vec<EditedLines>,
+    /// Of a program: lines before this one are as they were, and the machine stands there where it stood.
+    as_before: usize,
 }
 
 /// The lines that an edit touched, by their numbers before it, and by how much it moved those after.
@@ -37,6 +39,7 @@ impl Default for Since {
             entities: FxHashSet::default(),
             segments: FxHashMap::default(),
             edits: Vec::new(),
+            as_before: 0,
         }
     }
 }
@@ -58,6 +61,7 @@ impl Since {
     pub(super) fn take(&mut self) -> Since {
         let none = Since {
             is_all: false,
+            as_before: usize::MAX,
             ..Since::default()
         };
         std::mem::replace(self, none)
@@ -71,12 +75,23 @@ impl Since {
         touched: &[Touched],
     ) {
         lines.by += document.text().line_count() as isize;
+        self.as_before = 0;
         self.edits.push(lines);
         self.entities.extend(document.read_last());
         self.add_touched(touched);
         if self.is_all || self.edits.len() > MOST_EDITS {
             *self = Since::default();
         }
+    }
+
+    /// Adds an edit of a program that left the lines before this one as they were, and the machine where it stood.
+    pub(super) fn add_program_edit(&mut self, line: usize) {
+        self.as_before = self.as_before.min(line);
+    }
+
+    /// Whether what stands up to a line of a program is as it was, and so is where the machine stands.
+    pub(crate) fn is_as_before(&self, line: usize) -> bool {
+        line < self.as_before
     }
 
     /// Adds what an edit touched in a drawing.

@@ -97,8 +97,9 @@ impl Document {
         of_language!(self, document => document.text())
     }
 
-    /// Replaces a range of bytes and rereads what it touched.
-    pub fn edit(&mut self, range: Range<usize>, replacement: &str) {
+    /// Replaces a range of bytes and rereads what it touched. Returns the first line at which the machine may stand
+    /// elsewhere than before.
+    pub fn edit(&mut self, range: Range<usize>, replacement: &str) -> usize {
         of_language!(self, document => document.edit(range, replacement))
     }
 

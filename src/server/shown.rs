@@ -106,7 +106,10 @@ impl Shown {
                 || data.get_or_init(|| FindingData::of(document, &finding, &mut whereabouts));
             let known = self.find(mark, next, |old| {
                 says_the_same(&old.finding, &finding)
-                    && (!old.is_in_doubt || old.data == *data_now())
+                    && match old.is_in_doubt {
+                        true => old.data == *data_now(),
+                        false => old.finding.place == finding.place,
+                    }
             });
             let own = match known.and_then(|at| self.kept.get_mut(at)?.take().zip(Some(at + 1))) {
                 Some((mut old, behind)) => {
@@ -114,9 +117,12 @@ impl Shown {
                         next = behind;
                     }
                     if std::mem::take(&mut old.is_in_doubt) {
-                        old.ranges =
-                            ranges_of(document, &finding, encoding, uri.is_some()).collect();
-                        old.write();
+                        let ranges = ranges_of(document, &finding, encoding, uri.is_some());
+                        let ranges: Box<[Range]> = ranges.collect();
+                        if ranges != old.ranges {
+                            old.ranges = ranges;
+                            old.write();
+                        }
                     }
                     old.finding = finding;
                     old
@@ -173,6 +179,10 @@ impl Shown {
 impl Kept {
     /// Moves the ranges with their lines; false where what the finding is about has changed.
     fn follow(&mut self, since: &Since) -> bool {
+        if let Place::Text { .. } = self.finding.place {
+            let mut lines = self.ranges.iter().map(|range| range.end.line as usize);
+            return lines.all(|line| since.is_as_before(line));
+        }
         let mut places = std::iter::once(&self.finding.place).chain(&self.finding.related);
         let stays = |place: &Place| {
             let entity = place.entity();
@@ -344,9 +354,57 @@ mod tests {
         #[test]
         fn a_program_is_shown_as_afresh(edits in edits()) {
             let text = "B3000B4000B4000GYL1\nB1B2\nB0B0B1000GXL1\nB1B1B1GXL9\n".repeat(20);
-            let settings = Arc::new(Effective::of(&crate::settings::Settings::default()));
-            let read = program::Document::read(program::Language::ThreeB, text.into(), &settings);
-            check(Document::new(Source::Program(read), settings), &edits);
+            check(program(program::Language::ThreeB, text), &edits);
         }
+
+        /// Where the machine stands at a finding depends on what comes before: nothing behind an edit may be left as it was.
+        #[test]
+        fn a_long_program_is_shown_as_afresh((edits, language) in long_edits()) {
+            let text = match language {
+                program::Language::ThreeB => OPEN_3B.repeat(60),
+                program::Language::Iso => format!("G92X0Y0\n{}M02\n", OPEN_ISO.repeat(60)),
+            };
+            check(program(language, text), &edits);
+        }
+    }
+
+    /// Open contours with findings, one after the other, with coordinates after the blocks of some.
+    const OPEN_3B: &str = "B2000B0B2000GXL1\nB0B6000B6000GYL2\nB0B0B0GXL1\nB1000B0B1000GXNR1;  1.0, 2.0\nB6000B0B6000GXL3\nD\nB9000B0B9000GXL1\nD\n";
+    const OPEN_ISO: &str =
+        "G01X2.Y0.\nG02X3.Y4.I0.3J0.1\nG01X3.Y4.\nG91X1.\nG90Y9.\nM00\nG00X20.\nM00\n";
+
+    fn program(language: program::Language, text: String) -> Document {
+        let settings = Arc::new(Effective::of(&crate::settings::Settings::default()));
+        let read = program::Document::read(language, text.into(), &settings);
+        Document::new(Source::Program(read), settings)
+    }
+
+    /// Edits anywhere in a program of 480 lines, most of them in its last third; some change what all of it means.
+    fn long_edits() -> impl Strategy<Value = (Vec<(usize, usize, &'static str)>, program::Language)>
+    {
+        let of = |texts: Vec<&'static str>| {
+            let line = prop_oneof![0usize..481, 320usize..481];
+            prop::collection::vec((line, 0usize..4, prop::sample::select(texts)), 1..10)
+        };
+        let three_b = vec![
+            "1",
+            "",
+            "\n",
+            "B1B",
+            "DD\n",
+            "D\n",
+            "B5B5B5GXL1\n",
+            ";",
+            "GYL2\n",
+            "A",
+        ];
+        let iso = vec![
+            "1", "", "\n", "M02\n", "G91\n", "G20\n", "%\n", "M98P1\n", "X1.\n", "(", "G92X5.\n",
+            "O1\n",
+        ];
+        prop_oneof![
+            of(three_b).prop_map(|edits| (edits, program::Language::ThreeB)),
+            of(iso).prop_map(|edits| (edits, program::Language::Iso)),
+        ]
     }
 }

@@ -256,8 +256,9 @@ impl Document {
         })
     }
 
-    /// Replaces a range of bytes and runs again what it touched.
-    pub fn edit(&mut self, range: Range<usize>, replacement: &str) {
+    /// Replaces a range of bytes and runs again what it touched. Returns the first line at which the machine may stand
+    /// elsewhere than before.
+    pub fn edit(&mut self, range: Range<usize>, replacement: &str) -> usize {
         self.repairs_before = self.repairs.take().or(self.repairs_before.take());
         self.labels = OnceLock::new();
         self.last_run = LastRun::default();
@@ -269,7 +270,8 @@ impl Document {
         if self.order.is_some() {
             let end = range.end.min(self.text.len());
             self.text.replace(range.start.min(end)..end, replacement);
-            return self.read_all();
+            self.read_all();
+            return 0;
         }
         let control = self.control();
         let evidence = &mut self.evidence;
@@ -282,9 +284,15 @@ impl Document {
         read.iter()
             .for_each(|stretch| evidence.add(&stretch.evidence));
         if leader(&self.text) != self.leader {
-            return self.read_all();
+            self.read_all();
+            return 0;
         }
-        self.settle(Some(reread));
+        let first = reread.chunks.start;
+        match self.settle(Some(reread)) {
+            true => 0,
+            false if first < self.stretches.len() => self.stretches.place(first).lines.start,
+            false => self.text.line_count(),
+        }
     }
 
     /// A first guess of the meaning of numbers, from the beginning of the text: it saves running everything twice.
@@ -350,10 +358,11 @@ impl Document {
     }
 
     /// Compares the reading with the evidence of the whole program, and runs it again where it suggests another one:
-    /// first the unit and the finest step, then, measured with these, the meaning of I and J.
-    fn settle(&mut self, reread: Option<Reread>) {
+    /// first the unit and the finest step, then, measured with these, the meaning of I and J. True where it did.
+    fn settle(&mut self, reread: Option<Reread>) -> bool {
         let is_run_again = self.find_reading();
         self.look(reread.filter(|_| !is_run_again));
+        is_run_again
     }
 
     /// Checks what depends on the program as a whole; what an edit has not `reread` is kept.

@@ -157,8 +157,9 @@ impl Document {
         }
     }
 
-    /// Replaces a range of bytes and rereads what it touched.
-    pub fn edit(&mut self, range: Range<usize>, replacement: &str) {
+    /// Replaces a range of bytes and rereads what it touched. Returns the first line at which the machine may stand
+    /// elsewhere than before.
+    pub fn edit(&mut self, range: Range<usize>, replacement: &str) -> usize {
         let reader = Reader {
             words: self.words.words(),
             limits: &self.limits,
@@ -166,7 +167,11 @@ impl Document {
         let reread = self
             .stretches
             .edit(&reader, &mut self.text, (range, replacement), |_| {});
-        self.judge_again(Some(reread));
+        let first = self.judge_again(Some(reread));
+        match first < self.stretches.len() {
+            true => self.stretches.place(first).lines.start,
+            false => self.text.line_count(),
+        }
     }
 
     fn entry(&self, at: At) -> Option<&Entry> {
@@ -182,8 +187,8 @@ impl Document {
     }
 
     /// Judges the program again; findings in lines that an edit has not `reread` are kept where
-    /// they depend on nothing else.
-    fn judge_again(&mut self, reread: Option<Reread>) {
+    /// they depend on nothing else. Returns the first stretch in which the machine may stand elsewhere than before.
+    fn judge_again(&mut self, reread: Option<Reread>) -> usize {
         let before = std::mem::take(&mut *self.view);
         self.view.end = self.end_word();
         // An end word that was read again bears on what was read with it, which is judged again.
@@ -206,6 +211,7 @@ impl Document {
         self.view.taken = self.taken(&off);
         self.view.numbers = self.numbers();
         self.view.begins = self.begins(&self.view.taken);
+        let first_moved = self.first_moved(&before, &reread);
         let touched = Touched {
             reread: &reread,
             from,
@@ -239,6 +245,22 @@ impl Document {
                 stretch.let_go();
             }
         }
+        first_moved
+    }
+
+    /// The first stretch that was read again, or in which the machine does not stand as it stood `before`.
+    fn first_moved(&self, before: &View, reread: &Reread) -> usize {
+        let read_again = reread.chunks.start;
+        let begins = self.view.begins.iter().zip(&before.begins);
+        let as_before = begins.take_while(|(now, before)| now == before).count();
+        let taken = |view: &View, nth: usize| view.taken.get(nth).copied();
+        let most = self.view.taken.len().max(before.taken.len());
+        let other = (0..most).find(|&nth| taken(&self.view, nth) != taken(before, nth));
+        let other = other.into_iter().flat_map(|nth| {
+            let both = [taken(&self.view, nth), taken(before, nth)];
+            both.into_iter().flatten().map(|(at, _)| at.stretch)
+        });
+        other.chain([read_again, as_before]).min().unwrap_or(0)
     }
 }
 

@@ -226,6 +226,7 @@ impl Stretch {
         stretch.close(open, end, None, old);
         stretch.entries.shrink_to_fit();
         stretch.parts.shrink_to_fit();
+        stretch.faults.shrink_to_fit();
         stretch.sum_up();
         stretch
     }

@@ -199,10 +199,9 @@ fn slip(line: usize, with: &str, expected: &[(usize, &str)]) {
         })
         .unwrap_or_else(|| panic!("no fix: {with}"));
     let mut fixed = document.clone();
-    fix.edit
-        .iter()
-        .rev()
-        .for_each(|edit| fixed.edit(edit.range.clone(), &edit.text));
+    fix.edit.iter().rev().for_each(|edit| {
+        fixed.edit(edit.range.clone(), &edit.text);
+    });
     assert_eq!(fixed.findings(), [], "{with}: {:?}", fix.kind);
     assert_eq!(
         fixed

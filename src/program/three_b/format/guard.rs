@@ -93,7 +93,9 @@ fn findings_after(document: &Document, settings: &Effective, edits: &[TextEdit])
     if edits.len() <= FEW_EDITS {
         let mut after = document.clone();
         let backwards = edits.iter().rev();
-        backwards.for_each(|edit| after.edit(edit.range.clone(), &edit.text));
+        backwards.for_each(|edit| {
+            after.edit(edit.range.clone(), &edit.text);
+        });
         return after.findings();
     }
     let bytes = edited(document.text().bytes(), edits).unwrap_or_default();
