@@ -12,6 +12,7 @@ use super::drawn::Drawn;
 use super::pairs::{Pair, Pairs};
 use super::reference::Under;
 use super::said::said;
+use super::sides::Sides;
 use super::traced::{Block, Motion, Traced};
 use super::walk::Kind;
 use crate::geometry::{Arc, Segment, Vector};
@@ -82,6 +83,13 @@ impl Told {
             self.elsewhere += leads().count();
             all.retain(|one| !is_lead(one));
         }
+        self
+    }
+
+    /// Of a side that was guessed, no word is wrong.
+    pub(crate) fn under(mut self, guess: &Under) -> Told {
+        let is_set = guess.sides == Sides::AsSet;
+        self.words.retain(|word| is_set || !word.is_of_side());
         self
     }
 

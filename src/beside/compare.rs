@@ -88,7 +88,7 @@ fn compared(drawn: &Drawn, traced: &Traced) -> (Option<Comparison>, bool) {
     // Of few blocks any may be as other settings have it; of many, a few may be as another writer rounds them.
     let is_doubtful = match &known.comparison.differences[..] {
         [] => false,
-        _ if !known.is_exact() => true,
+        _ if !known.is_exact() || known.words.iter().any(Difference::is_of_side) => true,
         // Nobody sets anything otherwise by so little.
         _ if is_slip(&known) => false,
         // A way that is lost, and nothing else.

@@ -35,6 +35,11 @@ impl Difference {
             kind,
         }
     }
+
+    /// It is in the words for the side of the wire.
+    pub(super) fn is_of_side(&self) -> bool {
+        matches!(self.kind, Kind::Side { .. } | Kind::Turned { .. })
+    }
 }
 
 /// The result of comparing a program with its drawing.

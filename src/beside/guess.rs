@@ -6,6 +6,7 @@
 
 use super::against_reference::{Told, against_reference};
 use super::cache::Guess;
+use super::difference::Difference;
 use super::drawn::Drawn;
 use super::measure;
 use super::passes::{corrections, shortness};
@@ -13,7 +14,7 @@ use super::reference::{Reference, Under};
 use super::sides::Sides;
 use super::tabs::{tabs, threads};
 use super::traced::Traced;
-use super::verdict::{is_certain, is_told, rank, without_leads};
+use super::verdict::{is_certain, is_round, is_told, rank, without_leads};
 use super::way::{Way, way};
 use crate::settings::{
     Compensation, Corner, Direction, Effective, Lead, LengthSetting, Order, Sequence, SkimCorner,
@@ -44,7 +45,7 @@ pub(super) fn otherwise(drawn: &Drawn, traced: &Traced) -> Option<Told> {
             || is_near && told.elsewhere == 0 && told.comparison.differences.len() <= *left)
         && is_told(traced, &told)
     {
-        return Some(without_leads(traced, told));
+        return Some(without_leads(traced, told.under(under)));
     }
     let mut searches: Vec<Search> = Vec::new();
     for &sides in drawn.sides() {
@@ -58,9 +59,10 @@ pub(super) fn otherwise(drawn: &Drawn, traced: &Traced) -> Option<Told> {
             break;
         }
     }
-    // The most likely side first, and any other that is hardly less so.
+    // The most likely side first, and any other that is hardly less so: what no word contradicts comes before what lies
+    // nearer.
     searches.sort_by(|one, other| {
-        let key = |search: &Search| (search.is_done(), search.score);
+        let key = |search: &Search| (search.is_done(), search.is_of_its_side(), search.score);
         key(other).partial_cmp(&key(one)).unwrap_or(Ordering::Equal)
     });
     let least = searches.first()?.score - LESS;
@@ -86,7 +88,8 @@ pub(super) fn otherwise(drawn: &Drawn, traced: &Traced) -> Option<Told> {
         }
     }
     let (told, under) = told.unzip();
-    let told = told.map(|told| without_leads(traced, told));
+    let told = told.zip(under.as_ref());
+    let told = told.map(|(told, under)| without_leads(traced, told.under(under)));
     let differences = |told: &Told| told.comparison.differences.len();
     let left = told.as_ref().map_or(0, differences);
     drawn.cache().note(Guess::of(traced, under, left));
@@ -158,6 +161,12 @@ impl<'a> Search<'a> {
         self.told
             .as_ref()
             .is_some_and(|(told, under)| is_certain(self.traced, told, under))
+    }
+
+    /// It has found the changes in a program of this side, as far as words tell it.
+    fn is_of_its_side(&self) -> bool {
+        let told = self.told.as_ref();
+        told.is_some_and(|(told, _)| !told.words.iter().any(Difference::is_of_side))
     }
 
     /// Guesses of corrections alone.
@@ -307,7 +316,9 @@ impl<'a> Search<'a> {
 
     fn of_leads(&self) -> Vec<Under> {
         let own = &self.drawn.settings;
-        let lengths = measure::leads(self.traced, self.best.settings.correction);
+        let mut lengths = measure::leads(self.traced, self.best.settings.correction);
+        // Of two ways that should be as long, the one of an odd length was changed.
+        lengths.sort_by_key(|(length, _)| !is_round(*length));
         let mut guesses = Vec::new();
         for (length, stated) in [(own.lead_in, own.stated_lead_in)]
             .into_iter()

@@ -1,7 +1,7 @@
 //! What can be measured in a program of ours: the contours that it cuts, its ways in, its tabs.
 
 use super::drawn::Drawn;
-use super::traced::{Block, Traced};
+use super::traced::{Block, Motion, Traced};
 use crate::geometry::{Bounds, Segment, Vector, left_normal};
 use crate::program::path::without_ways_back;
 use std::ops::Range;
@@ -331,15 +331,43 @@ pub(super) fn overlaps(traced: &Traced) -> Vec<f64> {
     found
 }
 
-/// What the control may add, mm, where the wire moves aside at a tab to switch the correction: the shortest block is
-/// longer by a hundredth.
-pub(super) fn switching(traced: &Traced) -> Option<f64> {
-    let lengths = traced
-        .blocks
-        .iter()
-        .filter_map(|block| Some(block.segment()?.length()));
-    let least = lengths
-        .filter(|length| *length > 20.0)
-        .fold(f64::INFINITY, f64::min);
-    (least < BESIDE).then_some((least - 10.0).round() / 1e3)
+/// A way aside that deviates by no more from several others is a slip, mm.
+const SLIP: f64 = 0.01;
+
+/// What the control may add in each pass, mm, where the wire moves aside at a tab to switch the correction, in the order
+/// of the program: the way aside is longer by a hundredth.
+pub(super) fn switching(traced: &Traced) -> Vec<f64> {
+    let correction = |um: f64| (um - 10.0).round() / 1e3;
+    let aside = traced.blocks.windows(3).filter_map(|three| {
+        let [before, own, behind] = three else {
+            return None;
+        };
+        let is_aside = before.is_offset() && !own.is_offset() && behind.motion == Motion::Stop;
+        let length = own.segment().filter(|_| is_aside)?.length();
+        (20.0..BESIDE).contains(&length).then(|| correction(length))
+    });
+    let mut counted: Vec<(f64, usize)> = Vec::new();
+    for mm in aside {
+        match counted.iter_mut().find(|(own, _)| *own == mm) {
+            Some((_, count)) => *count += 1,
+            None => counted.push((mm, 1)),
+        }
+    }
+    // One of many may have been changed.
+    let is_slip = |(mm, count): (f64, usize)| {
+        let mut others = counted.iter();
+        others.any(|(other, more)| *more > count && (other - mm).abs() <= SLIP)
+    };
+    let kept = counted.iter().filter(|one| !is_slip(**one));
+    let mut all: Vec<f64> = kept.map(|(mm, _)| *mm).collect();
+    // Where the wire does not stop there, its shortest block is that way.
+    if all.is_empty() {
+        let lengths = traced.blocks.iter();
+        let lengths = lengths.filter_map(|block| Some(block.segment()?.length()));
+        let least = lengths
+            .filter(|length| *length > 20.0)
+            .fold(f64::INFINITY, f64::min);
+        all.extend((least < BESIDE).then(|| correction(least)));
+    }
+    all
 }

@@ -111,11 +111,14 @@ pub(super) fn corrections(drawn: &Drawn, traced: &Traced) -> Vec<Vec<f64>> {
                 let least = least.into_iter().flatten().rev();
                 let least = least.map(|mm| rounded(mm, 1e-3)).filter(|mm| *mm > 0.0);
                 // Where several are alike as likely, the drawing's own.
-                let first = aside.into_iter().chain(own).chain(least).chain(single);
+                let first = aside.iter().copied().take(1).chain(own);
+                let first = first.chain(least).chain(single);
                 let counts = || std::iter::once(passes.len()).chain(fewer);
-                first
-                    .flat_map(|mm| counts().map(move |count| falling(count, mm)))
-                    .collect()
+                let fall = first.flat_map(|mm| counts().map(move |count| falling(count, mm)));
+                // Each pass may have told its own.
+                let is_whole = aside.len() > 1 && aside.windows(2).all(|two| two[0] > two[1]);
+                let each = is_whole.then(|| aside.clone());
+                each.into_iter().chain(fall).collect()
             }
             false => Vec::new(),
         };

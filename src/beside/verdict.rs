@@ -40,8 +40,8 @@ pub(super) fn is_certain(traced: &Traced, told: &Told, under: &Under) -> bool {
         _ => FAR,
     };
     // Where the side is a guess, the words of another one are no change.
-    let is_of_side = |one: &Difference| matches!(one.kind, Kind::Side { .. } | Kind::Turned { .. });
-    let is_of_other_side = under.sides != Sides::AsSet && told.words.iter().any(is_of_side);
+    let has_other_side = told.words.iter().any(Difference::is_of_side);
+    let is_of_other_side = under.sides != Sides::AsSet && has_other_side;
     match &told.comparison.differences[..] {
         _ if told.elsewhere > 0 || is_of_other_side => false,
         [] => told.is_exact() && told.words.is_empty(),
@@ -63,22 +63,26 @@ pub(super) fn is_certain(traced: &Traced, told: &Told, under: &Under) -> bool {
 }
 
 /// A length, mm, as somebody sets it.
-fn is_round(mm: f64) -> bool {
+pub(super) fn is_round(mm: f64) -> bool {
     const ROUND: f64 = 0.05;
     let rest = mm / ROUND - (mm / ROUND).round();
     rest.abs() <= 1e-6
 }
 
-/// Of guesses that are not exact the nearest comes first: one that is farther off may hide a change. They come before
-/// those with lost or superfluous blocks, which may be an overlap. Of exact ones for 4B, whose ways in and out tell the
-/// correction, the one that has most of these comes first.
-pub(super) fn rank(traced: &Traced, told: &Told) -> ((bool, usize, bool, usize, u64), usize, f64) {
-    match told.is_exact() {
+/// Whether words contradict the side, and all else that speaks against a guess.
+type Rank = (bool, ((bool, usize, bool, usize, u64), usize, f64));
+
+/// First come guesses of a side that no word contradicts. Of guesses that are not exact the nearest comes first: one that
+/// is farther off may hide a change. They come before those with lost or superfluous blocks, which may be an overlap. Of
+/// exact ones for 4B, whose ways in and out tell the correction, the one that has most of these comes first.
+pub(super) fn rank(traced: &Traced, told: &Told) -> Rank {
+    let rest = match told.is_exact() {
         true if told.has_gap => ((true, 0, true, 0, 0), 0, told.mean),
         true if traced.four_b => (told.doubt(), told.ways, told.mean),
         true => (told.doubt(), 0, told.mean),
         false => ((true, 0, false, 0, 0), 0, told.mean),
-    }
+    };
+    (told.words.iter().any(Difference::is_of_side), rest)
 }
 
 /// Whether the differences that a guess leaves are changes by somebody and not due to the guess: the program is ours to

@@ -303,6 +303,23 @@ fn rows() -> Vec<Row> {
             "correction = 0.125\n[program]\nstart-hole = 2\n",
             true,
         ),
+        // How far the wire goes aside at the tab tells the correction of each pass, not that of the first alone.
+        (
+            Shape::Polyline(vec![
+                [10.8, 1.142, 0.0],
+                [10.8, -8.558, -0.41421356],
+                [10.2, -9.158, 0.0],
+                [1.2, -9.158, -0.41421356],
+                [-0.8, -7.158, 0.0],
+                [-0.8, 2.542, -0.41421356],
+                [-0.1, 3.242, 0.0],
+                [8.7, 3.242, -0.41421356],
+            ]),
+            Role::Punch,
+            Format::Iso,
+            "[passes]\ncorrections = [0.25, 0.155, 0.13]\nsequence = \"one-way\"\n[program]\ndirection = \"cw\"\ntab = 3\nlead = \"arc\"\ncompensation = \"controller\"\n",
+            true,
+        ),
     ]
 }
 

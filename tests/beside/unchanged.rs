@@ -40,17 +40,20 @@ fn an_unchanged_program_with_a_tab_that_the_settings_do_not_know_has_nothing_sai
 #[test]
 fn an_unchanged_program_of_a_circle_has_nothing_said() {
     for role in [Role::Punch, Role::Opening] {
-        for (correction, lead, at) in [
-            (0.12, 3.0, 0.0),
-            (0.09, 2.0, 5.0),
-            (0.155, 4.0, -3.5),
-            (0.2, 3.0, 12.345),
+        // Where no way in is set the wire of an opening is threaded in the centre, and the way in is the path's radius.
+        for (correction, lead, at, radius) in [
+            (0.12, "lead-in = 3", 0.0, 10.0),
+            (0.09, "lead-in = 2", 5.0, 10.0),
+            (0.155, "lead-in = 4", -3.5, 10.0),
+            (0.2, "lead-in = 3", 12.345, 10.0),
+            (0.11, "", 0.0, 5.0),
+            (0.14, "", 0.0, 5.0),
+            (0.3, "", 0.0, 5.0),
         ] {
             for format in [Format::ThreeB, Format::Iso] {
-                let shapes = [(Shape::Circle([at, 0.0], 10.0), role)];
-                let written = settings_of(&format!(
-                    "correction = {correction}\n[program]\nlead-in = {lead}\n"
-                ));
+                let shapes = [(Shape::Circle([at, 0.0], radius), role)];
+                let written =
+                    settings_of(&format!("correction = {correction}\n[program]\n{lead}\n"));
                 let text = program_of(&document(&shapes, &written), format).unwrap();
                 let settings = settings_of("");
                 let drawn = document(&shapes, &settings).drawn().unwrap();
