@@ -71,7 +71,7 @@ struct Size {
 }
 
 /// One piece of what a reference draws, in the coordinates around it.
-pub(super) struct Part {
+pub(super) struct BlockPart {
     pub(super) layer: Arc<str>,
     /// Whether it is visible, and the layer that decides it.
     pub(super) visibility: (Visibility, Arc<str>),
@@ -85,7 +85,7 @@ pub(super) struct Part {
 /// What one reference draws.
 #[derive(Default)]
 pub(super) struct Drawn {
-    pub(super) parts: Vec<Part>,
+    pub(super) parts: Vec<BlockPart>,
     /// What is not cut: why, which kind and how many.
     pub(super) left_out: BTreeMap<(Kind, &'static str), usize>,
 }
@@ -389,7 +389,7 @@ impl Blocks {
                             {
                                 Ok((geometry, _)) if geometry.is_sound() => {
                                     let (layer, visibility) = (layer.clone(), visibility.clone());
-                                    pen.drawn.parts.push(Part {
+                                    pen.drawn.parts.push(BlockPart {
                                         layer,
                                         visibility,
                                         color,

@@ -1,7 +1,7 @@
 //! Reads the whole text from its beginning: entities into the drawing, blocks drawn at their references.
 
 use super::ahead;
-use super::blocks::{Blocks, Drawn, Part, Undrawn};
+use super::blocks::{BlockPart, Blocks, Drawn, Undrawn};
 use super::entity::{Appearance, Insert, Outcome, Paint, Read};
 use super::inherited::stroke;
 use super::layer_table::{LayerEntry, LayerStates};
@@ -353,7 +353,7 @@ impl Pass<'_> {
         }
         let mut ids = EntityId(0)..EntityId(0);
         let mut name: Option<Handle> = None;
-        for Part {
+        for BlockPart {
             layer,
             visibility,
             color,

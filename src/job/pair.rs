@@ -26,7 +26,7 @@ pub struct PartProgram {
 }
 
 /// One part of a pair.
-pub(crate) struct Part {
+pub(crate) struct PairPart {
     /// The same as in [`PartProgram`], as are the two after it.
     pub(crate) name: String,
     pub(crate) corrections: Vec<f64>,
@@ -40,11 +40,11 @@ pub(crate) struct Part {
 }
 
 /// A part with its program, or why there is none.
-type Programmed = (Part, Result<Generated, Refusal>);
+type Programmed = (PairPart, Result<Generated, Refusal>);
 
 /// What is cut of a drawing: one part of a pair, or everything where the drawing is no pair.
 pub(crate) struct Cut {
-    pub(crate) part: Option<Part>,
+    pub(crate) part: Option<PairPart>,
     /// Its outlines are those of `snapshot`.
     pub(crate) planned: Planned,
     pub(crate) snapshot: Snapshot,
@@ -82,7 +82,7 @@ pub(crate) fn cuts(snapshot: &Snapshot, watch: &dyn Watch) -> Result<Vec<Cut>, R
     };
     let by_control = settings.compensation == Compensation::Controller;
     let parts = parts(snapshot, partners, by_control, false)?.into_iter();
-    let cut = |part: Part| {
+    let cut = |part: PairPart| {
         let own = part.snapshot.clone();
         let planned = planned(&own, &own.settings, part.handles.as_deref(), false, watch)?;
         let (places, snapshot) = (places(snapshot, &own.outlines), own);
@@ -255,7 +255,7 @@ fn parts(
     partners: Partners,
     by_control: bool,
     force: bool,
-) -> Result<Vec<Part>, Refusal> {
+) -> Result<Vec<PairPart>, Refusal> {
     let settings = &snapshot.settings;
     match partners {
         Partners::CutTwice(drawn_as) => {
@@ -266,11 +266,11 @@ fn parts(
                 let (own, is_other_side) = settings
                     .of_use(of)
                     .ok_or_else(|| Refusal::Sentence(say!(no_path_can_be_made).into()))?;
-                Ok(Part {
+                Ok(PairPart {
                     is_other_side,
                     // Contours that state a role belong to the drawn part alone.
                     handles: (of != Use::from(drawn_as)).then(|| cut_twice(snapshot)),
-                    ..Part::of(snapshot, of.name(), own)
+                    ..PairPart::of(snapshot, of.name(), own)
                 })
             };
             settings.uses().into_iter().map(part).collect()
@@ -284,7 +284,7 @@ fn parts(
             let part = |(name, number): (&String, u16)| {
                 let mut own = settings.of_workpiece(number);
                 own.contours.extend(roles.iter().cloned());
-                Part::of(snapshot, name, own)
+                PairPart::of(snapshot, name, own)
             };
             Ok(names.map(part).collect())
         }
@@ -325,9 +325,9 @@ fn first_handle(drawing: &Drawing, outline: &Outline) -> Option<String> {
     Some(drawing.get(first.entity)?.handle.to_string())
 }
 
-impl Part {
+impl PairPart {
     /// A part under its own settings, cut along all contours that these leave.
-    fn of(snapshot: &Snapshot, name: &str, settings: Effective) -> Part {
+    fn of(snapshot: &Snapshot, name: &str, settings: Effective) -> PairPart {
         let drawing = snapshot.drawing.clone();
         let corrections = settings.each_correction();
         // Its passes have been checked against the wire; a correction reduced by the clearance may be below the wire's
@@ -340,7 +340,7 @@ impl Part {
         let settings = Arc::new(settings);
         let analysis = Analysis::new(&drawing, settings.clone());
         let outlines = analysis.outlines(&drawing).clone();
-        Part {
+        PairPart {
             name: name.to_owned(),
             corrections,
             is_other_side: false,

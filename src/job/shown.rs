@@ -3,7 +3,7 @@
 use super::{Cut, Refusal, Watch, cuts};
 use crate::document::{Document, Snapshot};
 use crate::finding::{self, Finding, Telling};
-use crate::picture::{self, Share, View};
+use crate::picture::{self, PartShare, View};
 use crate::program;
 use crate::settings::part_title;
 
@@ -29,13 +29,13 @@ pub(crate) fn picture(
         let Cut {
             planned, snapshot, ..
         }: &'_ Cut = cut;
-        Some(Share {
+        Some(PartShare {
             title: part_title(cut.name()?),
             paths: planned.paths.len(),
             settings: &snapshot.settings,
         })
     };
-    let parts: Vec<Share> = all().filter_map(share).collect();
+    let parts: Vec<PartShare> = all().filter_map(share).collect();
     let view = View {
         name: settings.document.as_deref(),
         drawing: &snapshot.drawing,

@@ -43,7 +43,7 @@ pub struct View<'a> {
     /// In the order in which they are cut.
     pub paths: &'a [WirePath],
     /// Of a pair what of the paths is of which part, in their order; else nothing.
-    pub parts: &'a [Share<'a>],
+    pub parts: &'a [PartShare<'a>],
     /// Where the wire is threaded for them.
     pub holes: &'a [StartHole],
     /// Why there are none, and how severe that is.
@@ -52,7 +52,7 @@ pub struct View<'a> {
 }
 
 /// One part of a pair among the paths.
-pub struct Share<'a> {
+pub struct PartShare<'a> {
     /// Its name for people.
     pub title: String,
     /// How many of the paths are its own.

@@ -12,7 +12,7 @@ const FLATTEST: f64 = 1e6;
 const CHORDS: u32 = 64;
 
 /// A part of a segment.
-pub(super) enum Part {
+pub(super) enum Reach {
     /// As it is.
     Near(Segment),
     /// In place of what is too far away, a line along the edge of what is near: areas keep their inside.
@@ -21,7 +21,7 @@ pub(super) enum Part {
 
 /// Hands out the parts of a segment, in its direction; `origin` is where the picture's coordinates are 0, `scale` its units in
 /// one of the drawing.
-pub(super) fn each_part(origin: Point, scale: f64, segment: Segment, each: &mut impl FnMut(Part)) {
+pub(super) fn each_part(origin: Point, scale: f64, segment: Segment, each: &mut impl FnMut(Reach)) {
     let near = Bounds {
         min: origin,
         max: origin,
@@ -29,7 +29,7 @@ pub(super) fn each_part(origin: Point, scale: f64, segment: Segment, each: &mut 
     .grown(FARTHEST / scale);
     let bounds = segment.bounds();
     if bounds.merged(&near) == near && !is_flat(scale, &segment) {
-        return each(Part::Near(segment));
+        return each(Reach::Near(segment));
     }
     let mut shares = match &segment {
         Segment::Line(line) => {
@@ -59,13 +59,13 @@ pub(super) fn each_part(origin: Point, scale: f64, segment: Segment, each: &mut 
         let [start, end] = [from, to].map(|share| clamped(segment.point_at(share), &near));
         if middle != clamped(middle, &near) {
             if start != end {
-                each(Part::Far(Segment::line(start, end)));
+                each(Reach::Far(Segment::line(start, end)));
             }
             continue;
         }
         let own = segment.part(from, to);
         if !is_flat(scale, &own) {
-            each(Part::Near(match own {
+            each(Reach::Near(match own {
                 Segment::Line(_) => Segment::line(start, end),
                 arc => arc,
             }));
@@ -76,7 +76,7 @@ pub(super) fn each_part(origin: Point, scale: f64, segment: Segment, each: &mut 
             clamped(segment.point_at(from + (to - from) * share), &near)
         };
         let chords = (0..CHORDS).map(|chord| Segment::line(at(chord), at(chord + 1)));
-        chords.map(Part::Near).for_each(&mut *each);
+        chords.map(Reach::Near).for_each(&mut *each);
     }
 }
 
@@ -143,7 +143,7 @@ mod tests {
         let mut all = Vec::new();
         for segment in segments {
             each_part(Point::origin(), scale, *segment, &mut |part| match part {
-                Part::Near(segment) | Part::Far(segment) => all.push(segment),
+                Reach::Near(segment) | Reach::Far(segment) => all.push(segment),
             });
         }
         all

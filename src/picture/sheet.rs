@@ -1,7 +1,7 @@
 //! The sheet as SVG: the layout, geometry as path data, and how elements, numbers and texts are written.
 
 use super::numbers::{number, push_thousandths, thousandths};
-use super::reach::{FARTHEST, Part, each_part};
+use super::reach::{FARTHEST, Reach, each_part};
 use crate::geometry::{Bounds, Point, Segment};
 use crate::message::columns;
 use std::f64::consts::PI;
@@ -157,10 +157,10 @@ pub(super) fn path_data(
     let mut path = PathData::default();
     for segment in segments {
         each_part(frame.origin, frame.scale, segment, &mut |part| match part {
-            Part::Near(segment) => path.push(frame, &segment),
-            Part::Far(along) if close => path.push(frame, &along),
+            Reach::Near(segment) => path.push(frame, &segment),
+            Reach::Far(along) if close => path.push(frame, &along),
             // A line that leaves the sheet comes back to it in another place.
-            Part::Far(_) => path.pen = None,
+            Reach::Far(_) => path.pen = None,
         });
     }
     if close && !path.data.is_empty() {

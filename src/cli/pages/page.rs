@@ -8,7 +8,7 @@ use super::INDEX;
 use super::html::{self, Cell, cell, more, number, section, table, text};
 use super::index::{Line, counts, span};
 use super::job as of_job;
-use super::share::Share;
+use super::share::PageShare;
 use crate::document::Snapshot;
 use crate::finding::{Rule, Severity};
 use crate::job::{self, Wanted};
@@ -41,7 +41,7 @@ pub(super) struct Page {
     arcs: Vec<ListedArc>,
     rows: Vec<Row>,
     /// The parts of a pair; else all as one.
-    parts: Vec<Share>,
+    parts: Vec<PageShare>,
     /// The fit, if a clearance is set, or why it is unknown.
     fit: Option<Result<Fit, String>>,
     /// The layers of an electrode, and their results.
@@ -79,7 +79,7 @@ impl Page {
             force: false,
         };
         let telling = opened.document.telling();
-        let parts = Share::all(&snapshot, cuts, &findings, &wanted, telling);
+        let parts = PageShare::all(&snapshot, cuts, &findings, &wanted, telling);
         let count = |severity| rows.iter().filter(|row| row.severity == severity).count();
         let (errors, warnings) = (count(Severity::Error), count(Severity::Warning));
         let Snapshot {
@@ -92,7 +92,7 @@ impl Page {
         let mut milled = made().filter_map(|made| made.program.milled.as_ref());
         let milling = milled.next();
         let milling = milling.map(|milled| Milling::new(&snapshot, milled).told(MOST_MILLED));
-        let minutes = |part: &Share| part.work.as_ref()?.minutes;
+        let minutes = |part: &PageShare| part.work.as_ref()?.minutes;
         // Of a pair whose parts do not all have a program no sum is told.
         let blocks: Option<usize> = parts.iter().map(|part| part.blocks()).sum();
         Ok(Page {
@@ -136,13 +136,13 @@ impl Page {
             section(say!(head_contours), self.contour_table()),
             section(say!(head_findings), self.findings()),
             section(say!(head_radius_list), self.radius_list()),
-            self.of_all(Share::way),
+            self.of_all(PageShare::way),
             section(
                 say!(head_fit),
                 self.fit.as_ref().map(of_job::fit_part).unwrap_or_default(),
             ),
             section(say!(head_milling), of_job::facts(&self.milling)),
-            self.of_all(Share::text),
+            self.of_all(PageShare::text),
             self.parts
                 .iter()
                 .map(|part| part.of_part(self.format, self.unit_mm))
@@ -152,7 +152,7 @@ impl Page {
     }
 
     /// A section of a drawing that is no pair. The parts of a pair have theirs after all other sections.
-    fn of_all(&self, html: fn(&Share, Format, f64) -> String) -> String {
+    fn of_all(&self, html: fn(&PageShare, Format, f64) -> String) -> String {
         let all = self.parts.iter().filter(|part| !part.is_part());
         all.map(|part| html(part, self.format, self.unit_mm))
             .collect()

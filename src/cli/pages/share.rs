@@ -18,7 +18,7 @@ use std::collections::BTreeMap;
 const MOST_LINES: usize = 10_000;
 
 /// What is cut together.
-pub(super) struct Share {
+pub(super) struct PageShare {
     /// Its name, and whether the wire runs on the other side of the drawn outline; nothing where the drawing is no pair.
     part: Option<(String, bool)>,
     paths: Vec<WirePath>,
@@ -31,7 +31,7 @@ pub(super) struct Share {
     pub(super) program: Result<Generated, String>,
 }
 
-impl Share {
+impl PageShare {
     /// Those of a drawing, by the paths that are known of it.
     pub(super) fn all(
         snapshot: &Snapshot,
@@ -39,7 +39,7 @@ impl Share {
         findings: &[Finding],
         wanted: &Wanted,
         telling: Telling,
-    ) -> Vec<Share> {
+    ) -> Vec<PageShare> {
         let mut cuts = cuts.unwrap_or_default();
         let told = |refusal: Refusal| refusal.sentence(telling);
         if cuts.iter().any(|cut| cut.part.is_some()) {
@@ -48,23 +48,23 @@ impl Share {
                 Ok(made) => {
                     let of = made.into_iter().map(|(part, made)| {
                         let cut = cuts.iter().find(|cut| cut.name() == Some(&*part.name));
-                        Share::of(cut, made.map_err(told), wanted.format)
+                        PageShare::of(cut, made.map_err(told), wanted.format)
                     });
                     of.collect()
                 }
                 Err(reason) => {
                     let cuts = cuts.iter();
-                    cuts.map(|cut| Share::of(Some(cut), Err(reason.clone()), wanted.format))
+                    cuts.map(|cut| PageShare::of(Some(cut), Err(reason.clone()), wanted.format))
                         .collect()
                 }
             };
         }
         let made = job::generate(snapshot, findings.to_vec(), wanted, &()).map_err(told);
-        vec![Share::of(cuts.pop().as_ref(), made, wanted.format)]
+        vec![PageShare::of(cuts.pop().as_ref(), made, wanted.format)]
     }
 
-    fn of(cut: Option<&Cut>, program: Result<Generated, String>, format: Format) -> Share {
-        let mut share = Share {
+    fn of(cut: Option<&Cut>, program: Result<Generated, String>, format: Format) -> PageShare {
+        let mut share = PageShare {
             part: None,
             paths: Vec::new(),
             corrections: Vec::new(),

@@ -32,7 +32,7 @@ use super::occurrence::{Occurrence, Stop, Stopped};
 use super::{Completion, Signature};
 use crate::program::Document;
 use std::ops::Range;
-use words::{Part, WordKind};
+use words::{LinePart, WordKind};
 
 /// What a language of programs knows of its own text.
 trait Language {
@@ -46,7 +46,7 @@ trait Language {
     fn meaning(&self, word: Range<usize>) -> Option<String>;
 
     /// The pieces of a line that begins at a byte; damaged lines are cut as far as possible.
-    fn words(&self, line: &[u8], offset: usize) -> Vec<Part>;
+    fn words(&self, line: &[u8], offset: usize) -> Vec<LinePart>;
 
     /// The word at a byte and its counterpart, unless that depends on the machine's path.
     fn partner(&self, _: usize) -> Option<(Range<usize>, Range<usize>)> {

@@ -1,6 +1,6 @@
 //! The words of a program, for colouring.
 
-use super::words::{Part, WordKind, words_of};
+use super::words::{LinePart, WordKind, words_of};
 use crate::ide::occurrence::{Stop, Stopped};
 use crate::ide::{Token, TokenKind};
 use crate::program::Document;
@@ -31,7 +31,7 @@ pub(crate) fn tokens_in(document: &Document, lines: Range<usize>) -> Vec<Token> 
     let mut found = Vec::new();
     for line in lines.start..lines.end.min(text.line_count()) {
         let begin = text.line_start(line);
-        let token = |part: Part| {
+        let token = |part: LinePart| {
             Some(Token {
                 line,
                 start: part.range.start - begin,

@@ -27,13 +27,13 @@ pub(crate) enum WordKind {
 
 /// A piece of a line; bytes of the text.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Part {
+pub(crate) struct LinePart {
     pub(crate) kind: WordKind,
     pub(crate) range: Range<usize>,
 }
 
 /// The pieces of a line, one after the other; damaged lines are cut as far as possible.
-pub(crate) fn words_of(document: &Document, line: usize) -> Vec<Part> {
+pub(crate) fn words_of(document: &Document, line: usize) -> Vec<LinePart> {
     let text = document.text();
     let range = text.line_range(line);
     let bytes = text.bytes().get(range.clone()).unwrap_or_default();

@@ -231,7 +231,7 @@ fn way_of(
         .map_or([0, 0], |(start, ..)| start);
     let part = |place: &PartAt| {
         let (start, moves, arcs) = extent(place)?;
-        Some(path::Part {
+        Some(path::WayPart {
             lay: Cow::Borrowed(document.stretches.get(place.0)?.lay(place.1)?),
             blocks: moves as usize,
             arcs: arcs as usize,

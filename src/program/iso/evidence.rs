@@ -54,17 +54,17 @@ pub(crate) struct Arcs {
     pub(crate) all: u32,
     /// In the order of [`PAIRS`].
     unclear: [u32; 3],
-    of_all: Against,
+    of_all: AgainstRules,
     /// How many come back to where they began: these fit any centre.
     closed: u32,
     /// How many end beside where they began, far from each of their centres, and what of these speaks against each rule.
     beside: u32,
-    of_beside: Against,
+    of_beside: AgainstRules,
 }
 
 /// What speaks against each rule, in numbers of arcs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-struct Against {
+struct AgainstRules {
     /// They do not fit.
     off: [u32; 3],
     /// Of a few micrometres, with a centre so far away that they would be lines: both ends of such an arc fit nearly any
@@ -74,8 +74,8 @@ struct Against {
     wide: [u32; 3],
 }
 
-impl Against {
-    fn change(&mut self, other: &Against, change: fn(&mut u32, u32)) {
+impl AgainstRules {
+    fn change(&mut self, other: &AgainstRules, change: fn(&mut u32, u32)) {
         for (counts, more) in [
             (&mut self.off, other.off),
             (&mut self.far, other.far),
@@ -269,7 +269,7 @@ impl Evidence {
         };
         let [misfits, far, wide] = [off, about(lies_far), about(turns_widely)]
             .map(|are| std::array::from_fn(|rule| u32::from(rule < compared && are[rule])));
-        let own = Against {
+        let own = AgainstRules {
             off: misfits,
             far,
             wide,

@@ -10,7 +10,7 @@ use super::crossing::{
 };
 use super::known_tabs::KnownTabs;
 use super::offset_losses::{ControlOffset, Loss, losses};
-use super::parted::{Blocks, Part, PartedWay, SLACK, micrometres};
+use super::parted::{Blocks, PartedWay, SLACK, WayPart, micrometres};
 use super::passes::{Before, MOST_PASSES, Passes, passes};
 use super::way::Way;
 use crate::finding::{Detail, Fault, Finding, NotJudged, Place, Rule, Severity};
@@ -146,7 +146,7 @@ type OfPass = (Vec<Crossing>, bool);
 type PartMark = (u64, usize, [i64; 2]);
 
 fn parts_of(way: &PartedWay<'_>) -> Vec<PartMark> {
-    let mark = |part: &Part<'_>| (part.lay.mark, part.blocks, part.start);
+    let mark = |part: &WayPart<'_>| (part.lay.mark, part.blocks, part.start);
     way.parts.iter().map(mark).collect()
 }
 
@@ -264,7 +264,7 @@ const AT_ONCE: [usize; 2] = [32, 1024];
 
 /// The parts of a cut that are compared, each prepared once.
 struct Search<'w> {
-    parts: &'w [Part<'w>],
+    parts: &'w [WayPart<'w>],
     blocks: &'w dyn Blocks,
     /// Blocks before each part.
     firsts: &'w [usize],
@@ -340,7 +340,7 @@ fn search(way: &PartedWay<'_>, known: &mut Known) -> Found {
         firsts: &way.firsts,
         prepared: parts.iter().map(|_| OnceLock::new()).collect(),
     };
-    let placed = |part: &Part<'_>| part.placed().grown(SLACK);
+    let placed = |part: &WayPart<'_>| part.placed().grown(SLACK);
     let placed: Vec<Bounds> = parts.iter().map(placed).collect();
     let boxes = Boxes::of(placed.iter().copied());
     let mut near: Vec<(usize, usize)> = Vec::new();

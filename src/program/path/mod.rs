@@ -32,7 +32,7 @@ pub(in crate::program) use joint::{joint, may_be_odd, odd_joint, turn};
 pub(in crate::program) use known_tabs::KnownTabs;
 pub(in crate::program) use lay::{Lay, mixed};
 pub(in crate::program) use offset_losses::{ControlOffset, MOST_BLOCKS};
-pub(in crate::program) use parted::{Blocks, Part, PartedWay};
+pub(in crate::program) use parted::{Blocks, PartedWay, WayPart};
 pub(crate) use passes::lie_beside;
 pub(in crate::program) use polyline::{MOST_BY_BULGE, polyline};
 pub(in crate::program) use size::{absurd_size, size_of};

@@ -9,7 +9,7 @@ use std::ops::Range;
 
 /// Blocks of a way that are held together: an edit elsewhere leaves them alone.
 #[derive(Clone, Debug)]
-pub(crate) struct Part<'a> {
+pub(crate) struct WayPart<'a> {
     pub(crate) lay: Cow<'a, Lay>,
     pub(crate) blocks: usize,
     pub(crate) arcs: usize,
@@ -17,7 +17,7 @@ pub(crate) struct Part<'a> {
     pub(crate) start: [i64; 2],
 }
 
-impl Part<'_> {
+impl WayPart<'_> {
     /// Where it begins, µm.
     pub(crate) fn offset(&self) -> Vector {
         micrometres(self.start)
@@ -53,7 +53,7 @@ pub(crate) trait Blocks: Sync {
 /// A way in parts. Its cost is that of the parts, and of the blocks of those that are asked for.
 pub(crate) struct PartedWay<'a> {
     pub(crate) blocks: Box<dyn Blocks + 'a>,
-    pub(crate) parts: Vec<Part<'a>>,
+    pub(crate) parts: Vec<WayPart<'a>>,
     /// Blocks before each part.
     pub(super) firsts: Vec<usize>,
     pieces: Vec<OnceCell<Vec<Segment>>>,
@@ -68,7 +68,7 @@ pub(super) const SLACK: f64 = 1.0;
 impl<'a> PartedWay<'a> {
     pub(crate) fn new(
         blocks: Box<dyn Blocks + 'a>,
-        parts: Vec<Part<'a>>,
+        parts: Vec<WayPart<'a>>,
         stop: Option<usize>,
         ends: Option<[[Node; 2]; 2]>,
     ) -> PartedWay<'a> {
@@ -102,7 +102,7 @@ impl<'a> PartedWay<'a> {
     /// How many blocks of a range are arcs. Costs the blocks of the parts at its ends.
     pub(crate) fn arcs_in(&self, range: &Range<usize>) -> usize {
         let parts = self.parts.iter().zip(&self.firsts).enumerate();
-        let of_part = |(index, (part, first)): (usize, (&Part<'_>, &usize))| {
+        let of_part = |(index, (part, first)): (usize, (&WayPart<'_>, &usize))| {
             let [begin, end] =
                 [range.start, range.end].map(|at| at.clamp(*first, first + part.blocks));
             if end - begin == part.blocks {

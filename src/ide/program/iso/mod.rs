@@ -12,7 +12,7 @@ mod signature;
 mod tests;
 mod vocabulary;
 
-use super::{Completion, Language, Part, Signature, WordKind};
+use super::{Completion, Language, LinePart, Signature, WordKind};
 use crate::ide::occurrence::{Occurrence, Stop, Stopped};
 use crate::program::iso::plain::word_in;
 use crate::program::iso::{Document, Token, words};
@@ -31,19 +31,19 @@ impl Language for Document {
         meaning::meaning(self, word)
     }
 
-    fn words(&self, line: &[u8], offset: usize) -> Vec<Part> {
+    fn words(&self, line: &[u8], offset: usize) -> Vec<LinePart> {
         let mut parts = Vec::new();
         if self.text().line_of(offset) < self.leader() {
             let range = offset..offset + line.len();
             let kind = WordKind::Comment;
-            return Vec::from_iter((!line.is_empty()).then_some(Part { kind, range }));
+            return Vec::from_iter((!line.is_empty()).then_some(LinePart { kind, range }));
         }
         words(line, 0, |token, range| {
             // A part of a word that is read nevertheless.
             if let Token::Fault(_) = token
                 && parts
                     .last()
-                    .is_some_and(|last: &Part| offset + range.start < last.range.end)
+                    .is_some_and(|last: &LinePart| offset + range.start < last.range.end)
             {
                 return;
             }
@@ -62,7 +62,7 @@ impl Language for Document {
                 Token::Fault(_) => WordKind::Strange,
             };
             if !range.is_empty() {
-                parts.push(Part {
+                parts.push(LinePart {
                     kind,
                     range: offset + range.start..offset + range.end,
                 });

@@ -6,7 +6,7 @@ mod completion;
 mod meaning;
 mod signature;
 
-use super::{Completion, Language, Part, Signature, WordKind};
+use super::{Completion, Language, LinePart, Signature, WordKind};
 use crate::program::three_b::Document;
 use crate::program::three_b::pieces::{Field, Piece, pieces};
 use std::ops::Range;
@@ -24,7 +24,7 @@ impl Language for Document {
         meaning::meaning(self, word)
     }
 
-    fn words(&self, line: &[u8], offset: usize) -> Vec<Part> {
+    fn words(&self, line: &[u8], offset: usize) -> Vec<LinePart> {
         let kind_of = |field: Field| match field {
             Field::Number => WordKind::Number,
             Field::Separator => WordKind::Lead,
@@ -36,7 +36,7 @@ impl Language for Document {
             Field::Comment => WordKind::Comment,
             Field::Strange => WordKind::Strange,
         };
-        let part = |piece: Piece| Part {
+        let part = |piece: Piece| LinePart {
             kind: kind_of(piece.field),
             range: offset + piece.range.start..offset + piece.range.end,
         };

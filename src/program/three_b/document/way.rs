@@ -6,7 +6,7 @@ use super::{At, Document, JoinedCut};
 use crate::drawing::wire_side;
 use crate::geometry::{Point, Segment};
 use crate::program::path::{
-    Blocks, ControlOffset, Ends, HasCuts, Lay, MOST_BLOCKS, Node, Part, PartedWay, UM_IN_MM,
+    Blocks, ControlOffset, Ends, HasCuts, Lay, MOST_BLOCKS, Node, PartedWay, UM_IN_MM, WayPart,
     Writing, mixed,
 };
 use std::borrow::Cow;
@@ -67,7 +67,7 @@ impl HasCuts for Document {
                         entries: part.entries(),
                         start: at,
                     });
-                    parts.push(Part {
+                    parts.push(WayPart {
                         lay: of.lay(part),
                         blocks: sum.blocks,
                         arcs: sum.arcs,

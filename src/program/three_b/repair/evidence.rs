@@ -16,7 +16,7 @@ const SAYS: f64 = 0.5;
 
 /// The evidence against a contour.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Against {
+pub(super) struct AgainstContour {
     pub(crate) unread: usize,
     pub(crate) faulty: usize,
     pub(crate) off: usize,
@@ -24,7 +24,7 @@ pub(super) struct Against {
     pub(crate) is_open: bool,
 }
 
-impl Against {
+impl AgainstContour {
     pub(crate) fn count(&self) -> usize {
         self.unread + self.faulty + self.off + self.out_of_turn + usize::from(self.is_open)
     }
@@ -45,8 +45,8 @@ pub(super) struct Joints {
 }
 
 impl Suspect<'_> {
-    pub(super) fn against(&self, items: &[Item]) -> Against {
-        let mut against = Against::default();
+    pub(super) fn against(&self, items: &[Item]) -> AgainstContour {
+        let mut against = AgainstContour::default();
         let (mut before, mut off_before): (_, Option<[f64; 2]>) = (self.path.start, None);
         // Counting may begin again in each contour.
         let first = items.iter().find_map(|item| item.number);

@@ -21,7 +21,7 @@ use crate::geometry::{Point, Segment, Vector};
 use crate::program::grid::Node;
 use crate::program::path::tolerance;
 use crate::program::repair::search::{self, Contour, Verdict, search};
-use evidence::{Against, Joints, crosses_itself, is_mirrored, joints};
+use evidence::{AgainstContour, Joints, crosses_itself, is_mirrored, joints};
 use slips::{Wanted, straight};
 use std::mem::{Discriminant, discriminant};
 
@@ -127,7 +127,7 @@ struct Suspect<'a> {
     path: &'a Path<'a>,
     scope: Scope,
     items: Vec<Item>,
-    before: Against,
+    before: AgainstContour,
     joints: Joints,
     arcs: usize,
     /// The end of all of it.
@@ -207,7 +207,7 @@ impl Contour for Suspect<'_> {
     fn gaps(&self, index: usize) -> Vec<Vector> {
         let (
             Some(first),
-            Against {
+            AgainstContour {
                 unread: 0,
                 faulty: 0,
                 ..
@@ -354,7 +354,7 @@ impl<'a> Suspect<'a> {
         let mut suspect = Suspect {
             path,
             scope,
-            before: Against::default(),
+            before: AgainstContour::default(),
             joints: joints(&items),
             arcs: items
                 .iter()
