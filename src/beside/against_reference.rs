@@ -10,6 +10,7 @@ use super::difference::{Comparison, Difference};
 use super::displaced::displaced;
 use super::drawn::Drawn;
 use super::pairs::{Pair, Pairs};
+use super::placed::{ALIKE, ROUNDED, SLIP};
 use super::reference::Under;
 use super::said::said;
 use super::sides::Sides;
@@ -18,14 +19,8 @@ use super::walk::Kind;
 use crate::geometry::{Arc, Segment, Vector};
 use std::cell::LazyCell;
 
-/// The largest deviation of a block, or of one of its numbers, from the rewritten one, µm; and that under settings that
-/// are not known to the last digit.
-const ALIKE: f64 = 2.0;
-const ROUNDED: f64 = 1.5;
 /// Where the mean deviation of a program's blocks is below this, µm, it was written with just these settings.
 const SAME: f64 = 1e-2;
-/// A larger deviation of a way in or out, or between contours, is meant: its hole is elsewhere, µm.
-const SLIP: f64 = 50.0;
 /// For each differing block this many others must be as expected; with fewer, the settings are not known.
 const LIKE: usize = 4;
 
@@ -390,117 +385,5 @@ impl Pairs<'_> {
                 .is_like(&self.reference.traced.said(meant))
         };
         is(one.own, two.meant) && is(two.own, one.meant)
-    }
-
-    /// Whether a block ends where it should.
-    fn is_placed(&self, number: usize, from: Vector) -> bool {
-        self.ends_near(number, from, ROUNDED)
-    }
-
-    /// Whether a block ends as far from where it should as it deviates.
-    fn moves_on(&self, number: usize, from: Vector, off: f64) -> bool {
-        let ends = self.pairs.get(number).and_then(|pair| {
-            let ([_, end], [_, meant]) = (pair.own.motion.ends()?, pair.meant.motion.ends()?);
-            Some((end - from - meant).norm())
-        });
-        ends.is_none_or(|away| (away - off).abs() <= ROUNDED)
-    }
-
-    /// Whether a contour lies where it should: a program that says no place lies where its contours lie.
-    fn has_placed_contour(&self, from: Vector) -> bool {
-        let mut all = self.pairs.iter().enumerate();
-        all.any(|(at, pair)| self.is_placed(at, from) && self.is_of_contour(pair))
-    }
-
-    fn is_of_contour(&self, pair: &Pair) -> bool {
-        self.reference.source_of(&pair.meant.motion).is_some()
-    }
-
-    /// Whether the next contour begins elsewhere than where it should, and not on its way either: no other hole does that.
-    fn leads_astray(&self, number: usize, from: Vector) -> bool {
-        let mut behind = self.pairs.iter().skip(number + 1);
-        let next = behind.find(|pair| self.is_of_contour(pair));
-        let begins = next.and_then(|pair| {
-            let ([start, _], [meant, _]) = (pair.own.motion.ends()?, pair.meant.motion.ends()?);
-            Some((start - from, meant))
-        });
-        begins.is_some_and(|(start, meant)| {
-            (start - meant).norm() > SLIP && !self.reference.is_on_wall(start, ROUNDED)
-        })
-    }
-
-    /// Whether a block may be a part of a wall, and the next one, too: a tab or an overlap ends within one.
-    fn lies_on_wall(&self, number: usize, from: Vector) -> bool {
-        let is_on = |place| self.reference.is_on_wall(place - from, ROUNDED);
-        let lies = |pair: &Pair| {
-            let own = pair.own.segment();
-            own.is_none_or(|own| is_on(own.point_at(0.5)) && is_on(own.end()))
-        };
-        let next = self.pairs.get(number + 1);
-        let next = next.filter(|next| self.is_of_contour(next));
-        self.pairs.get(number).is_none_or(lies) && next.is_none_or(lies)
-    }
-
-    fn ends_on_wall(&self, number: usize, from: Vector) -> bool {
-        let end = self
-            .pairs
-            .get(number)
-            .and_then(|pair| pair.own.motion.ends());
-        end.is_some_and(|[_, end]| self.reference.is_on_wall(end - from, ROUNDED))
-    }
-
-    /// Whether a way in ends beside the path of its contour, which then goes on from there to where it should.
-    fn ends_astray(&self, number: usize, from: Vector) -> bool {
-        let next = self.pairs.get(number + 1);
-        let is_way_in =
-            next.is_some_and(|next| next.own.segment().is_some() && self.is_of_contour(next));
-        is_way_in
-            && !self.traced.four_b
-            && self.is_placed(number + 1, from)
-            && !self.ends_near(number, from, ALIKE)
-            && !self.ends_on_wall(number, from)
-    }
-
-    fn ends_near(&self, number: usize, from: Vector, most: f64) -> bool {
-        let Some(pair) = self.pairs.get(number) else {
-            return true;
-        };
-        match (pair.own.motion.ends(), pair.meant.motion.ends()) {
-            (Some([_, end]), Some([_, meant])) => (end - from - meant).norm() <= most,
-            _ => true,
-        }
-    }
-
-    /// A block that begins its contour on a wall and ends where it should; or one that ends on a wall, where its
-    /// contour began or its tab begins.
-    fn is_at_its_entry(&self, number: usize, from: Vector) -> bool {
-        let blocks = &self.traced.blocks;
-        let Some(own) = self.pairs.get(number).map(|pair| pair.own) else {
-            return false;
-        };
-        // The tab before it begins elsewhere, too.
-        let at = blocks.iter().position(|block| block.range == own.range);
-        let next = at.and_then(|at| blocks.get(at + 1));
-        let goes_to_tab = next.is_some_and(|next| next.motion == Motion::Stop)
-            && number > 0
-            && self.is_placed(number - 1, from);
-        let tab = own.segment().filter(|_| goes_to_tab).map(Segment::end);
-        let entry = self.traced.cuts.iter().find_map(|[_, contour]| {
-            let begin = blocks.get(contour.start)?;
-            let entry = begin.segment()?.start();
-            if begin.range == own.range && self.is_placed(number, from) {
-                return Some(entry);
-            }
-            let last = blocks.get(contour.end.checked_sub(1)?)?;
-            let closes = (entry - last.segment()?.end()).norm() <= ROUNDED;
-            (last.range == own.range && closes).then_some(entry)
-        });
-        let moved = entry.or(tab);
-        moved.is_some_and(|place| self.reference.is_on_wall(place - from, ROUNDED))
-    }
-
-    /// After this block, or one of the next few, the program is where it should be.
-    fn comes_back(&self, number: usize, from: Vector) -> bool {
-        (number..number + FEW).any(|number| self.is_placed(number, from))
     }
 }

@@ -33,6 +33,7 @@ mod members;
 mod names;
 mod pairs;
 mod passes;
+mod placed;
 mod placement;
 mod reference;
 mod rounds;

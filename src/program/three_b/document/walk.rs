@@ -5,9 +5,10 @@ use super::super::decode::meant;
 use super::super::entry::{Entry, What};
 use super::super::pieces::{Field, pieces};
 use super::super::sum::is_jump;
-use super::{At, Document};
+use super::{At, Document, View};
 use crate::finding::Side;
 use crate::geometry::{Point, Vector};
+use crate::program::chunks::Reread;
 use crate::program::path::{Kind, Step, Trace, Writing};
 use crate::program::steps::{self, Program, Sum};
 use crate::text::{SourceText, says_anything};
@@ -90,6 +91,21 @@ impl Document {
             before
         });
         begins.collect()
+    }
+
+    /// The first stretch that was read again, or in which the machine does not stand as it stood `before`.
+    pub(super) fn first_moved(&self, before: &View, reread: &Reread) -> usize {
+        let read_again = reread.chunks.start;
+        let begins = self.view.begins.iter().zip(&before.begins);
+        let as_before = begins.take_while(|(now, before)| now == before).count();
+        let taken = |view: &View, nth: usize| view.taken.get(nth).copied();
+        let most = self.view.taken.len().max(before.taken.len());
+        let other = (0..most).find(|&nth| taken(&self.view, nth) != taken(before, nth));
+        let other = other.into_iter().flat_map(|nth| {
+            let both = [taken(&self.view, nth), taken(before, nth)];
+            both.into_iter().flatten().map(|(at, _)| at.stretch)
+        });
+        other.chain([read_again, as_before]).min().unwrap_or(0)
     }
 
     /// How far the wire was taken before a block, µm.
