@@ -100,7 +100,16 @@ impl Document {
     /// Replaces a range of bytes and rereads what it touched. Returns the first line at which the machine may stand
     /// elsewhere than before.
     pub fn edit(&mut self, range: Range<usize>, replacement: &str) -> usize {
-        of_language!(self, document => document.edit(range, replacement))
+        let first = of_language!(self, document => document.edit(range, replacement));
+        let program = self.program();
+        let chunks = program.chunk_count();
+        // Before all steps the machine stands where the first of them begins.
+        let mut before = 0..first.min(chunks);
+        match before.any(|chunk| !program.sum_of(chunk).is_empty()) {
+            true if first < chunks => program.lines_of(first).start,
+            true => program.text().line_count(),
+            false => 0,
+        }
     }
 
     /// Rereads where the settings change the meaning of a text or its faults; costs nothing otherwise.

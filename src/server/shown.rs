@@ -368,6 +368,17 @@ mod tests {
         }
     }
 
+    /// Nothing stands before the first step but the beginning, which it gives.
+    #[test]
+    fn what_stands_before_all_steps_follows_the_first_of_them() {
+        let text = "G777\n".repeat(60) + "G92X3.Y4.\nG01X5.Y6.\nM02\n";
+        let edits = [(62, 0, " "), (60, 6, "G92X9."), (61, 9, ""), (62, 4, "M30")];
+        check(program(program::Language::Iso, text), &edits);
+        let text = "hello\n".repeat(60) + "B0B6000B6000GYL2\nDD\n";
+        let edits = [(61, 0, " "), (60, 1, "A"), (60, 1, "B")];
+        check(program(program::Language::ThreeB, text), &edits);
+    }
+
     /// Open contours with findings, one after the other, with coordinates after the blocks of some.
     const OPEN_3B: &str = "B2000B0B2000GXL1\nB0B6000B6000GYL2\nB0B0B0GXL1\nB1000B0B1000GXNR1;  1.0, 2.0\nB6000B0B6000GXL3\nD\nB9000B0B9000GXL1\nD\n";
     const OPEN_ISO: &str =

@@ -256,8 +256,8 @@ impl Document {
         })
     }
 
-    /// Replaces a range of bytes and runs again what it touched. Returns the first line at which the machine may stand
-    /// elsewhere than before.
+    /// Replaces a range of bytes and runs again what it touched. Returns the first stretch in which the machine may
+    /// stand elsewhere than before.
     pub fn edit(&mut self, range: Range<usize>, replacement: &str) -> usize {
         self.repairs_before = self.repairs.take().or(self.repairs_before.take());
         self.labels = OnceLock::new();
@@ -290,8 +290,7 @@ impl Document {
         let first = reread.chunks.start;
         match self.settle(Some(reread)) {
             true => 0,
-            false if first < self.stretches.len() => self.stretches.place(first).lines.start,
-            false => self.text.line_count(),
+            false => first,
         }
     }
 

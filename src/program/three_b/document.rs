@@ -157,8 +157,8 @@ impl Document {
         }
     }
 
-    /// Replaces a range of bytes and rereads what it touched. Returns the first line at which the machine may stand
-    /// elsewhere than before.
+    /// Replaces a range of bytes and rereads what it touched. Returns the first stretch in which the machine may
+    /// stand elsewhere than before.
     pub fn edit(&mut self, range: Range<usize>, replacement: &str) -> usize {
         let reader = Reader {
             words: self.words.words(),
@@ -167,11 +167,7 @@ impl Document {
         let reread = self
             .stretches
             .edit(&reader, &mut self.text, (range, replacement), |_| {});
-        let first = self.judge_again(Some(reread));
-        match first < self.stretches.len() {
-            true => self.stretches.place(first).lines.start,
-            false => self.text.line_count(),
-        }
+        self.judge_again(Some(reread))
     }
 
     fn entry(&self, at: At) -> Option<&Entry> {

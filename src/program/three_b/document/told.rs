@@ -120,7 +120,7 @@ impl Document {
 
     /// The stretches that were not read again in which the wire is taken elsewhere by hand now but
     /// was not `before`, or the reverse.
-    fn taken_elsewhere(
+    pub(super) fn taken_elsewhere(
         &self,
         before: &[(At, Vector)],
         reread: &Reread,

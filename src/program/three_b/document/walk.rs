@@ -95,17 +95,13 @@ impl Document {
 
     /// The first stretch that was read again, or in which the machine does not stand as it stood `before`.
     pub(super) fn first_moved(&self, before: &View, reread: &Reread) -> usize {
-        let read_again = reread.chunks.start;
-        let begins = self.view.begins.iter().zip(&before.begins);
-        let as_before = begins.take_while(|(now, before)| now == before).count();
-        let taken = |view: &View, nth: usize| view.taken.get(nth).copied();
-        let most = self.view.taken.len().max(before.taken.len());
-        let other = (0..most).find(|&nth| taken(&self.view, nth) != taken(before, nth));
-        let other = other.into_iter().flat_map(|nth| {
-            let both = [taken(&self.view, nth), taken(before, nth)];
-            both.into_iter().flatten().map(|(at, _)| at.stretch)
-        });
-        other.chain([read_again, as_before]).min().unwrap_or(0)
+        if self.view.begins.first() != before.begins.first() {
+            return 0;
+        }
+        let elsewhere = self.taken_elsewhere(&before.taken, reread);
+        elsewhere
+            .min()
+            .map_or(reread.chunks.start, |first| first.min(reread.chunks.start))
     }
 
     /// How far the wire was taken before a block, µm.
