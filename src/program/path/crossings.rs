@@ -62,10 +62,19 @@ impl Known {
             Some(found) => found.clone(),
             None => {
                 let way = way();
-                let before = self.passed.as_ref().and_then(|before| before.like(&way));
-                let passes = passes(&way, before);
+                let may_cross = !matches!(&way.parts[..], [one] if !one.lay.may_cross());
+                let passes = match may_cross || offset.is_some() {
+                    true => {
+                        let before = self.passed.as_ref().and_then(|before| before.like(&way));
+                        passes(&way, before)
+                    }
+                    false => Passes::default(),
+                };
                 let first_pass = passes.all.first().map_or(way.count(), |pass| pass.end);
-                let mut found = self.search(&way, passes);
+                let mut found = match may_cross {
+                    true => self.search(&way, passes),
+                    false => Found::default(),
+                };
                 if let Some(offset) = offset.filter(|_| found.is_clean()) {
                     let losses = losses(&way, first_pass, offset);
                     found.is_too_long = losses.is_none();
@@ -82,11 +91,6 @@ impl Known {
     }
 
     fn search(&mut self, way: &PartedWay<'_>, passes: Passes) -> Found {
-        if let [one] = &way.parts[..]
-            && !one.lay.may_cross()
-        {
-            return Found::default();
-        }
         if passes.all.is_empty() {
             return search(way, self);
         }
