@@ -81,6 +81,11 @@ impl Told {
         self
     }
 
+    /// Words contradict the side of the wire that it is compared under.
+    pub(crate) fn has_other_side(&self) -> bool {
+        self.words.iter().any(Difference::is_of_side)
+    }
+
     /// Of a side that was guessed, no word is wrong.
     pub(crate) fn under(mut self, guess: &Under) -> Told {
         let is_set = guess.sides == Sides::AsSet;
@@ -214,8 +219,9 @@ impl Pairs<'_> {
                 }
                 // From wherever it is begun, a circle of another size is another one.
                 Some(_) if is_circle && !words.are_same => {
-                    let radius = own.segment().and_then(Segment::as_arc).zip(arc);
-                    away.max(radius.map_or(0.0, |(own, meant)| (own.radius - meant.radius).abs()))
+                    let both = own.segment().and_then(Segment::as_arc).zip(arc);
+                    let radii = both.map_or(0.0, |(own, meant)| (own.radius - meant.radius).abs());
+                    away.max(radii)
                 }
                 _ => away,
             };

@@ -88,7 +88,7 @@ fn compared(drawn: &Drawn, traced: &Traced) -> (Option<Comparison>, bool) {
     // Of few blocks any may be as other settings have it; of many, a few may be as another writer rounds them.
     let is_doubtful = match &known.comparison.differences[..] {
         [] => false,
-        _ if !known.is_exact() || known.words.iter().any(Difference::is_of_side) => true,
+        _ if !known.is_exact() || known.has_other_side() => true,
         // Nobody sets anything otherwise by so little.
         _ if is_slip(&known) => false,
         // A way that is lost, and nothing else.
@@ -150,12 +150,11 @@ fn is_one_off(seen: &Comparison, by: RangeInclusive<f64>) -> bool {
 
 /// One block differs, by so little that nobody sets anything otherwise.
 fn is_slip(told: &Told) -> bool {
-    let is_one = is_one_off(&told.comparison, 0.0..=SLIP);
     // A way in that is shorter by as much as a circle is larger comes from another correction.
-    let is_way = |one: &Difference| one.kind == Kind::Lead;
-    let is_way = told.comparison.differences.iter().any(is_way);
-    let is_alone = !is_way || told.is_one_change();
-    is_one && is_alone && told.is_exact() && told.elsewhere == 0 && !told.has_gap
+    let is_it =
+        |one: &Difference| one.off <= SLIP && (one.kind != Kind::Lead || told.is_one_change());
+    let is_one = matches!(&told.comparison.differences[..], [one] if is_it(one));
+    is_one && told.is_exact() && told.elsewhere == 0 && !told.has_gap
 }
 
 /// The same where the settings are not known to the last digit.

@@ -6,7 +6,6 @@
 
 use super::against_reference::{Told, against_reference};
 use super::cache::Guess;
-use super::difference::Difference;
 use super::drawn::Drawn;
 use super::measure;
 use super::passes::{corrections, shortness};
@@ -166,7 +165,7 @@ impl<'a> Search<'a> {
     /// It has found the changes in a program of this side, as far as words tell it.
     fn is_of_its_side(&self) -> bool {
         let told = self.told.as_ref();
-        told.is_some_and(|(told, _)| !told.words.iter().any(Difference::is_of_side))
+        told.is_some_and(|(told, _)| !told.has_other_side())
     }
 
     /// Guesses of corrections alone.

@@ -40,8 +40,7 @@ pub(super) fn is_certain(traced: &Traced, told: &Told, under: &Under) -> bool {
         _ => FAR,
     };
     // Where the side is a guess, the words of another one are no change.
-    let has_other_side = told.words.iter().any(Difference::is_of_side);
-    let is_of_other_side = under.sides != Sides::AsSet && has_other_side;
+    let is_of_other_side = under.sides != Sides::AsSet && told.has_other_side();
     match &told.comparison.differences[..] {
         _ if told.elsewhere > 0 || is_of_other_side => false,
         [] => told.is_exact() && told.words.is_empty(),
@@ -82,7 +81,7 @@ pub(super) fn rank(traced: &Traced, told: &Told) -> Rank {
         true => (told.doubt(), 0, told.mean),
         false => ((true, 0, false, 0, 0), 0, told.mean),
     };
-    (told.words.iter().any(Difference::is_of_side), rest)
+    (told.has_other_side(), rest)
 }
 
 /// Whether the differences that a guess leaves are changes by somebody and not due to the guess: the program is ours to
