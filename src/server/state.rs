@@ -397,15 +397,16 @@ impl State {
             let reads = job.reads();
             self.workers.judge(move || {
                 let judged = job.run();
+                // Before the findings are told: whoever has been answered sees what the document takes from now on.
+                if reads {
+                    give_back();
+                }
                 mailbox.tell("judging", None, move |state| {
                     state.away -= 1;
                     let uri = judged.uri.clone();
                     state.take_back(judged);
                     state.go_on(&uri);
                 });
-                if reads {
-                    give_back();
-                }
             });
         }
     }

@@ -2,7 +2,7 @@
 //! is left out and reported.
 
 use super::row::{LARGEST, Range, Row};
-use super::spelling::{listed, named, nearest, snake_case};
+use super::spelling::{is_slip, listed, named, nearest, snake_case};
 use super::value::{Entry, Node, Value};
 use super::{LengthSetting, PointSetting, RuleSeverity, SettingsError, shipped_profiles};
 use crate::drawing::{Color, Role};
@@ -415,8 +415,12 @@ impl Reader {
     }
 
     fn unknown(&mut self, key: &str, entry: &Entry, expected: &str) {
-        let message = match nearest(&entry.key, expected) {
-            Some(near) => say!(is_not_known_did_you_mean, key, near),
+        let near = nearest(&entry.key, expected);
+        // A key of another table is likelier than one of this that differs in several letters.
+        let is_slip = near.is_some_and(|near| is_slip(&entry.key, near));
+        let elsewhere = super::keys::elsewhere(&entry.key).filter(|_| !is_slip);
+        let message = match elsewhere.as_deref().or(near) {
+            Some(likely) => say!(is_not_known_did_you_mean, key, likely),
             None => say!(is_not_known, key, expected),
         };
         self.errors

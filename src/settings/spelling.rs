@@ -17,6 +17,11 @@ pub(crate) fn nearest<'a>(word: &str, words: &'a str) -> Option<&'a str> {
         .map(|(_, known)| known)
 }
 
+/// Whether a single letter was missed.
+pub(super) fn is_slip(word: &str, meant: &str) -> bool {
+    distance(&snake_case(word), &snake_case(meant)) == 1
+}
+
 /// The number of letters added, removed, replaced or swapped between two words.
 fn distance(one: &str, other: &str) -> usize {
     let other: Vec<char> = other.chars().collect();

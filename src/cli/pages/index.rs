@@ -19,9 +19,9 @@ pub(super) struct Line {
 pub(super) fn index(lines: &[(String, Line)]) -> String {
     let heads = [
         say!(column_drawing),
-        say!(head_contours),
+        say!(column_contours),
         say!(column_smallest_radius),
-        say!(head_findings),
+        say!(column_findings),
         say!(column_blocks),
         say!(column_minutes),
     ];

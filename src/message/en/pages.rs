@@ -26,6 +26,7 @@ declare! {
     column_pass => "pass";
     column_correction => "correction mm";
     column_contours => "contours";
+    column_findings => "findings";
     column_length_with_leads => "cut mm";
     column_smallest_radius => "smallest R mm";
     column_blocks => "blocks";

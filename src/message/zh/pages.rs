@@ -26,6 +26,7 @@ translate! {
     column_pass => "第几次";
     column_correction => "补偿量 mm";
     column_contours => "轮廓数";
+    column_findings => "问题";
     column_length_with_leads => "切割 mm";
     column_smallest_radius => "最小半径 mm";
     column_blocks => "程序段";

@@ -454,6 +454,23 @@ mod tests {
                 "passes by the thread hole, {by} beside"
             );
         }
+        // A tab alone, in the slug: the way out meets the pass of the way in where that begins.
+        let alone = [
+            [-3.969, 1.565],
+            [-4.621, -1.363],
+            [-4.660, -1.354],
+            [-4.008, 1.574],
+            [0.0, 0.0],
+        ];
+        assert_eq!(crossings(&alone), 0);
+        // It cuts the part where the pass back is none.
+        let mut through = alone;
+        through[3] = [-4.2, -0.2];
+        through[4] = [-4.4, -0.6];
+        assert_eq!(
+            crossings(&[&through[..], &[[-4.0, 0.4], [0.0, 0.0]]].concat()),
+            1
+        );
         let two = [&SQUARE[..], &reversed(SQUARE)[..4], &out].concat();
         assert_eq!(crossings(&two), 0);
     }

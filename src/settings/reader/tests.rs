@@ -16,6 +16,14 @@ fn what_was_most_likely_meant_is_asked() {
             "program.leadin is not known, did you mean lead-in?",
         ),
         (
+            "startHole = 1",
+            "startHole is not known, did you mean program.start-hole?",
+        ),
+        (
+            "[program]\ncorrection = 0.1",
+            "program.correction is not known, did you mean correction?",
+        ),
+        (
             "[rules]\nshrap-corner = \"off\"",
             "rules.shrap-corner is not known, did you mean sharp-corner?",
         ),

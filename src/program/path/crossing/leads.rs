@@ -17,6 +17,7 @@ impl Tangle<'_> {
             || self.cuts_the_end_of_the_way_in(first, second, at)
             || self.are_ways_in_and_out(first, second)
             || self.steps_aside_over_a_lead(first, second)
+            || self.is_between_passes_to_and_fro(first, second, at)
     }
 
     /// Lead-in and lead-out end on the contour, and may reach it from different sides.
@@ -95,6 +96,40 @@ impl Tangle<'_> {
                 && [before, behind].into_iter().flatten().any(goes_back)
         };
         first <= 1 && is_step(second) || second + 2 >= self.count && is_step(first)
+    }
+
+    /// The pass back lies beside the one that the way in leads to: the way out begins beside the end of the way in, and
+    /// crosses it or the pass at its begin. What it would cut off is the strip between the two passes.
+    fn is_between_passes_to_and_fro(&self, first: usize, second: usize, at: Point) -> bool {
+        if first > 2 || second + 3 < self.count {
+            return false;
+        }
+        let middle = self.count / 2;
+        let between =
+            (middle.saturating_sub(2)..=middle + 2).filter_map(|index| self.step_back(index));
+        let Some(width) = between.reduce(f64::max) else {
+            return false;
+        };
+        let is_near = |point: Point| (point - at).norm() <= 2.0 * width + self.margin;
+        let ends = [0, 1].map(|index| self.at(index).map(|piece| piece.end()));
+        let begins = [1, 2].map(|back| {
+            let index = self.count.checked_sub(back)?;
+            self.at(index).map(|piece| piece.start())
+        });
+        let any_near = |points: [Option<Point>; 2]| points.into_iter().flatten().any(is_near);
+        any_near(ends) && any_near(begins)
+    }
+
+    /// The length of a step to the side after which the wire goes back beside where it came from, µm.
+    fn step_back(&self, index: usize) -> Option<f64> {
+        let (before, step) = (self.at(index.checked_sub(1)?)?, self.at(index)?);
+        let along = before.end_tangent();
+        let by = step.end() - step.start();
+        let is_across = step.as_arc().is_none()
+            && by.norm() <= BESIDE
+            && 2.0 * by.dot(&along).abs() < by.norm();
+        let turns_back = along.dot(&self.at(index + 1)?.start_tangent()) < -SMOOTH;
+        (is_across && turns_back).then(|| by.norm())
     }
 
     /// The tab is cut beside the pass before it, through the end of the way in of that pass.
