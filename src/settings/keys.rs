@@ -4,7 +4,7 @@
 
 use super::reader::{Reader, Table};
 use super::row::{Range, Row, naming_profiles};
-use super::spelling::{snake_case, words_of};
+use super::spelling::words_of;
 use super::table::{Overlay, as_toml, kebab_case};
 use super::value::Node;
 use super::{
@@ -320,11 +320,4 @@ pub fn rows() -> Vec<Row> {
     rows.extend(ContourSettings::rows("drawings.NAME.contours.HANDLE."));
     rows.extend(ProfileSettings::rows("profiles.NAME."));
     rows
-}
-
-/// The whole name of a key that stands in another table than where it was written; the first of several.
-pub(super) fn elsewhere(key: &str) -> Option<String> {
-    let key = kebab_case(&snake_case(key));
-    let own = |row: &Row| row.key.rsplit('.').next() == Some(&key);
-    rows().into_iter().find(own).map(|row| row.key)
 }

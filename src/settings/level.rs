@@ -3,12 +3,15 @@
 use super::reader::Reader;
 use super::spelling::snake_case;
 use super::value::{Node, Value};
-use super::{PassFault, Settings, SettingsError, shipped_profiles};
+use super::{PassFault, Settings, SettingsError, rows, shipped_profiles};
 use std::collections::BTreeMap;
 
 /// Reads the root table. Null is an empty level.
 pub(super) fn read(root: &Node) -> (Settings, Vec<SettingsError>) {
-    let mut reader = Reader::default();
+    let mut reader = Reader {
+        all_keys: Some(rows),
+        ..Reader::default()
+    };
     let mut settings: Settings = reader.table("", root).unwrap_or_default();
     let errors = settings.contradictions(&|fault| place_of(root, fault));
     reader.errors.extend(errors);

@@ -24,6 +24,8 @@ pub(super) trait Table: Default {
 #[derive(Default)]
 pub(super) struct Reader {
     pub(super) errors: Vec<SettingsError>,
+    /// Makes the list of all keys, where one that is not known may be one of another table.
+    pub(super) all_keys: Option<fn() -> Vec<Row>>,
 }
 
 impl Reader {
@@ -414,11 +416,18 @@ impl Reader {
         None
     }
 
+    /// The whole name of a key that stands in another table than where it was written; the first of several.
+    fn elsewhere(&self, key: &str) -> Option<String> {
+        let key = snake_case(key);
+        let is_it = |row: &Row| row.key.rsplit('.').next().map(snake_case).as_ref() == Some(&key);
+        self.all_keys?().into_iter().find(is_it).map(|row| row.key)
+    }
+
     fn unknown(&mut self, key: &str, entry: &Entry, expected: &str) {
         let near = nearest(&entry.key, expected);
         // A key of another table is likelier than one of this that differs in several letters.
         let is_slip = near.is_some_and(|near| is_slip(&entry.key, near));
-        let elsewhere = super::keys::elsewhere(&entry.key).filter(|_| !is_slip);
+        let elsewhere = self.elsewhere(&entry.key).filter(|_| !is_slip);
         let message = match elsewhere.as_deref().or(near) {
             Some(likely) => say!(is_not_known_did_you_mean, key, likely),
             None => say!(is_not_known, key, expected),
