@@ -427,7 +427,10 @@ impl Reader {
         let near = nearest(&entry.key, expected);
         // A key of another table is likelier than one of this that differs in several letters.
         let is_slip = near.is_some_and(|near| is_slip(&entry.key, near));
-        let elsewhere = self.elsewhere(&entry.key).filter(|_| !is_slip);
+        let elsewhere = match is_slip {
+            true => None,
+            false => self.elsewhere(&entry.key),
+        };
         let message = match elsewhere.as_deref().or(near) {
             Some(likely) => say!(is_not_known_did_you_mean, key, likely),
             None => say!(is_not_known, key, expected),

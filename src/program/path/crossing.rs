@@ -52,6 +52,14 @@ pub(in crate::program) fn margin(arcs: usize) -> f64 {
     tolerance(arcs.next_power_of_two())
 }
 
+/// The length of a step from one pass to the side, for another beside it, µm; `None` where it is none.
+pub(super) fn step_across(before: &Segment, step: &Segment) -> Option<f64> {
+    let (by, along) = (step.end() - step.start(), before.end_tangent());
+    let is_across =
+        step.as_arc().is_none() && by.norm() <= BESIDE && 2.0 * by.dot(&along).abs() < by.norm();
+    is_across.then(|| by.norm())
+}
+
 /// A way by its pieces, each of which begins where the one before ends.
 pub(in crate::program) struct Tangle<'a> {
     pub(crate) piece: &'a dyn Fn(usize) -> Option<Segment>,

@@ -6,7 +6,7 @@
 //! then decides which pieces cross, so that the division into parts does not matter.
 
 use super::crossing::{
-    BESIDE, Crossing, MOST_PAIRS, Tangle, come_near, margin, most_looks, near_each_other,
+    Crossing, MOST_PAIRS, Tangle, come_near, margin, most_looks, near_each_other, step_across,
 };
 use super::known_tabs::KnownTabs;
 use super::offset_losses::{ControlOffset, Loss, losses};
@@ -432,12 +432,7 @@ fn aside_at_stop(way: &PartedWay<'_>) -> f64 {
     let across = || {
         let behind = way.stop()?;
         let before = way.piece(behind.checked_sub(1)?)?;
-        let step = way.piece(behind)?;
-        let (by, along) = (step.end() - step.start(), before.end_tangent());
-        let is_across = step.as_arc().is_none()
-            && by.norm() <= BESIDE
-            && 2.0 * by.dot(&along).abs() < by.norm();
-        is_across.then(|| by.norm())
+        step_across(&before, &way.piece(behind)?)
     };
     across().unwrap_or(0.0)
 }

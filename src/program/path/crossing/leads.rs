@@ -1,6 +1,6 @@
 //! Where the way meets its own leads: in the scrap, where nothing of the part is cut.
 
-use super::{BESIDE, Tangle};
+use super::{BESIDE, Tangle, step_across};
 use crate::geometry::{Point, Segment};
 
 /// This many blocks may follow the closing point of a way.
@@ -123,13 +123,11 @@ impl Tangle<'_> {
     /// The length of a step to the side after which the wire goes back beside where it came from, µm.
     fn step_back(&self, index: usize) -> Option<f64> {
         let (before, step) = (self.at(index.checked_sub(1)?)?, self.at(index)?);
-        let along = before.end_tangent();
-        let by = step.end() - step.start();
-        let is_across = step.as_arc().is_none()
-            && by.norm() <= BESIDE
-            && 2.0 * by.dot(&along).abs() < by.norm();
-        let turns_back = along.dot(&self.at(index + 1)?.start_tangent()) < -SMOOTH;
-        (is_across && turns_back).then(|| by.norm())
+        let turns_back = before
+            .end_tangent()
+            .dot(&self.at(index + 1)?.start_tangent())
+            < -SMOOTH;
+        step_across(&before, &step).filter(|_| turns_back)
     }
 
     /// The tab is cut beside the pass before it, through the end of the way in of that pass.
