@@ -2,6 +2,14 @@
 # Everything goes into places of the project's own (a virtual environment, node_modules, target/), but for Debian's packages,
 # which are installed where the user is root and named where he is not.
 
+# wedm_program ROOT: the program that a client is tested with, $WEDM, else what was built last.
+wedm_program() {
+    local built
+    # shellcheck disable=SC2012
+    built=$(ls -t "$1"/target/{release,debug}/wedm 2>/dev/null | head -n 1)
+    printf '%s\n' "${WEDM:-${built:-$1/target/debug/wedm}}"
+}
+
 # Tries a command twice: a registry may stumble.
 twice() { "$@" || { sleep 2; "$@"; }; }
 
@@ -40,8 +48,13 @@ debian() {
     echo "== installing Debian's ${missing[*]}"
     local options=(-qq -o DPkg::Lock::Timeout=300)
     apt_install() {
-        timeout 300 apt-get "${options[@]}" update >/dev/null &&
-            DEBIAN_FRONTEND=noninteractive timeout 900 apt-get "${options[@]}" install -y --no-install-recommends "${missing[@]}" >/dev/null
+        # The lists of the last hour are good enough.
+        [ -n "$(find /var/lib/apt/lists -maxdepth 1 -name '*Packages*' -mmin -60 2>/dev/null)" ] ||
+            timeout 300 apt-get "${options[@]}" update >/dev/null || return 1
+        DEBIAN_FRONTEND=noninteractive timeout 900 apt-get "${options[@]}" install -y --no-install-recommends "${missing[@]}" >/dev/null && return 0
+        # Lists that are too old name packages that are gone.
+        timeout 300 apt-get "${options[@]}" update >/dev/null
+        return 1
     }
     patiently "installing packages" twice apt_install
 }

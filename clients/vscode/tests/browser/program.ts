@@ -98,6 +98,8 @@ export async function program(checks: Checks): Promise<void> {
       }
       await expectSoon("a wire that goes on", async () => Number(await slider.inputValue()) > 20, () => slider.inputValue());
       await page.locator("#play").click();
+      // The wire moves until the window has got round to the click.
+      await expectSoon("a wire that is stopped", async () => (await page.locator("#play.playing").count()) === 0);
       const stopped = await slider.inputValue();
       await host.page.waitForTimeout(400);
       expectEqual("paused", await slider.inputValue(), stopped);
