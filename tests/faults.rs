@@ -3,7 +3,7 @@
 //! The table in `docs/programs.md` is made by
 //!
 //! ```text
-//! cargo test --release --test faults table -- --ignored --nocapture
+//! cargo test --release --test core faults table -- --ignored --nocapture
 //! ```
 //!
 //! `WEDM_FAULTS=SEED,PROGRAMS` takes other programs, or more of them; `WEDM_FAULTS_SHOW=TEXT` shows each fault whose group, kind or

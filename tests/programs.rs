@@ -113,7 +113,7 @@ fn right_programs_are_silent() {
 }
 
 /// What is said of each stands beside it, and that nothing is left to say where "fix all" has an answer to all. Update it with
-/// `UPDATE_EXPECT=1 cargo test --test programs`.
+/// `UPDATE_EXPECT=1 cargo test --test core programs`.
 #[test]
 fn every_fault_of_wrong_programs_is_found_at_its_place() {
     for path in folder("wrong") {

@@ -12,6 +12,6 @@ fn the_committed_schema_is_current() {
     let committed = std::fs::read_to_string(&path).unwrap_or_default();
     assert!(
         committed == schema,
-        "docs/protocol.schema.json is out of date; update it with: UPDATE_EXPECT=1 cargo test --test schema"
+        "docs/protocol.schema.json is out of date; update it with: UPDATE_EXPECT=1 cargo test --test command_line schema"
     );
 }

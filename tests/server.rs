@@ -19,6 +19,8 @@ mod end;
 mod fits;
 #[path = "server/flood.rs"]
 mod flood;
+#[cfg(feature = "testing")]
+mod fuzz_seeds;
 #[path = "server/handshake.rs"]
 mod handshake;
 #[path = "server/language.rs"]
@@ -31,6 +33,11 @@ mod program_text;
 mod programs;
 #[path = "server/settings.rs"]
 mod settings;
+#[path = "soak.rs"]
+mod soak;
+#[cfg(feature = "testing")]
+#[path = "testing.rs"]
+mod testing;
 #[path = "server/texts.rs"]
 mod texts;
 #[path = "server/token_deltas.rs"]

@@ -3,21 +3,17 @@
 //! flat, and in the end the server says what one says that is opened from scratch.
 //!
 //! A seed makes one sequence of steps; how far it goes depends on the time. For hours, with other seeds:
-//! `WEDM_SOAK_SEED=7 WEDM_SOAK_SECONDS=3600 cargo test --test soak -- --nocapture`.
-
-#[allow(dead_code, reason = "others use the rest")]
-#[path = "support/mod.rs"]
-mod support;
+//! `WEDM_SOAK_SEED=7 WEDM_SOAK_SECONDS=3600 cargo test --test server soak -- --nocapture`.
 
 #[path = "soak/model.rs"]
 mod model;
 #[path = "soak/seeds.rs"]
 mod seeds;
 
+use crate::support::{Client, capabilities};
 use model::{Model, Random};
 use serde_json::{Value, json};
 use std::time::{Duration, Instant};
-use support::{Client, capabilities};
 
 /// What the tests of the project take: this long, or this many steps.
 const SECONDS: u64 = 60;

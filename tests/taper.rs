@@ -252,7 +252,7 @@ fn an_edit_leaves_what_is_said_as_read_afresh() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
+    #![proptest_config(ProptestConfig::with_cases(24))]
 
     /// Round any convex contour of lines and arcs the upper profile goes on where it ended, and lies by the height and the angle beside the
     /// programmed one.

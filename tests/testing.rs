@@ -1,8 +1,4 @@
-//! What needs a server with hidden methods, which the shipped one has not: `cargo test --features testing --test testing`.
-
-#[allow(dead_code, reason = "others use the rest")]
-#[path = "support/mod.rs"]
-mod support;
+//! What needs a server with hidden methods, which the shipped one has not: `cargo test --features testing --test server testing`.
 
 #[path = "testing/panics.rs"]
 mod panics;

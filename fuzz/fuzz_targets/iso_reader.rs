@@ -1,14 +1,5 @@
-//! Bytes as an ISO program: reading, findings, fixes and the trace end whatever they are, every place lies in the text, and a document
-//! that was edited is the one read from scratch.
+//! Hands what libFuzzer draws to `wedm_fuzz::iso_reader`.
 
 #![no_main]
 
-use libfuzzer_sys::fuzz_target;
-use wedm::program::{Document, Language};
-use wedm_fuzz::check_program;
-
-fuzz_target!(|data: &[u8]| {
-    let [edited, fresh] = check_program(Language::Iso, data);
-    let (Document::Iso(edited), Document::Iso(fresh)) = (edited, fresh) else { panic!("another language") };
-    assert_eq!(edited.reading(), fresh.reading(), "how the numbers of an edited document are meant");
-});
+libfuzzer_sys::fuzz_target!(|data: &[u8]| wedm_fuzz::iso_reader::run(data));

@@ -1,12 +1,5 @@
-//! Bytes as a stream of frames: every step uses up bytes, and how they come makes no difference.
+//! Hands what libFuzzer draws to `wedm_fuzz::server_frames`.
 
 #![no_main]
 
-use libfuzzer_sys::fuzz_target;
-use wedm::server::testing::bodies;
-
-fuzz_target!(|data: &[u8]| {
-    let is_broken = |body: &[u8]| body.len() % 2 == 0;
-    let at_once = bodies(data, usize::MAX, is_broken);
-    assert_eq!(bodies(data, 1 + data.len() % 7, is_broken), at_once, "bytes that come a few at a time");
-});
+libfuzzer_sys::fuzz_target!(|data: &[u8]| wedm_fuzz::server_frames::run(data));

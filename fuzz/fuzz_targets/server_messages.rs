@@ -1,12 +1,5 @@
-//! A session of a client with a whole server: every request is answered once and never with an internal error, whatever came before
-//! it, and nothing panics.
+//! Hands what libFuzzer draws to `wedm_fuzz::server_messages`.
 
 #![no_main]
 
-use libfuzzer_sys::fuzz_target;
-use wedm::server::testing::{check_answers, sequence, served};
-
-fuzz_target!(|data: &[u8]| {
-    let sequence = sequence(&data[..data.len().min(1_000)]);
-    check_answers(&sequence, &served(&sequence.stream));
-});
+libfuzzer_sys::fuzz_target!(|data: &[u8]| wedm_fuzz::server_messages::run(data));

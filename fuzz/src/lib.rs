@@ -1,4 +1,14 @@
-//! What several fuzz targets share: an input cut in two, edits made of bytes, and a document put into words.
+//! What several fuzz targets share: an input cut in two, edits made of bytes, and a document put into words. A file for
+//! each target; `tests/fuzz_seeds.rs` of the package above runs them, too, over the seeds.
+
+pub mod dxf_lexer;
+pub mod dxf_reader;
+pub mod incremental_equals_fresh;
+pub mod iso_reader;
+pub mod server_frames;
+pub mod server_messages;
+pub mod three_b_controller;
+pub mod three_b_reader;
 
 use std::ops::Range;
 use wedm::document::Document;
@@ -25,7 +35,9 @@ impl Script<'_> {
     }
 
     pub fn byte(&mut self) -> usize {
-        let Some((&first, rest)) = self.0.split_first() else { return 0 };
+        let Some((&first, rest)) = self.0.split_first() else {
+            return 0;
+        };
         self.0 = rest;
         usize::from(first)
     }
@@ -57,7 +69,11 @@ pub fn edit_of(script: &mut Script, length: usize, phrases: &[&str]) -> (Range<u
     let typed = match kind / 4 % 3 {
         0 => script.text(1),
         1 => String::new(),
-        _ => phrases.get(script.byte() % phrases.len().max(1)).copied().unwrap_or_default().to_owned(),
+        _ => phrases
+            .get(script.byte() % phrases.len().max(1))
+            .copied()
+            .unwrap_or_default()
+            .to_owned(),
     };
     (start..(start + removed).min(length), typed)
 }
@@ -66,7 +82,8 @@ pub fn edit_of(script: &mut Script, length: usize, phrases: &[&str]) -> (Range<u
 fn edit_of_program(data: &[u8]) -> (Range<usize>, String) {
     let number = |at: usize| data.get(at).copied().map_or(0, usize::from);
     let start = (number(0) * 256 + number(1)) % (data.len() + 1);
-    let replacement = String::from_utf8_lossy(data.get(..number(2) % 8).unwrap_or_default()).into_owned();
+    let replacement =
+        String::from_utf8_lossy(data.get(..number(2) % 8).unwrap_or_default()).into_owned();
     (start..start + number(3) % 64, replacement)
 }
 
@@ -80,7 +97,11 @@ pub fn check_program(language: Language, data: &[u8]) -> [Program; 2] {
     edited.edit(range, &replacement);
     check_places(&edited);
     let fresh = Program::read(language, edited.text().bytes().to_vec(), &settings);
-    assert_eq!(findings_of(&edited), findings_of(&fresh), "findings of an edited document");
+    assert_eq!(
+        findings_of(&edited),
+        findings_of(&fresh),
+        "findings of an edited document"
+    );
     assert_eq!(edited.trace(), fresh.trace(), "trace of an edited document");
     [edited, fresh]
 }
@@ -93,18 +114,31 @@ fn findings_of(program: &Program) -> Vec<Finding> {
 fn check_places(program: &Program) {
     let length = program.text().len();
     for finding in findings_of(program).iter().take(64) {
-        let Place::Text { range } = &finding.place else { panic!("{finding:?} has no place") };
-        assert!(range.start <= range.end && range.end <= length, "{finding:?} in {length} bytes");
+        let Place::Text { range } = &finding.place else {
+            panic!("{finding:?} has no place")
+        };
+        assert!(
+            range.start <= range.end && range.end <= length,
+            "{finding:?} in {length} bytes"
+        );
         for fix in program.fixes(finding) {
             let mut from = 0;
             for edit in &fix.edit {
-                assert!(from <= edit.range.start && edit.range.start <= edit.range.end && edit.range.end <= length, "{fix:?}");
+                assert!(
+                    from <= edit.range.start
+                        && edit.range.start <= edit.range.end
+                        && edit.range.end <= length,
+                    "{fix:?}"
+                );
                 from = edit.range.end;
             }
         }
     }
     for step in &program.trace().steps {
-        assert!(step.range.end <= length && step.line < program.text().line_count(), "{step:?}");
+        assert!(
+            step.range.end <= length && step.line < program.text().line_count(),
+            "{step:?}"
+        );
         assert!(step.end.x.is_finite() && step.end.y.is_finite(), "{step:?}");
     }
 }
@@ -114,31 +148,59 @@ fn check_places(program: &Program) {
 pub fn described(document: &Document) -> Vec<String> {
     let mut all = Vec::new();
     let Some(drawing) = document.drawing() else {
-        all.extend(document.all_findings().iter().map(|finding| format!("{finding:?}")));
+        all.extend(
+            document
+                .all_findings()
+                .iter()
+                .map(|finding| format!("{finding:?}")),
+        );
         return all;
     };
     all.push(format!("{:?}", drawing.unit));
     for (order, (id, entity)) in drawing.entities().enumerate() {
         let editable = drawing.is_editable(id);
         let look = (drawing.visibility(id), drawing.color(id));
-        all.push(format!("{order} {entity:?} {look:?} editable {editable} at {:?}", document.range_of(&Place::Entity { entity: id })));
+        all.push(format!(
+            "{order} {entity:?} {look:?} editable {editable} at {:?}",
+            document.range_of(&Place::Entity { entity: id })
+        ));
         for segment in 0..entity.geometry.segment_count() {
-            all.push(format!("  {segment} at {:?}", document.range_of(&Place::Segment { entity: id, segment })));
+            all.push(format!(
+                "  {segment} at {:?}",
+                document.range_of(&Place::Segment {
+                    entity: id,
+                    segment
+                })
+            ));
         }
     }
     if let Some(snapshot) = document.snapshot() {
         for outline in snapshot.outlines.iter() {
-            let pieces: Vec<String> =
-                outline.contour.segments(drawing).map(|piece| in_order(drawing, piece.entity, piece.segment)).collect();
-            all.push(format!("contour {:?} closed {} {pieces:?}", outline.role, outline.contour.closed));
+            let pieces: Vec<String> = outline
+                .contour
+                .segments(drawing)
+                .map(|piece| in_order(drawing, piece.entity, piece.segment))
+                .collect();
+            all.push(format!(
+                "contour {:?} closed {} {pieces:?}",
+                outline.role, outline.contour.closed
+            ));
         }
     }
-    all.extend(document.all_findings().iter().map(|finding| finding_in_words(drawing, finding)));
+    all.extend(
+        document
+            .all_findings()
+            .iter()
+            .map(|finding| finding_in_words(drawing, finding)),
+    );
     all
 }
 
 fn in_order(drawing: &Drawing, entity: EntityId, segment: usize) -> String {
-    format!("{:?}/{segment}", drawing.order().iter().position(|&other| other == entity))
+    format!(
+        "{:?}/{segment}",
+        drawing.order().iter().position(|&other| other == entity)
+    )
 }
 
 fn finding_in_words(drawing: &Drawing, finding: &Finding) -> String {
@@ -148,10 +210,19 @@ fn finding_in_words(drawing: &Drawing, finding: &Finding) -> String {
         ref other => format!("{other:?}"),
     };
     let related: Vec<String> = finding.related.iter().map(place).collect();
-    format!("{:?} {:?} {} {related:?} {:?}", finding.rule, finding.severity, place(&finding.place), finding.detail)
+    format!(
+        "{:?} {:?} {} {related:?} {:?}",
+        finding.rule,
+        finding.severity,
+        place(&finding.place),
+        finding.detail
+    )
 }
 
 /// Number of segments of a drawing: what work on it is bounded by.
 pub fn segment_count(drawing: &Drawing) -> usize {
-    drawing.entities().map(|(_, entity)| entity.geometry.segment_count()).sum()
+    drawing
+        .entities()
+        .map(|(_, entity)| entity.geometry.segment_count())
+        .sum()
 }

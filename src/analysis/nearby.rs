@@ -294,7 +294,7 @@ mod tests {
     thread_local!(pub(super) static PARTS: Cell<usize> = const { Cell::new(0) });
 
     proptest! {
-        #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
+        #![proptest_config(ProptestConfig { cases: 48, failure_persistence: None, ..ProptestConfig::default() })]
 
         /// At a small pitch the figures lie within each other's reach, and what decides may lie at
         /// the border of the part.

@@ -344,7 +344,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig::with_cases(48))]
+        #![proptest_config(ProptestConfig::with_cases(24))]
         #[test]
         fn a_drawing_is_shown_as_afresh(edits in drawn_edits()) {
             let settings = Arc::new(Effective::of(&crate::settings::Settings::default()));

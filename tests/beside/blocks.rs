@@ -104,7 +104,7 @@ fn judge(case: &Case, picks: &[(f64, usize, bool)]) -> Result<(), String> {
 }
 
 /// Many programs and one changed block in each, the same ones at every run: nothing is reported about those that are unchanged, and of a change
-/// just its own line. `WEDM_CASES=500 cargo test --test beside -- --nocapture` tells of each that is not so, `WEDM_CASE=22` of one alone.
+/// just its own line. `WEDM_CASES=500 cargo test --test core beside -- --nocapture` tells of each that is not so, `WEDM_CASE=22` of one alone.
 #[test]
 fn one_changed_block_is_named_and_no_other() {
     use proptest::strategy::ValueTree;

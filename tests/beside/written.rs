@@ -172,7 +172,7 @@ fn judge_otherwise(of: &Otherwise, picks: &[(f64, usize, bool)]) -> Vec<(&'stati
 }
 
 /// Programs of which the drawing's settings do not know how they were written: nothing is reported about those that are unchanged, of a change
-/// just its own line. `WEDM_CASES=500 cargo test --test beside otherwise -- --nocapture` tells of each that is not so.
+/// just its own line. `WEDM_CASES=500 cargo test --test core beside otherwise -- --nocapture` tells of each that is not so.
 #[test]
 fn programs_that_were_written_otherwise_are_known() {
     use proptest::strategy::ValueTree;

@@ -136,7 +136,7 @@ fn pictures_are_written_as_png_and_pdf_too() {
     );
 }
 
-/// `UPDATE_EXPECT=1 cargo test --test cli` makes the pictures again.
+/// `UPDATE_EXPECT=1 cargo test --test command_line cli` makes the pictures again.
 #[test]
 fn the_pictures_of_the_documentation_are_current() {
     let desk = Desk::new();

@@ -103,7 +103,7 @@ fn the_list_of_rules_in_chinese_is_the_english_one() {
     }
     assert!(
         read(&path) == list,
-        "docs/zh/rules/README.md is out of date; update it with: UPDATE_EXPECT=1 cargo test --test docs"
+        "docs/zh/rules/README.md is out of date; update it with: UPDATE_EXPECT=1 cargo test --test command_line docs"
     );
 }
 

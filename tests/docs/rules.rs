@@ -23,7 +23,7 @@ fn every_rule_has_its_page() {
 }
 
 /// The list of rules: what each says, how bad it is where nothing is set, and in which documents it is found. Update it with
-/// `UPDATE_EXPECT=1 cargo test --test docs`.
+/// `UPDATE_EXPECT=1 cargo test --test command_line docs`.
 #[test]
 fn the_list_of_rules_is_the_table_of_rules() {
     let path = root().join("docs/rules/README.md");
@@ -65,7 +65,7 @@ fn the_list_of_rules_is_the_table_of_rules() {
     }
     assert!(
         read(&path) == list,
-        "docs/rules/README.md is out of date; update it with: UPDATE_EXPECT=1 cargo test --test docs"
+        "docs/rules/README.md is out of date; update it with: UPDATE_EXPECT=1 cargo test --test command_line docs"
     );
 }
 
@@ -229,7 +229,7 @@ fn check_picture(name: &str, drawn: &str) {
     }
     assert!(
         read(&path) == drawn,
-        "docs/pictures/{name} is out of date; update it with: UPDATE_EXPECT=1 cargo test --test docs"
+        "docs/pictures/{name} is out of date; update it with: UPDATE_EXPECT=1 cargo test --test command_line docs"
     );
 }
 
@@ -314,7 +314,7 @@ fn severity_on_page(rule: Rule) -> String {
 }
 
 /// The defaults of the rules stand in comments, since a rule that is set is no milder anywhere. Update them with
-/// `UPDATE_EXPECT=1 cargo test --test docs`.
+/// `UPDATE_EXPECT=1 cargo test --test command_line docs`.
 #[test]
 fn the_page_of_settings_shows_the_default_of_every_rule() {
     let path = root().join("docs/settings.md");
@@ -348,6 +348,6 @@ fn the_page_of_settings_shows_the_default_of_every_rule() {
     }
     assert!(
         read(&path) == shown,
-        "docs/settings.md is out of date; update it with: UPDATE_EXPECT=1 cargo test --test docs"
+        "docs/settings.md is out of date; update it with: UPDATE_EXPECT=1 cargo test --test command_line docs"
     );
 }

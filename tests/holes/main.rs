@@ -3,12 +3,10 @@
 mod leads;
 mod order;
 mod places;
-#[path = "../support/generate.rs"]
-mod support;
 mod work;
+use crate::support::generate;
 use proptest::prelude::*;
 use std::sync::Arc;
-use support::generate;
 use wedm::analysis::Analysis;
 use wedm::document::{Document, Source as Of};
 use wedm::drawing::{Drawing, Entity, Geometry, Kind, Outline, Role, Unit, Vertex};

@@ -105,12 +105,12 @@ fn apply(drawing: &mut Drawing, edit: &Edit) -> Option<Touched> {
     }
 }
 
-/// Number of cases: `usual`, unless the environment asks for another one (`PROPTEST_CASES`).
+/// Number of cases: `usual`, and no more than the environment allows (`PROPTEST_CASES`).
 fn cases(usual: u32) -> u32 {
     std::env::var("PROPTEST_CASES")
         .ok()
         .and_then(|number| number.parse().ok())
-        .unwrap_or(usual)
+        .map_or(usual, |cases: u32| cases.min(usual))
 }
 
 /// Findings and where they lie, entities by their place in the machining order.

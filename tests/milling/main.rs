@@ -4,10 +4,8 @@ mod pockets;
 mod programs;
 mod refusals;
 mod slots;
-#[path = "../support/generate.rs"]
-mod support;
+use crate::support::generate;
 use std::sync::Arc;
-use support::generate;
 use wedm::beside::{Traced, compare};
 use wedm::document::{Document, Source};
 use wedm::drawing::{Drawing, Entity, Geometry, Kind, Role, Unit, Vertex};

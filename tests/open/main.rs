@@ -2,13 +2,11 @@
 
 mod judged;
 mod paths;
-#[path = "../support/generate.rs"]
-mod support;
+use crate::support::generate;
 use proptest::prelude::*;
 use std::path::Path;
 use std::process::Command;
 use std::sync::Arc;
-use support::generate;
 use wedm::document::{self, Source as Of};
 use wedm::drawing::{Drawing, Entity, Geometry, Kind, Unit, Vertex};
 use wedm::finding::{Finding, Rule, Severity};

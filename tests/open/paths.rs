@@ -315,7 +315,7 @@ fn wild() -> impl Strategy<Value = Vec<[f64; 3]>> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 96, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 24, ..ProptestConfig::default() })]
 
     #[test]
     fn paths_beside_random_open_contours_are_right(corners in wild(), left: bool, large: bool) {

@@ -3,5 +3,3 @@
 mod cases;
 mod dead_ends;
 mod outlines;
-#[path = "../support/star.rs"]
-mod star;

@@ -6,12 +6,10 @@ mod programs;
 mod standing;
 mod stock;
 mod stops;
-#[path = "../support/generate.rs"]
-mod support;
 mod tabs;
 
+use crate::support::generate;
 use std::sync::Arc;
-use support::generate;
 use wedm::analysis::Analysis;
 use wedm::drawing::{Drawing, Entity, Geometry, Kind, Outline, Role, Unit, Vertex};
 use wedm::job;

@@ -15,7 +15,7 @@ fn samples(segment: &Segment) -> impl Iterator<Item = Point> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 150, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 24, failure_persistence: None, ..ProptestConfig::default() })]
 
     /// Parts beside each other, thread holes anywhere: a lead that comes out is clear of every part, and one that is refused is not.
     #[test]

@@ -1,7 +1,7 @@
 //! Every refactoring at every fixture: the text that it makes, or why it refuses, as it is recorded in a file. Of long texts, and of
 //! those that are made of faulty programs, a hash is recorded.
 //!
-//! `UPDATE_EXPECT=1 cargo test --test programs refactor` records again what they do.
+//! `UPDATE_EXPECT=1 cargo test --test core programs refactor` records again what they do.
 
 use super::language_of;
 use expect_test::expect_file;

@@ -1,7 +1,7 @@
 //! Wherever the keys of the settings are listed, the list is that of `src/settings/keys.rs`: the tables of the documentation, the file
 //! that the page of settings shows, the settings page of VS Code, the types of the Python client.
 //!
-//! `UPDATE_EXPECT=1 cargo test --test settings` rewrites them.
+//! `UPDATE_EXPECT=1 cargo test --test command_line settings` rewrites them.
 
 mod clients;
 mod pages;
@@ -26,7 +26,7 @@ fn hold(file: &str, from: &str, to: &str, expected: &str) {
     }
     assert!(
         std::env::var_os("UPDATE_EXPECT").is_some(),
-        "{file} does not list the settings as they are; update it with: UPDATE_EXPECT=1 cargo test --test settings"
+        "{file} does not list the settings as they are; update it with: UPDATE_EXPECT=1 cargo test --test command_line settings"
     );
     let text = [&text[..begin], expected, &text[begin + length..]].concat();
     std::fs::write(&path, text).unwrap();

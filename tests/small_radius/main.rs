@@ -3,6 +3,4 @@
 mod opening;
 mod oracle;
 mod refusals;
-#[path = "../support/star.rs"]
-mod star;
 mod support;

@@ -448,7 +448,7 @@ fn an_edit_among_thousands_of_ends_chains_them_as_a_fresh_start_does() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
 
     /// Lines and arcs between a few places, some of them a little apart, in other orders.
     #[test]

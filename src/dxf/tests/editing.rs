@@ -220,7 +220,7 @@ fn any_edit_of_a_line() -> impl Strategy<Value = (usize, usize, usize, &'static 
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
+    #![proptest_config(ProptestConfig::with_cases(24))]
     #[test]
     fn after_edits_of_vertices_a_polyline_is_as_if_read_afresh(edits in prop::collection::vec(any_edit_of_a_line(), 1..16)) {
         let mut document = Document::read(dxf(&long_polyline()).into_bytes());

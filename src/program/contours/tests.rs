@@ -142,7 +142,7 @@ fn assert_edited_as_afresh(
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(48))]
+    #![proptest_config(ProptestConfig::with_cases(24))]
     #[test]
     fn an_edit_among_stops_leaves_contours_as_read_afresh(
         openings in prop::collection::vec(opening(), 1..16),
@@ -270,7 +270,7 @@ fn open_contours(language: Language, contours: &[(u8, i32)], is_numbered: bool) 
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(32))]
+    #![proptest_config(ProptestConfig::with_cases(24))]
     #[test]
     fn an_edit_among_open_contours_leaves_what_is_said_of_them_as_read_afresh(
         contours in prop::collection::vec((0_u8..6, 5_i32..14), 1..60),

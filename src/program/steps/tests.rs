@@ -210,7 +210,7 @@ fn check(language: Language, text: String, edits: Edits) -> Result<(), TestCaseE
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(48))]
+    #![proptest_config(ProptestConfig::with_cases(24))]
 
     #[test]
     fn parts_of_a_3b_program_are_those_of_the_whole(

@@ -209,7 +209,7 @@ fn hooked() -> impl Strategy<Value = Vec<[f64; 3]>> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { max_global_rejects: 100_000, ..ProptestConfig::with_cases(150) })]
+    #![proptest_config(ProptestConfig { max_global_rejects: 100_000, ..ProptestConfig::with_cases(24) })]
 
     #[test]
     fn hooks_and_spikes_are_gone_round(outline in hooked(), punch: bool, clockwise: bool, tips: bool) {

@@ -93,7 +93,7 @@ pub(super) fn judged(outline: &[[f64; 3]], offset: f64) -> Option<Vec<Vec<Segmen
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { max_global_rejects: 100_000, ..ProptestConfig::with_cases(200) })]
+    #![proptest_config(ProptestConfig { max_global_rejects: 100_000, ..ProptestConfig::with_cases(32) })]
 
     #[test]
     fn a_path_is_what_another_library_offsets(outline in random_outline(), punch: bool, clockwise: bool) {

@@ -1,7 +1,7 @@
 //! Faults in an ISO line.
 
 use super::{damaged, with};
-use crate::chance::Chance;
+use crate::faults::chance::Chance;
 use std::ops::Range;
 
 /// The words of an ISO line: letter, and the bytes of the number after it. Comments are left out.

@@ -1,6 +1,6 @@
 //! The kinds of faults, by their names.
 
-use crate::contours::Group;
+use crate::faults::contours::Group;
 
 /// The kinds of faults of a group, each by its name and how it is put in.
 pub fn kinds(group: Group) -> Vec<&'static str> {

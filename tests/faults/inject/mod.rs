@@ -4,8 +4,8 @@ mod iso;
 mod kinds;
 mod three_b;
 
-use crate::chance::Chance;
-use crate::contours::Group;
+use crate::faults::chance::Chance;
+use crate::faults::contours::Group;
 pub use kinds::kinds;
 use std::ops::Range;
 

@@ -1,7 +1,7 @@
 //! Faults in a 3B block.
 
 use super::{damaged, with};
-use crate::chance::Chance;
+use crate::faults::chance::Chance;
 use std::ops::Range;
 use wedm::program::three_b::{Fields, Item, Words, fields_of, read_line};
 

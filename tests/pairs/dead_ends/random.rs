@@ -247,7 +247,7 @@ fn cases(usual: u32) -> u32 {
     std::env::var("PROPTEST_CASES")
         .ok()
         .and_then(|number| number.parse().ok())
-        .unwrap_or(usual)
+        .map_or(usual, |cases: u32| cases.min(usual))
 }
 
 proptest! {

@@ -93,7 +93,7 @@ fn everything_can_be_asked_of_any_text() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 48, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 24, ..ProptestConfig::default() })]
 
     #[test]
     fn everything_can_be_asked_of_damaged_text(gone in prop::collection::vec(0usize..190, 1..6), cut in 0usize..800) {

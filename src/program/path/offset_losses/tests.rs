@@ -143,7 +143,7 @@ fn what_touches_itself_has_no_sides() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 96, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 24, ..ProptestConfig::default() })]
 
     /// Contours that are passed over lose nothing: stars of a few points, with bent sides.
     #[test]

@@ -145,7 +145,7 @@ fn steps_beyond_the_circle_are_counted_on_the_way_out_and_back() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 4000, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 512, ..ProptestConfig::default() })]
 
     #[test]
     fn the_closed_form_is_every_step(block in any_block()) {

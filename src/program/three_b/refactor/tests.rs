@@ -472,7 +472,7 @@ fn the_pause_before_a_tab_stays_where_it_is() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(200))]
+    #![proptest_config(ProptestConfig::with_cases(32))]
 
     #[test]
     fn every_refactoring_of_every_program_is_edits_or_a_reason(

@@ -61,7 +61,7 @@ fn radius() -> impl Strategy<Value = f64> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { max_global_rejects: 100_000, ..ProptestConfig::with_cases(400) })]
+    #![proptest_config(ProptestConfig { max_global_rejects: 100_000, ..ProptestConfig::with_cases(64) })]
 
     /// There is a path, wherever the contour begins and whatever rounding leaves of its arcs.
     #[test]
