@@ -278,6 +278,7 @@ impl Analysis {
                 let nearest_first = joints.into_iter().map(|(_, before)| before);
                 nearest_first
                     .filter_map(|before| small_radius::fillet(&travel, before, &limits))
+                    .map(|(edit, _)| edit)
                     .collect()
             }
         }

@@ -166,8 +166,9 @@ told! {
     /// The end points stay, only the bulge changes; the contour kinks by `kink` radians at each end.
     KeepEndPoints { radius: f64, kink: f64 }
         => say!(change_only_the_bulge, mm(radius * unit_mm), kink.to_degrees());
-    /// A sharp corner gets a fillet of `radius`.
-    Fillet { radius: f64 } => say!(round_the_corner_with_r_mm, mm(radius * unit_mm));
+    /// A sharp corner gets a fillet of `radius`; the contour moves by at most `moved`.
+    Fillet { radius: f64, moved: f64 }
+        => say!(round_the_corner_with_r_mm, mm(radius * unit_mm), mm(moved * unit_mm));
     /// The corner of a part gets the least `radius` that fits, that of its partner the `other`, where it is drawn.
     FitCorner { radius: f64, other: Option<f64> } => match (mm(radius * unit_mm), other) {
         (radius, None) => say!(give_the_corner_the_least_radius_that_fits, radius),

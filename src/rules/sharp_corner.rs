@@ -195,11 +195,12 @@ fn fixes(outlook: &Outlook, observation: Observation) -> Vec<Fix> {
         Side::Left => travel.position_of(index) - 1,
         Side::Right => travel.position_of(index),
     };
-    let Some(edit) = fillet(&travel, before, outlook.limits) else {
+    let Some((edit, moved)) = fillet(&travel, before, outlook.limits) else {
         return Vec::new();
     };
     let kind = FixKind::Fillet {
         radius: outlook.limits.fix_radius,
+        moved,
     };
     vec![Fix {
         kind,

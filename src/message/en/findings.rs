@@ -157,7 +157,7 @@ declare! {
     give_the_corner_the_least_radius_that_fits(radius) => "Give the corner R {radius} mm, the least that fits";
     give_the_corner_of_a_part_the_least_radius(of, radius) => "Give the corner of the {of} R {radius} mm, the least that fits";
     give_both_corners_radii_that_fit(radius, other) => "Give the corners R {radius} mm and R {other} mm, the least that fit";
-    round_the_corner_with_r_mm(radius) => "Round the corner with R {radius} mm";
+    round_the_corner_with_r_mm(radius, moved) => "Round the corner with R {radius} mm (moves the contour by {moved} mm)";
     close_the_contour => "Close the contour";
     close_the_contour_with_a_line_of_mm(length) => "Close the contour with a line of {length} mm";
     snap_the_ends_together(distance) => "Snap the ends together (moves them by {distance} mm)";

@@ -152,7 +152,7 @@ translate! {
     give_the_corner_the_least_radius_that_fits(radius) => "把角改为 R {radius} mm，即能配合的最小圆角";
     give_the_corner_of_a_part_the_least_radius(of, radius) => "把 {of} 的角改为 R {radius} mm，即能配合的最小圆角";
     give_both_corners_radii_that_fit(radius, other) => "把两个角改为 R {radius} mm 和 R {other} mm，即能配合的最小圆角";
-    round_the_corner_with_r_mm(radius) => "拐角倒圆 R {radius} mm";
+    round_the_corner_with_r_mm(radius, moved) => "拐角倒圆 R {radius} mm（轮廓移动 {moved} mm）";
     close_the_contour => "封闭轮廓";
     close_the_contour_with_a_line_of_mm(length) => "用 {length} mm 的直线封闭轮廓";
     snap_the_ends_together(distance) => "把两端接上（移动 {distance} mm）";

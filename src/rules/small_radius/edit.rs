@@ -62,9 +62,18 @@ pub(crate) fn drawing_edit(
 }
 
 /// The edit that rounds the corner between the segments at `before` and after it, which turns to the left, with the
-/// fix radius. `None` where no such arc fits, or where an entity cannot take it.
-pub(crate) fn fillet(travel: &Travel, before: isize, limits: &Limits) -> Option<DrawingEdit> {
-    let arc = corner_arc(travel, before, limits)?;
+/// fix radius, and the largest distance by which the contour moves. `None` where no such arc fits, or where an entity cannot take it.
+pub(crate) fn fillet(
+    travel: &Travel,
+    before: isize,
+    limits: &Limits,
+) -> Option<(DrawingEdit, f64)> {
+    let (arc, moved) = corner_arc(travel, before, limits)?;
+    Some((corner_edit(travel, before, arc)?, moved))
+}
+
+/// The edit that puts an arc in the place of a corner.
+fn corner_edit(travel: &Travel, before: isize, arc: Arc) -> Option<DrawingEdit> {
     let (one, other) = (travel.segment(before)?, travel.segment(before + 1)?);
     let drawing = travel.drawing;
     let cut = |place: &ContourSegment, point: Point, at_end: bool| {

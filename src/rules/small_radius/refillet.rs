@@ -94,9 +94,9 @@ pub(crate) fn made_tangent(
 }
 
 /// The arc of radius `limits.fix_radius` that rounds the corner between the segments at `before` and after it, which
-/// turns to the left. `None` where it does not fit: its feet must lie on the two and its disc keep clear of the
-/// contour.
-pub(crate) fn corner_arc(travel: &Travel, before: isize, limits: &Limits) -> Option<Arc> {
+/// turns to the left, and the largest distance by which the contour moves. `None` where it does not fit: its feet must lie on the two and its
+/// disc keep clear of the contour.
+pub(crate) fn corner_arc(travel: &Travel, before: isize, limits: &Limits) -> Option<(Arc, f64)> {
     let (one, other) = (
         travel.segment(before)?.geometry,
         travel.segment(before + 1)?.geometry,
@@ -114,8 +114,9 @@ pub(crate) fn corner_arc(travel: &Travel, before: isize, limits: &Limits) -> Opt
         one.share_of(arc.start) * one.length() >= least
             && (1.0 - other.share_of(arc.end)) * other.length() >= least
     };
-    arcs.into_iter()
-        .find(|arc| leaves_enough(arc) && search.is_clear(arc, before, before + 1))
+    let mut arcs = arcs.into_iter();
+    let arc = arcs.find(|arc| leaves_enough(arc) && search.is_clear(arc, before, before + 1))?;
+    Some((arc, search.moved(&arc, before, before + 1)))
 }
 
 /// What holds the new arc at one end.
