@@ -3,8 +3,7 @@
 use super::reader::Reader;
 use super::spelling::snake_case;
 use super::value::{Node, Value};
-use super::{PassFault, Settings, SettingsError, rows, shipped_profiles};
-use std::collections::BTreeMap;
+use super::{PassFault, Settings, SettingsError, rows};
 
 /// Reads the root table. Null is an empty level.
 pub(super) fn read(root: &Node) -> (Settings, Vec<SettingsError>) {
@@ -12,42 +11,28 @@ pub(super) fn read(root: &Node) -> (Settings, Vec<SettingsError>) {
         all_keys: Some(rows),
         ..Reader::default()
     };
-    let mut settings: Settings = reader.table("", root).unwrap_or_default();
+    let settings: Settings = reader.table("", root).unwrap_or_default();
     let errors = settings.contradictions(&|fault| place_of(root, fault));
     reader.errors.extend(errors);
-    refuse_unknown_profile(&mut reader, &mut settings, root);
     (settings, reader.errors)
-}
-
-/// Refuses a profile that neither ships nor is declared at this level.
-fn refuse_unknown_profile(reader: &mut Reader, settings: &mut Settings, root: &Node) {
-    let Some(profile) = settings
-        .program
-        .as_ref()
-        .and_then(|program| program.profile.as_ref())
-    else {
-        return;
-    };
-    let own = settings.profiles.iter().flat_map(BTreeMap::keys).cloned();
-    let mut names: Vec<String> = shipped_profiles().map(str::to_owned).chain(own).collect();
-    names.sort_unstable();
-    names.dedup();
-    if !names.contains(profile)
-        && let Some(entry) = root
-            .entry("program")
-            .and_then(|entry| entry.node.entry("profile"))
-    {
-        reader.misfit::<()>("program.profile", &entry.node, &names.join(", "));
-        settings
-            .program
-            .iter_mut()
-            .for_each(|program| program.profile = None);
-    }
 }
 
 /// The value that a fault concerns; for one of the passes without a value, the correction, else the wire's diameter.
 pub(super) fn place_of(root: &Node, fault: &PassFault) -> Option<std::ops::Range<usize>> {
-    let (table, named) = fault.key.split_once('.').unwrap_or(("passes", fault.key));
+    let of_profile = |name: &str, key: &str| {
+        let own = root.entry("profiles")?.node.entry(&snake_case(name))?;
+        own.node.entry(&snake_case(key))?.node.range.clone()
+    };
+    if let Some((name, key)) =
+        (fault.key.strip_prefix("profiles.")).and_then(|profile| profile.rsplit_once('.'))
+    {
+        return of_profile(name, key);
+    }
+    if fault.key == "program.profile" {
+        let named = root.entry("program")?.node.entry("profile")?;
+        return named.node.range.clone();
+    }
+    let (table, named) = (fault.key.split_once('.')).unwrap_or(("passes", &fault.key));
     let named = snake_case(named);
     let list = root.entry(table).and_then(|entry| match fault.pass {
         // A key of its own, with one value.

@@ -123,10 +123,10 @@ impl Settings {
         place: &dyn Fn(&PassFault) -> Option<std::ops::Range<usize>>,
     ) -> Vec<SettingsError> {
         let others = pair::faults(self).into_iter().chain(milling::faults(self));
-        let others = others.chain(job::faults(self));
+        let others = others.chain(job::faults(self)).chain(profile::faults(self));
         let error = |fault: PassFault| SettingsError {
             of_levels: true,
-            ..SettingsError::new(fault.key, fault.message.clone(), place(&fault))
+            ..SettingsError::new(fault.key.clone(), fault.message.clone(), place(&fault))
         };
         let warning = |fault: PassFault| SettingsError {
             severity: Severity::Warning,
@@ -162,8 +162,8 @@ impl Settings {
             (None, None) => return Vec::new(),
         };
         let error = |(fault, severity): (PassFault, Severity)| SettingsError {
-            key: fault.key.into(),
             range: place(&fault),
+            key: fault.key.into(),
             message: fault.message,
             rule,
             severity,

@@ -1,6 +1,7 @@
 //! The corrections of the passes, checked against each other and the wire; and a computed table of them.
 
 use super::{Passes, Settings};
+use std::borrow::Cow;
 
 impl Passes {
     /// Where a later level says one correction for all, the corrections of an earlier one no longer apply, nor what
@@ -32,7 +33,7 @@ const ROUNDING: f64 = 1e-9;
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct PassFault {
     /// The dotted key that it is about.
-    pub(crate) key: &'static str,
+    pub(crate) key: Cow<'static, str>,
     /// Index of the pass.
     pub(crate) pass: usize,
     /// In lower case without a full stop.
@@ -41,9 +42,9 @@ pub(crate) struct PassFault {
 
 impl PassFault {
     /// A fault that concerns no single pass.
-    pub(super) fn of(key: &'static str, message: String) -> PassFault {
+    pub(super) fn of(key: impl Into<Cow<'static, str>>, message: String) -> PassFault {
         PassFault {
-            key,
+            key: key.into(),
             pass: usize::MAX,
             message,
         }
@@ -75,13 +76,21 @@ pub(crate) fn pass_faults(
             && correction > before + ROUNDING
         {
             let message = say!(is_more_than_the_pass_before, name(pass), correction, before);
-            faults.push(PassFault { key, pass, message });
+            faults.push(PassFault {
+                key: key.into(),
+                pass,
+                message,
+            });
         }
         if let Some(radius) = wire_diameter.map(|diameter| diameter / 2.0)
             && correction < radius - ROUNDING
         {
             let message = say!(is_less_than_the_wire_radius, name(pass), correction, radius);
-            faults.push(PassFault { key, pass, message });
+            faults.push(PassFault {
+                key: key.into(),
+                pass,
+                message,
+            });
         }
     }
     let lists = [
@@ -114,7 +123,11 @@ fn shared_registers(corrections: &[f64], passes: &Passes) -> Vec<PassFault> {
         let (letters, number) = register_of(word);
         if ["G", "I", "J", "M", "N", "O", "R", "X", "Y"].contains(&&*letters) {
             let message = say!(is_no_place_of_a_correction, name(pass), word);
-            faults.push(PassFault { key, pass, message });
+            faults.push(PassFault {
+                key: key.into(),
+                pass,
+                message,
+            });
             continue;
         }
         let before = words.iter().zip(corrections).take(pass);
@@ -131,7 +144,11 @@ fn shared_registers(corrections: &[f64], passes: &Passes) -> Vec<PassFault> {
                 other,
                 own
             );
-            faults.push(PassFault { key, pass, message });
+            faults.push(PassFault {
+                key: key.into(),
+                pass,
+                message,
+            });
         }
     }
     faults
@@ -178,7 +195,7 @@ pub(super) fn cuts_beyond(settings: &Settings, allowed: f64) -> Vec<PassFault> {
             )
         };
         (beyond > allowed && !is_said).then(|| PassFault {
-            key,
+            key: key.into(),
             pass,
             message: message(),
         })

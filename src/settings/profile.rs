@@ -6,7 +6,10 @@
 use super::reader::Reader;
 use super::shipped::shipped;
 use super::table::Overlay;
-use super::{NumberUnit, Profile, ProfileSettings, ProgramSettings, Settings, shipped_profiles};
+use super::{
+    CenterRule, Coordinates, NumberUnit, PassFault, Profile, ProfileSettings, ProgramSettings,
+    Settings, shipped_profiles,
+};
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
@@ -43,26 +46,73 @@ impl Profile {
                 .or(SHIPPED.get(&ProgramSettings::default().profile())),
         };
         let Some(shipped) = shipped else {
-            let mut names: Vec<&str> = shipped_profiles().collect();
-            names.extend(
-                own.into_iter()
-                    .flat_map(|own| own.keys().map(String::as_str)),
-            );
-            names.sort_unstable();
-            names.dedup();
-            return Err(say!(
-                there_is_no_profile,
-                base.unwrap_or(name),
-                names.join(", ")
-            ));
+            let name = base.unwrap_or(name);
+            return Err(say!(there_is_no_profile, name, names(own).join(", ")));
         };
         let set = mine.map_or_else(|| shipped.clone(), |mine| shipped.overlaid(mine));
+        if let Some(fault) = contradiction(name, &set, mine) {
+            return Err(fault.message);
+        }
         let mut profile = set.filled(name.into());
         if profile.unit == NumberUnit::Um {
             profile.decimals = ProfileSettings::default().decimals();
         }
         Ok(profile)
     }
+}
+
+/// The names of all profiles, those that ship among them.
+fn names(own: Option<&BTreeMap<String, ProfileSettings>>) -> Vec<&str> {
+    let own = own.into_iter().flat_map(BTreeMap::keys);
+    let mut names: Vec<&str> = own.map(String::as_str).collect();
+    shipped_profiles().for_each(|name| names.push(name));
+    names.sort_unstable();
+    names.dedup();
+    names
+}
+
+/// Under G91 there is no place that the coordinates of a centre could count from.
+fn contradiction(
+    name: &str,
+    set: &ProfileSettings,
+    mine: Option<&ProfileSettings>,
+) -> Option<PassFault> {
+    let contradicts =
+        set.coordinates() == Coordinates::Incremental && set.center() == CenterRule::Absolute;
+    let key = |key: &str| format!("profiles.{name}.{key}");
+    let (center, coordinates) = (key("center"), key("coordinates"));
+    let message = say!(no_absolute_center_under_g91, center, coordinates);
+    let is_center = mine.is_none_or(|mine| mine.center.is_some());
+    let at = if is_center { center } else { coordinates };
+    contradicts.then(|| PassFault::of(at, message))
+}
+
+/// A profile of a name that none has, and own ones that contradict themselves.
+pub(super) fn faults(settings: &Settings) -> Vec<PassFault> {
+    let own = settings.profiles.as_ref();
+    let named = settings
+        .program
+        .as_ref()
+        .and_then(|program| program.profile.as_ref());
+    let known = names(own);
+    let unknown = named
+        .filter(|name| !known.contains(&name.as_str()))
+        .map(|name| {
+            let key = "program.profile";
+            let found = format!("{name:?}");
+            PassFault::of(
+                key,
+                say!(is_not_what_is_expected, key, found, known.join(", ")),
+            )
+        });
+    let of_own = own.into_iter().flatten().filter_map(|(name, mine)| {
+        let base = mine.base.as_ref().unwrap_or(name);
+        let shipped = SHIPPED
+            .get(base)
+            .or(SHIPPED.get(&ProgramSettings::default().profile()))?;
+        contradiction(name, &shipped.overlaid(mine), Some(mine))
+    });
+    unknown.into_iter().chain(of_own).collect()
 }
 
 impl Default for Profile {
@@ -147,6 +197,22 @@ mod tests {
             &format!("expected {}", shipped.join(", ")),
         );
         check("speed = 1", "speed", "profiles.mine.speed is not known");
+        let no_center = "under G91 a centre has no coordinates of its own";
+        check(
+            "coordinates = \"incremental\"\ncenter = \"absolute\"",
+            "\"absolute\"",
+            no_center,
+        );
+        check(
+            "base = \"robofil\"\ncoordinates = \"incremental\"",
+            "\"incremental\"",
+            no_center,
+        );
+        check(
+            "base = \"fast-wire\"\ncenter = \"absolute\"",
+            "\"absolute\"",
+            no_center,
+        );
         check(
             "[program]\nprofile = \"mina\"",
             "\"mina\"",

@@ -34,6 +34,7 @@ declare! {
     is_empty(key: dyn crate::message::Shown, expected: dyn crate::message::Shown) => { format!("{key} is empty, expected {expected}") };
     is_not_known(key: dyn crate::message::Shown, expected: dyn crate::message::Shown) => { format!("{key} is not known, expected {expected}") };
     holds_an_unknown_name(key, name) => "{key} holds {name}, expected {{x}}, {{y}}, {{side}} or {{register}}";
+    no_absolute_center_under_g91(center, coordinates) => "{center} is \"absolute\" and {coordinates} \"incremental\": under G91 a centre has no coordinates of its own, expected start-to-center or center-to-start";
     there_is_no_profile(name, names) => "there is no profile {name:?}, expected {names}";
     is_more_than_the_pass_before(pass, correction, before) => "{pass} is {correction}, expected at most {before}, that of the pass before: corrections decrease";
     is_of_passes_expected_one_for_each(key: dyn crate::message::Shown, count: usize, passes: usize) => {

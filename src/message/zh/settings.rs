@@ -43,6 +43,7 @@ translate! {
     is_empty(key: dyn crate::message::Shown, expected: dyn crate::message::Shown) => { format!("{key} 为空，应为{}", apart(expected)) };
     is_not_known(key: dyn crate::message::Shown, expected: dyn crate::message::Shown) => { format!("没有 {key} 这一项，应为{}", apart(expected)) };
     holds_an_unknown_name(key, name) => "{key} 含有 {name}，应为 {{x}}、{{y}}、{{side}} 或 {{register}}";
+    no_absolute_center_under_g91(center, coordinates) => "{center} 为 \"absolute\"，而 {coordinates} 为 \"incremental\"：G91 下圆心没有自己的坐标，应为 start-to-center 或 center-to-start";
     there_is_no_profile(name, names) => "没有名为 {name:?} 的 profile，应为 {names}";
     is_more_than_the_pass_before(pass, correction, before) => "{pass} 是 {correction}，最多应为上一次切割的 {before}：补偿量须逐次减小";
     is_of_passes_expected_one_for_each(key: dyn crate::message::Shown, count: usize, passes: usize) => { format!("{key} 列出 {count} 个，应与切割次数一致，共 {passes} 个") };
