@@ -59,6 +59,7 @@ pub struct Effective {
     pub corner: Corner,
     pub thread: Option<PointSetting>,
     pub entry: Option<PointSetting>,
+    /// 0: none, the wire is threaded where its path begins.
     pub lead_in: f64,
     /// The length of the lead-in that the user has set.
     pub stated_lead_in: Option<f64>,

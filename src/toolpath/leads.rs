@@ -18,6 +18,9 @@ use crate::settings::Lead;
 /// mm that a start hole keeps from what the wire cuts.
 pub(super) const HOLE_CLEAR: f64 = 0.1;
 
+/// A thread hole within this distance of the path, mm, is given on it: there is no lead. Places are stated to 0.001 mm.
+pub(super) const SAME: f64 = 1e-3;
+
 /// How often a lead is halved at most.
 const MOST_HALVED: usize = 64;
 
@@ -298,7 +301,8 @@ pub(super) struct Threading<'a> {
     pub(crate) is_apart: &'a dyn Fn(Point) -> bool,
 }
 
-/// The thread hole for a lead to a landing, the point of the path that belongs to `entry`. The landing itself where there is no lead.
+/// The thread hole for a lead to a landing, the point of the path that belongs to `entry`. The landing itself where there is no lead: where
+/// the hole is given there, and where none is given and leads have no length.
 ///
 /// A hole that is given must be reached without cutting anything. Where none is given it is one of the first, where there is one and the way
 /// from it is clear; else the lead runs on from the entry through the landing, and its length, counted from the path where
@@ -316,15 +320,15 @@ pub(super) fn thread_hole(
     let source = walls.get(entry.wall).map(|wall| wall.source);
     let (correction, begin) = (settings.correction, landing.at);
     if let Some(thread) = wanted.thread {
-        let join = settings.tolerances.join / unit_mm;
-        let on_entry =
-            (thread - entry.point).norm() <= join || (thread - begin).norm() <= 1e-6 / unit_mm;
-        if on_entry {
+        if (thread - begin).norm() <= SAME / unit_mm {
             return Ok(begin);
         }
         return surroundings
             .hold(thread, landing, entry, walls, correction / unit_mm)
             .map(|_| thread);
+    }
+    if settings.lead_in == 0.0 {
+        return Ok(begin);
     }
     let clear = |thread: Point| surroundings.way(thread, landing, correction / unit_mm);
     for &center in threading.first {

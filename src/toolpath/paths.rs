@@ -304,7 +304,8 @@ impl Job<'_> {
             let last = contour.len().checked_sub(1)?;
             Some((first, contour.segment(self.drawing, last)?.geometry.end()))
         };
-        let begin = wanted.entry.or(wanted.thread).filter(|_| !contour.closed);
+        let begin = wanted.entry.or(wanted.thread).or(wanted.beside);
+        let begin = begin.filter(|_| !contour.closed);
         let Some((begin, (first, last))) = begin.zip(ends()) else {
             return Ok((contour, turned));
         };

@@ -3,7 +3,7 @@
 use super::containment::Places;
 use super::job::Job;
 use super::path::Refusal;
-use crate::drawing::{Geometry, Outline, Role, winding};
+use crate::drawing::{Geometry, Outline, winding};
 use crate::geometry::Point;
 use crate::settings::{Compensation, ContourSettings, NEAR, PointSetting, point_of};
 use rustc_hash::FxHashMap;
@@ -86,15 +86,14 @@ impl<'a> Job<'a> {
     /// there. Where the side is not known, or the contour is the wire's own path, it is the thread hole.
     pub(super) fn means_entry(&self, mark: &Mark) -> bool {
         let (settings, outline) = (self.settings, &self.outlines[mark.outline]);
-        if settings.compensation == Compensation::None
-            || !outline.contour.closed
-            || !matches!(outline.role, Role::Opening | Role::Punch)
-        {
+        if settings.compensation == Compensation::None || outline.wire_side().is_none() {
             return false;
         }
-        let is_inside = winding(self.drawing, &outline.contour, mark.at) != 0;
-        mark.distance * self.unit_mm <= settings.correction
-            || is_inside != settings.has_waste_inside(outline.role)
+        let is_on_part = || {
+            let is_inside = winding(self.drawing, &outline.contour, mark.at) != 0;
+            outline.contour.closed && is_inside != settings.has_waste_inside(outline.role)
+        };
+        mark.distance * self.unit_mm <= settings.correction || is_on_part()
     }
 
     fn points(

@@ -6,7 +6,7 @@ use super::corners::Element;
 use super::entry::{circle_center, nearest};
 use super::hole::Holes;
 use super::job::{Job, ROUNDING};
-use super::leads::{Kerfs, Surroundings, Threading, thread_hole};
+use super::leads::{Kerfs, SAME, Surroundings, Threading, thread_hole};
 use super::offset::Wall;
 use super::path::{PathSegment, Refusal, Source, WirePath};
 use super::paths::{Pass, Unled};
@@ -157,14 +157,14 @@ impl Job<'_> {
         walls: &[Wall],
         stand: &Pass,
     ) -> Result<(), Refusal> {
-        let (join, point) = (self.units(self.settings.tolerances.join), stand.begin);
+        let (same, point) = (self.units(SAME), stand.begin);
         let Some(thread) = wanted
             .thread
-            .filter(|thread| (thread - point).norm() > join)
+            .filter(|thread| (thread - point).norm() > same)
         else {
             return Ok(());
         };
-        let wall = nearest(walls, thread, join).map_or(0, |(entry, _)| entry.wall);
+        let wall = nearest(walls, thread, same).map_or(0, |(entry, _)| entry.wall);
         let sentence = say!(
             the_thread_hole_comes_nearer_to_the_contour,
             thread.x,

@@ -29,7 +29,7 @@ fn the_cut_takes_its_length_by_its_rate() {
     // 66.428 mm of path: a circle of that circumference about the correction, without a lead.
     let radius = 66.428 / std::f64::consts::TAU;
     let punch = drawing(vec![circle("2A", Role::Punch, [0.0, 0.0], radius - 0.1)]);
-    let text = "[passes]\nrates = [100]\n[job]\nthickness = 40\nmachine-rate = 60\n[program]\nthread = [10.4723, 0]\nentry = [10.4723, 0]\n";
+    let text = "[passes]\nrates = [100]\n[job]\nthickness = 40\nmachine-rate = 60\n[program]\nthread = [10.5723, 0]\nentry = [10.4723, 0]\n";
     let made = generated(&punch, &settings(text), Format::ThreeB);
     let minutes = made.work.minutes.expect("all is set");
     assert!(

@@ -132,7 +132,7 @@ fn wrong_by(slack: f64, outline: &[[f64; 3]], role: Role, settings: &Effective) 
 fn unled(outline: &[[f64; 3]], direction: Direction) -> Effective {
     Effective {
         lead_in: 0.0,
-        thread: at(outline[0][0], outline[0][1]),
+        entry: at(outline[0][0], outline[0][1]),
         direction,
         ..defaults()
     }

@@ -160,8 +160,8 @@ fn what_lies_within_a_contour_is_cut_before_it() {
 }
 
 #[test]
-fn a_thread_hole_on_the_entry_has_no_lead() {
-    for thread in [at(5.0, 0.0), at(5.0, 0.1)] {
+fn a_thread_hole_on_the_path_has_no_lead() {
+    for thread in [at(5.0, 0.1), at(5.0004, 0.0996)] {
         let settings = Effective {
             thread,
             entry: at(5.0, 0.0),

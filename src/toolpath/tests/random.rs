@@ -101,7 +101,7 @@ proptest! {
         let (drawing, outlines) = drawing(&[(&outline, Some(role))]);
         let side = outlines[0].wire_side().map_or(0.0, |side| side.sign());
         let settings = Effective { direction: if clockwise { Direction::Cw } else { Direction::Ccw }, lead_in: 0.0, ..defaults() };
-        let settings = Effective { thread: at(outline[0][0], outline[0][1]), ..settings };
+        let settings = Effective { entry: at(outline[0][0], outline[0][1]), ..settings };
         let judged = judged(&outline, 0.1 * side);
         prop_assume!(judged.is_some());
         let expected = judged.unwrap_or_default();

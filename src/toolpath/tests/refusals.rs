@@ -2,7 +2,7 @@
 
 use super::{SQUARE, at, defaults, drawing};
 use crate::drawing::{Drawing, Entity, Geometry, Outline, Role};
-use crate::finding::{Rule, Severity};
+use crate::finding::{Finding, Rule, Severity};
 use crate::geometry::Point;
 use crate::settings::{Compensation, Direction, Effective, PointSetting, SideSetting};
 use crate::toolpath::{Refusal, plan, plan_while};
@@ -78,6 +78,31 @@ fn what_cannot_be_planned_is_refused_in_a_sentence() {
         Err(Refusal::Sentence(sentence.into()))
     );
     assert!(plan(&drawing, &outlines, &settings, Some(&["2A".to_string()])).is_ok());
+}
+
+/// On the contour, and nearer to it than the correction, there is no room for a thread hole; on the path there is no lead.
+#[test]
+fn a_thread_hole_on_the_contour_is_refused() {
+    let (drawing, outlines) = drawing(&[(SQUARE, Some(Role::Punch))]);
+    for (y, fits) in [
+        (0.0, false),
+        (-0.05, false),
+        (-0.0985, false),
+        (-0.0995, true),
+        (-0.1, true),
+        (-0.3, true),
+    ] {
+        let settings = Effective {
+            thread: at(5.0, y),
+            entry: at(5.0, 0.0),
+            ..defaults()
+        };
+        let planned = plan(&drawing, &outlines, &settings, None);
+        let begin = planned.as_ref().ok().map(|paths| paths[0].begin().y);
+        assert_eq!(begin, fits.then_some(y.min(-0.1)), "{y}: {planned:?}");
+        let is_lead_in = |findings: &[Finding]| findings.iter().all(|it| it.rule == Rule::LeadIn);
+        assert!(fits || matches!(&planned, Err(Refusal::Findings(found)) if is_lead_in(found)));
+    }
 }
 
 #[test]

@@ -50,11 +50,11 @@ fn corrected(sheet: &Sheet<'_, ThreeB>, role: Role) -> Edits {
         }
         let handle = contour.contour.to_string();
         let first = contour.contour_steps().start;
-        entries.insert(handle.clone(), in_mm(content.rows[first].from));
-        threads.insert(
-            handle.clone(),
-            in_mm(content.rows[contour.steps.start].from),
-        );
+        let [thread, entry] = [contour.steps.start, first].map(|step| content.rows[step].from);
+        entries.insert(handle.clone(), in_mm(entry));
+        if thread != entry {
+            threads.insert(handle.clone(), in_mm(thread));
+        }
         let geometry = geometry(content, contour);
         let id = drawing.push(Entity {
             handle: handle.into(),
@@ -72,18 +72,26 @@ fn corrected(sheet: &Sheet<'_, ThreeB>, role: Role) -> Edits {
             twice_area,
         });
     }
+    let is_any_without_lead = threads.len() < entries.len();
     let layout = match content.rows.first() {
         Some(row) if row.own.coordinates.is_some() => Layout::Checking,
         Some(row) => row.own.layout,
         None => Layout::Compact,
     };
+    let of_pass = sheet.settings.of_one_pass();
     let settings = Effective {
         layout,
         compensation: Compensation::Path,
         direction: Direction::AsDrawn,
         thread: Some(PointSetting::ByHandle(threads)),
         entry: Some(PointSetting::ByHandle(entries)),
-        ..sheet.settings.of_one_pass()
+        // A contour without a way in begins beside itself.
+        lead_in: if is_any_without_lead {
+            0.0
+        } else {
+            of_pass.lead_in
+        },
+        ..of_pass
     };
     let paths = plan(&drawing, &outlines, &settings, None).map_err(|refusal| match refusal {
         Refusal::Sentence(sentence) => sentence,
@@ -94,7 +102,6 @@ fn corrected(sheet: &Sheet<'_, ThreeB>, role: Role) -> Edits {
         ),
     })?;
     let program = write(&paths, 1.0, &settings).map_err(|error| error.to_string())?;
-    // A contour without a way in begins beside itself.
     let begin = paths.first().and_then(|path| snap(path.begin() * 1000.0));
     let begin = begin.filter(|begin| content.rows.first().is_some_and(|row| row.from != *begin));
     replaced(sheet, content, &program.text, begin)
