@@ -15,11 +15,9 @@ use super::reuse::Kept;
 use super::ring::{Pieces, trimmed};
 use super::skim_sweep::along_before;
 use super::spliced::spliced;
-use super::tips::with_tips;
 use crate::drawing::ContourSegment;
 use crate::finding::{Detail, Finding, NotJudged, Place, Rule, Severity};
 use crate::geometry::{Point, Segment, cross};
-use crate::settings::Corner;
 use std::borrow::Cow;
 use std::sync::atomic::Ordering::Relaxed;
 
@@ -36,7 +34,6 @@ pub(super) struct Along {
     pub(crate) side: f64,
     /// Drawing units; below 0 where the wire runs on the other side.
     pub(crate) correction: f64,
-    pub(crate) corner: Corner,
     pub(crate) closed: bool,
 }
 
@@ -107,7 +104,6 @@ impl Job<'_> {
         let along = Along {
             side,
             correction,
-            corner: self.settings.corner,
             closed,
         };
         let laid = self.laid(&walls, &own, along)?;
@@ -155,7 +151,6 @@ impl Job<'_> {
         let Along {
             side,
             correction,
-            corner,
             closed,
         } = along;
         if walls.is_empty() {
@@ -176,7 +171,6 @@ impl Job<'_> {
         let rounding = self.units(ROUNDING);
         if let Some(kept) = &mut known.kept
             && closed
-            && corner == Corner::Arc
             && self.a_loop_will_do
             && let Some(path) = spliced(kept, walls, &joining)
             && keeps_its_side(&path, walls, own, side)
@@ -231,15 +225,6 @@ impl Job<'_> {
         }
         self.go_on()?;
         let raw = Raw::new(offsets);
-        let tipped = |Pieces { elements, .. }: Pieces| {
-            Laid::Path(match corner {
-                Corner::Intersection => {
-                    with_tips(elements, &round, &joining, own, correction - rounding)
-                }
-                Corner::Arc => elements,
-            })
-        };
-        self.go_on()?;
         let circle = || {
             let circle = raw.geometry(0);
             (circle.length() > 0.0).then(|| Pieces::of(vec![(0, offsets.element(0, circle))]))
@@ -258,7 +243,7 @@ impl Job<'_> {
         if let Some(path) = found
             && self.holds(&proof, &raw, &path, known)?.is_ok()
         {
-            return Ok(Ok(tipped(path)));
+            return Ok(Ok(Laid::Path(path.elements)));
         }
         self.searched.store(true, Relaxed);
         let mut loops = match loops::find(&proof, &raw, self.goes_on) {
@@ -284,7 +269,7 @@ impl Job<'_> {
                 Err(None) => return Ok(Err(Fault::Nothing)),
                 Err(Some((near, wall))) => return Ok(Err(Fault::Several { near, wall })),
             };
-            return self.vouched(&proof, &raw, Pieces::of(path), tipped);
+            return self.vouched(&proof, &raw, Pieces::of(path));
         }
         if loops.len() > 1 {
             loops.retain(|path| {
@@ -312,20 +297,14 @@ impl Job<'_> {
         if !keeps_its_side(&path.elements, walls, own, side) {
             return Ok(Err(Fault::Unproved { wall: 0 }));
         }
-        self.vouched(&proof, &raw, path, tipped)
+        self.vouched(&proof, &raw, path)
     }
 
     /// A path, where it passes its proof.
-    fn vouched(
-        &self,
-        proof: &Proof,
-        raw: &Raw,
-        path: Pieces,
-        tipped: impl Fn(Pieces) -> Laid,
-    ) -> Result<Outcome, Refusal> {
+    fn vouched(&self, proof: &Proof, raw: &Raw, path: Pieces) -> Result<Outcome, Refusal> {
         Ok(self
             .holds(proof, raw, &path, Known::default())?
-            .map(|()| tipped(path))
+            .map(|()| Laid::Path(path.elements))
             .map_err(|Unproved { wall }| Fault::Unproved { wall }))
     }
 

@@ -28,6 +28,7 @@ mod nest;
 mod offset;
 mod open_contour;
 mod order;
+mod others;
 mod part;
 mod path;
 mod paths;

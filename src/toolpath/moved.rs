@@ -266,7 +266,6 @@ fn relaid(job: &Job, beside: &Beside, kept: &Kept) -> Option<Vec<(Range<usize>, 
     let joining = job.joining(Along {
         side: beside.side,
         correction: beside.correction,
-        corner: Default::default(),
         closed: true,
     });
     let laid = Splice::of(kept, walls, &joining)?.stretches(kept)?;

@@ -187,7 +187,6 @@ pub(crate) fn part(
     let back = Along {
         side: -side.sign(),
         correction: half,
-        corner: Corner::Arc,
         closed: true,
     };
     let kept = before.and_then(|before| {
@@ -281,7 +280,6 @@ impl<'a> Cut<'a> {
             last: Along {
                 side: from.sign(),
                 correction: job.units(last),
-                corner: settings.corner,
                 closed: true,
             },
             rough: job.units(rough),
@@ -337,7 +335,7 @@ impl Cut<'_> {
             let path = elements(&walls);
             return Ok(Last::of(walls, None, path));
         }
-        let is_plain = !is_beside_rough && last.corner == Corner::Arc;
+        let is_plain = !is_beside_rough && job.settings.corner == Corner::Arc;
         if let Some(before) = before.filter(|_| is_plain)
             && let Some(mended) = job.mended(contour, last.on_own_side(), before)?
         {
@@ -368,20 +366,23 @@ impl Cut<'_> {
             }
             (laid, _) => laid,
         };
-        let own = Some(own);
         match laid {
-            Ok(Laid::Path(path)) => Ok(Last {
-                is_proved: is_plain,
-                swing: if is_beside_rough { swing } else { 0.0 },
-                ..Last::of(walls, own, path)
-            }),
+            Ok(Laid::Path(path)) => {
+                let path =
+                    job.with_corners(path, (&walls, &own), last.correction, &|_: &Segment| false);
+                Ok(Last {
+                    is_proved: is_plain,
+                    swing: if is_beside_rough { swing } else { 0.0 },
+                    ..Last::of(walls, Some(own), path)
+                })
+            }
             Ok(Laid::Point(stand)) => {
                 let element = Element {
                     geometry: Segment::line(stand, stand),
                     source: Source::Tab,
                     wall: 0,
                 };
-                Ok(Last::of(walls, own, vec![element]))
+                Ok(Last::of(walls, Some(own), vec![element]))
             }
             Err(fault) => Err(job.no_path(&fault, &walls, first.correction).into()),
         }

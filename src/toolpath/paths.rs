@@ -19,8 +19,7 @@ use super::requested::Requested;
 use super::rotated::Rotated;
 use crate::drawing::Contour;
 use crate::finding::{Finding, Rule, Severity};
-use crate::geometry::{Point, Segment, Side};
-use crate::settings::Jumps;
+use crate::geometry::{Point, Side};
 use rustc_hash::FxHashMap;
 
 /// The offsets of a contour, before they have leads, all in the direction of the first pass.
@@ -189,7 +188,7 @@ impl Job<'_> {
             return Ok(Offset::Middle(path));
         }
         let wanted = self.with_proposed(index, *wanted, contours);
-        let unled = self.compensated(index, &wanted)?;
+        let unled = self.compensated(index, &wanted, contours)?;
         Ok(Offset::Beside(wanted, Box::new(unled)))
     }
 
@@ -238,52 +237,6 @@ impl Job<'_> {
         self.settings
             .severity(Rule::LeadIn)
             .unwrap_or(Severity::Error)
-    }
-
-    /// The wall of a contour, `but` for one of them, that a straight way cuts. One that is open and has no side is nobody's part.
-    fn crossed(&self, way: &Segment, contours: &Contours, but: Option<usize>) -> Option<usize> {
-        let counts = |wall: usize, _| {
-            let index = contours.outline_of(wall);
-            let outline = &self.outlines[index];
-            Some(index) != but && (outline.contour.closed || outline.wire_side().is_some())
-        };
-        let clearance = self.clearance(self.units(self.settings.correction));
-        contours.walls().find_near(way, clearance, counts)
-    }
-
-    /// The ways from one contour to the next that cut through a part, where the wire stays threaded.
-    pub(crate) fn jumps_that_cut(&self, paths: &[WirePath], contours: &Contours) -> Vec<Finding> {
-        if !self.settings.stays_threaded || self.settings.jumps == Jumps::None {
-            return Vec::new();
-        }
-        let cut = |pair: &[WirePath]| {
-            let (from, next) = (pair[0].segments.last()?.geometry.end(), &pair[1]);
-            let to = next.segments.first()?.geometry.start();
-            if from == to {
-                return None;
-            }
-            let wall = self.crossed(&Segment::line(from, to), contours, None)?;
-            let sentence = say!(
-                the_way_cuts_into_contour,
-                from.x,
-                from.y,
-                to.x,
-                to.y,
-                self.name(contours.outline_of(wall))
-            );
-            let source = next
-                .segments
-                .iter()
-                .map(|piece| piece.source)
-                .find(|source| source.place().is_some());
-            Some(fault(
-                self.severity(),
-                source,
-                sentence,
-                Some(contours.place_of(wall)),
-            ))
-        };
-        paths.windows(2).filter_map(cut).collect()
     }
 
     /// The contour in the direction of the cut, and whether that is against its own.
@@ -349,7 +302,12 @@ impl Job<'_> {
     }
 
     /// The offsets of a contour, one for each pass.
-    fn compensated(&self, index: usize, wanted: &Requested) -> Result<Unled, Refusal> {
+    pub(super) fn compensated(
+        &self,
+        index: usize,
+        wanted: &Requested,
+        contours: &Contours,
+    ) -> Result<Unled, Refusal> {
         let (outline, settings) = (&self.outlines[index], self.settings);
         let handle = self.name(index);
         let closed = outline.contour.closed;
@@ -372,11 +330,16 @@ impl Job<'_> {
         let along = Along {
             side,
             correction: rough,
-            corner: settings.corner,
             closed,
         };
         let later = corrections.get(1..).unwrap_or_default();
-        let all = self.each_pass(&walls, &own, first, later, along)?;
+        let mut all = self.each_pass(&walls, &own, first, later, along)?;
+        for (laid, &correction) in all.iter_mut().zip(&corrections) {
+            if let Ok(Laid::Path(path)) = laid {
+                let rolled = std::mem::take(path);
+                *path = self.beside_others(rolled, (&walls, &own), correction, index, contours)?;
+            }
+        }
         let path_of = |pass: usize| match &all[pass] {
             Ok(Laid::Path(path)) => Some(path),
             _ => None,

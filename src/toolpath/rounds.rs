@@ -34,7 +34,6 @@ pub(crate) fn rounds(
         let along = Along {
             side,
             correction,
-            corner: settings.corner,
             closed,
         };
         let laid = match (first.take_if(|_| correction == rough), &before) {
@@ -45,9 +44,12 @@ pub(crate) fn rounds(
         let Ok(Laid::Path(path)) = laid else {
             return Ok(None);
         };
-        let pieces = path.iter().map(Element::piece).collect();
-        before.get_or_insert(Rough { correction, path });
-        Ok(Some(pieces))
+        if before.is_none() {
+            let path = path.clone();
+            before = Some(Rough { correction, path });
+        }
+        let written = job.with_corners(path, (&walls, &own), correction, &|_| false);
+        Ok(Some(written.iter().map(Element::piece).collect()))
     };
     corrections
         .iter()

@@ -7,7 +7,7 @@ use super::job::{Job, ROUNDING};
 use super::nest::Before;
 use super::offset::Wall;
 use super::path::Refusal;
-use crate::settings::{Corner, SkimCorner};
+use crate::settings::SkimCorner;
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 
 /// The path of the first pass.
@@ -71,9 +71,9 @@ impl Job<'_> {
                 path: &rough.path,
                 correction: rough.correction,
             };
-            // A path with tips is more than what has been proved, and one beside the first path has been proved otherwise.
-            let is_plain = along.corner == Corner::Arc && !is_constant;
-            let is_plain = is_plain && along.side == side && along.correction <= rough.correction;
+            // One beside the first path has been proved otherwise.
+            let is_plain =
+                !is_constant && along.side == side && along.correction <= rough.correction;
             let known = Known {
                 before: is_plain.then_some(before),
                 ..Known::default()
@@ -85,7 +85,6 @@ impl Job<'_> {
         let back = Along {
             side: -along.side,
             correction: by,
-            corner: Corner::Arc,
             closed: along.closed,
         };
         let laid = self.laid(&beside, &near, back.on_own_side())?;

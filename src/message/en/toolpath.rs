@@ -12,6 +12,7 @@ declare! {
     entity_belongs_to_no_contour_that_is_cut(handle) => "entity {handle} belongs to no contour that is cut";
     there_is_no_contour_to_cut => "there is no contour to cut";
     crosses_the_contour_or_comes_nearer(correction) => "crosses the contour or comes nearer to it than the correction {correction:.3} mm";
+    the_path_comes_too_near_to_contour(handle, correction, other) => "the path along contour {handle} cuts into contour {other} here or comes nearer to it than the correction {correction:.3} mm";
     cuts_into_contour_or_comes_nearer(contour, correction) => "cuts into contour {contour} or comes nearer to it than the correction {correction:.3} mm";
     runs_into_the_cut_along_contour(contour) => "runs into the cut along contour {contour}";
     an_open_contour_keeps_no_tab(handle) => "contour {handle} is open: nothing of it drops, so it keeps no tab; give the tab by handle to the contours that keep one, or set it to 0";

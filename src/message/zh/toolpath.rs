@@ -12,6 +12,7 @@ translate! {
     entity_belongs_to_no_contour_that_is_cut(handle) => "图元 {handle} 不属于要切割的轮廓";
     there_is_no_contour_to_cut => "没有要切割的轮廓";
     crosses_the_contour_or_comes_nearer(correction) => "与轮廓相交，或到轮廓的距离小于补偿量 {correction:.3} mm";
+    the_path_comes_too_near_to_contour(handle, correction, other) => "沿轮廓 {handle} 的路径在此切入轮廓 {other}，或到它的距离小于补偿量 {correction:.3} mm";
     cuts_into_contour_or_comes_nearer(contour, correction) => "切入轮廓 {contour}，或到它的距离小于补偿量 {correction:.3} mm";
     runs_into_the_cut_along_contour(contour) => "切入轮廓 {contour} 的切缝";
     an_open_contour_keeps_no_tab(handle) => "轮廓 {handle} 未封闭：没有会落下的部分，因此不留暂留段；请按句柄只给需要的轮廓设置 tab，或把它设为 0";

@@ -5,6 +5,7 @@
 
 mod at_limit;
 mod once;
+mod tips;
 
 use super::random::judged;
 use super::{at, defaults, drawing, samples};
@@ -25,8 +26,8 @@ fn distance(segments: &[Segment], point: Point) -> f64 {
         .fold(f64::INFINITY, f64::min)
 }
 
-/// Points on the normals of the contour and round its corners, towards the wire, at the correction.
-fn candidates(walls: &[Segment], side: f64) -> Vec<Point> {
+/// Points on the normals of the contour and, where the wire rolls, round its corners, towards the wire, at the correction.
+fn candidates(walls: &[Segment], side: f64, rolls: bool) -> Vec<Point> {
     let mut points = Vec::new();
     for (index, wall) in walls.iter().enumerate() {
         let steps = ((wall.length() / 0.02) as usize).clamp(4, 60);
@@ -41,7 +42,7 @@ fn candidates(walls: &[Segment], side: f64) -> Vec<Point> {
             left_normal(next.start_tangent()) * side,
         );
         let turned = crate::geometry::turn(from, to);
-        if turned * side < 0.0 {
+        if rolls && turned * side < 0.0 {
             let begin = from.y.atan2(from.x);
             points.extend(
                 (1..20).map(|step| {
@@ -83,14 +84,14 @@ fn wrong_by(slack: f64, outline: &[[f64; 3]], role: Role, settings: &Effective) 
     let is_valid = |&point: &Point| {
         distance(&walls, point) >= C - 1e-10 && is_inside(point) == (role == Role::Opening)
     };
-    let valid: Vec<Point> = candidates(&walls, side)
+    let is_arc_style = settings.corner == Corner::Arc;
+    let valid: Vec<Point> = candidates(&walls, side, is_arc_style)
         .into_iter()
         .filter(is_valid)
         .collect();
     match plan(&drawing, &outlines, settings, None) {
         Ok(paths) => {
             let path = without_leads(&paths[0]);
-            let is_arc_style = settings.corner == Corner::Arc;
             let length: f64 = path.iter().map(Segment::length).sum();
             for point in samples(&path, (length / 400.0).max(0.01)) {
                 let away = distance(&walls, point);
@@ -103,9 +104,9 @@ fn wrong_by(slack: f64, outline: &[[f64; 3]], role: Role, settings: &Effective) 
                     return Some(format!("a gap at {:?}", pair[0].end()));
                 }
             }
-            // The path does not go round a roll that the tip replaces.
-            let reach = if is_arc_style { 1.5 * slack } else { 4.0 * C };
-            let missing = valid.iter().find(|&&point| distance(&path, point) > reach);
+            let missing = valid
+                .iter()
+                .find(|&&point| distance(&path, point) > 1.5 * slack);
             if let Some(point) = missing {
                 return Some(format!("{point:?} is missing"));
             }
