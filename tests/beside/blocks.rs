@@ -109,7 +109,7 @@ fn judge(case: &Case, picks: &[(f64, usize, bool)]) -> Result<(), String> {
 fn one_changed_block_is_named_and_no_other() {
     use proptest::strategy::ValueTree;
     use proptest::test_runner::TestRunner;
-    let count = std::env::var("WEDM_CASES").map_or(40, |count| count.parse().unwrap());
+    let count = std::env::var("WEDM_CASES").map_or(8, |count| count.parse().unwrap());
     let mut runner = TestRunner::deterministic();
     let pick = (0.0..1.0f64, 0usize..2, prop::bool::ANY);
     let strategy = (case(), prop::collection::vec(pick, 4));

@@ -306,7 +306,7 @@ fn what_fix_all_edits_is_what_it_was() {
         .split(',')
         .map(|number| number.trim().parse::<u64>().ok());
     let seed = numbers.next().flatten().unwrap_or(7);
-    let programs = numbers.next().flatten().unwrap_or(6) as usize;
+    let programs = numbers.next().flatten().unwrap_or(2) as usize;
     let (counts, by_fault, wrong) = run(seed, programs);
     for (kind, counts) in &counts {
         println!("{kind:?}: {counts:?}");

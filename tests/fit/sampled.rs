@@ -138,7 +138,7 @@ fn depth_by_sampling(contour: &[(Point, Vector)], corrections: [f64; 2], half: f
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, cases: 6, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { failure_persistence: None, cases: 2, ..ProptestConfig::default() })]
 
     /// Every misfit is found, and none invented.
     #[test]
