@@ -12,6 +12,9 @@ from runner import ROOT, TARGET, Part, cargo, line, silent, whole
 # The program that the Rust tests build, and all clients are tested with.
 WEDM = TARGET / "debug" / "wedm"
 
+# Those whose tests install something.
+CLIENTS = ("vscode", "librecad", "editors", "python", "autocad")
+
 # What tests/nightly takes with all that it has.
 HOURS = 5
 BENCHES = ("core", "program", "path", "session", "memory", "reading", "shapes")
@@ -31,32 +34,37 @@ def settings() -> dict[str, str]:
     return found
 
 
-def script(name: str, lane: str, path: str, usual: int, limit: int, needs: tuple[str, ...]) -> Part:
-    return Part(name, lane, path, usual, limit, needs, line, {"WEDM": str(WEDM)})
+def script(name: str, lane: str, path: str, usual: int, limit: int, needs: tuple[str, ...] = ("build",)) -> Part:
+    return Part(name, lane, path, usual, limit, needs, ("install",), line, {"WEDM": str(WEDM)})
 
 
 def day() -> list[Part]:
     """What every change has to pass."""
     test = "cargo test --locked --features testing --no-fail-fast"
-    installs = [f"clients/{name}/test --install" for name in ("vscode", "librecad", "editors", "python", "autocad")]
+    setup = ". tests/support/setup.sh && "
+    compilers = "command -v cc && command -v c++ || debian gcc g++ libc6-dev"
+    installs = [f"{folder}/test --install" for folder in (*(f"clients/{name}" for name in CLIENTS), "tests/protocol")]
+    # What the Rust tests hold their own readers and writers against; LibreCAD, too, where its client has brought it.
+    ezdxf = "python_environment target/ezdxf benches/requirements.txt; "
     return [
         Part("format", "rust", "cargo fmt --check", 5, 300),
+        Part("compilers", "rust", setup + compilers, 20, 900, counts=silent),
         # The program itself is built with the tests of it.
-        Part("build", "rust", f"{test} --no-run", 330, 2400, counts=silent),
-        Part("tests", "rust", test, 200, 2400, ("build",), cargo),
-        Part("lint", "rust", "cargo clippy --locked --all-targets --features testing --quiet -- -D warnings", 200, 2400),
-        Part("documentation", "rust", "cargo doc --locked --no-deps --quiet", 45, 1800, environment={"RUSTDOCFLAGS": "-D warnings"}),
+        Part("build", "rust", f"{test} --no-run", 330, 2400, ("compilers",), counts=silent),
+        Part("lint", "rust", "cargo clippy --locked --all-targets --features testing --quiet -- -D warnings", 150, 2400, ("compilers",)),
+        Part("documentation", "rust", "cargo doc --locked --no-deps --quiet", 45, 1800, ("compilers",), environment={"RUSTDOCFLAGS": "-D warnings"}),
+        Part("tests", "rust", setup + ezdxf + test, 300, 2400, ("build",), ("install",), cargo),
         Part("package", "rust", "dist/contents", 5, 300),
         # Everything from Debian, PyPI and npm, while the compiler is busy.
-        Part("install", "clients", " && ".join([*installs, "tests/protocol/test --install"]), 200, 2400, counts=silent),
-        script("site", "clients", "docs/site/test", 20, 600, ("install",)),
-        script("vscode", "clients", "clients/vscode/test", 330, 1800, ("install", "build")),
-        script("autocad", "clients", "clients/autocad/test", 20, 900, ("install", "build")),
-        script("librecad", "desktop", "clients/librecad/test", 220, 1800, ("install", "build")),
-        script("editors", "desktop", "clients/editors/test", 150, 1800, ("install", "build")),
-        script("python", "desktop", "clients/python/test", 60, 900, ("install", "build")),
-        script("protocol", "desktop", "tests/protocol/test", 30, 900, ("install", "build")),
-        script("cases", "desktop", "tests/cases/run", 120, 900, ("build",)),
+        Part("install", "clients", setup + " && ".join(installs), 200, 2400, ("compilers",), counts=silent),
+        script("site", "clients", "docs/site/test", 20, 600, ()),
+        script("vscode", "clients", "clients/vscode/test", 330, 1800),
+        script("autocad", "clients", "clients/autocad/test", 20, 900),
+        script("librecad", "desktop", "clients/librecad/test", 220, 1800),
+        script("editors", "desktop", "clients/editors/test", 150, 1800),
+        script("python", "desktop", "clients/python/test", 60, 900),
+        script("protocol", "desktop", "tests/protocol/test", 30, 900),
+        script("cases", "desktop", "tests/cases/run", 120, 900),
     ]
 
 
@@ -70,8 +78,8 @@ def night(share: float) -> list[Part]:
     mutate = f"cargo install --locked --quiet cargo-mutants cargo-nextest && tests/mutants/run --seed {seed} --count {mutants}"
     parts = [
         Part("release", "night", "cargo build --locked --release --bins --benches", 900, 5400, counts=silent),
-        Part("cases", "night", "tests/cases/run", 120, 900, ("release",), line, {"WEDM": release}),
-        Part("packages", "night", "dist/test", 300, 2400, ("release",), line, {"WEDM": release}),
+        Part("cases", "night", "tests/cases/run", 120, 900, ("release",), counts=line, environment={"WEDM": release}),
+        Part("packages", "night", "dist/test", 300, 2400, ("release",), counts=line, environment={"WEDM": release}),
     ]
     for name in BENCHES:
         parts.append(Part(f"bench-{name}", "night", f"cargo bench --locked --bench {name}", 300, 3600, ("release",)))

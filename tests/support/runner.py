@@ -82,7 +82,9 @@ class Part:
     # Seconds that it takes usually on two cores with nothing built, and at most.
     usual: int
     limit: int
+    # Parts without which it cannot run, and such that it waits for where they run, too.
     needs: tuple[str, ...] = ()
+    after: tuple[str, ...] = ()
     counts: Callable[[str, int], Counts] = whole
     environment: dict[str, str] = field(default_factory=dict)
 
@@ -151,7 +153,7 @@ class Run:
 
     def lane(self, parts: list[Part]) -> None:
         for part in parts:
-            for name in part.needs:
+            for name in (*part.needs, *part.after):
                 if name in self.ended:
                     self.ended[name].wait()
             missing = [name for name in part.needs if name in self.results and self.results[name].counts.failed]
