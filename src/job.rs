@@ -383,7 +383,7 @@ fn written(
     warnings.extend(corners::cut_off(snapshot, &program));
     warnings.extend(tabs::none_kept(snapshot, &paths));
     warnings.extend(tabs::missed(snapshot, &paths));
-    warnings.extend(toolpath::weak_tabs(
+    warnings.extend(toolpath::holds(
         &snapshot.drawing,
         &snapshot.outlines,
         &of_format,

@@ -73,13 +73,16 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     output::write(arguments.output.as_deref(), made.program.text.as_bytes())?;
     // `wedm check` reports the drawing's findings; these are the program's.
     let of_program = |finding: &&Finding| {
-        matches!(
-            finding.rule,
-            Rule::Settings | Rule::LeadIn | Rule::StartHole
-        ) || matches!(
-            finding.detail,
-            Detail::OffsetCollapse { point: true, .. } | Detail::NoPartner { .. }
-        ) || job::is_of_program(finding)
+        !output::is_what_holds(finding)
+            && matches!(
+                finding.rule,
+                Rule::Settings | Rule::LeadIn | Rule::StartHole
+            )
+            || matches!(
+                finding.detail,
+                Detail::OffsetCollapse { point: true, .. } | Detail::NoPartner { .. }
+            )
+            || job::is_of_program(finding)
     };
     let said: Vec<Finding> = made.warnings.iter().filter(of_program).cloned().collect();
     report::say(path, document, &said);
@@ -94,6 +97,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         output::say(&line);
     }
     output::say_thread_hole(&made.holes, document.unit_mm());
+    output::say_what_holds(&made.warnings, document.telling());
     if let Some(milled) = &made.program.milled {
         for line in Milling::new(&snapshot, milled).told(CUTS) {
             output::say(&line);

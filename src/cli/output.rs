@@ -2,6 +2,7 @@
 
 use super::Failure;
 use crate::disk;
+use crate::finding::{Finding, Rule, Severity, Telling, sentence};
 use crate::message::{columns, is_hidden, readable};
 use crate::program::ProvedProgram;
 use crate::toolpath::StartHole;
@@ -130,6 +131,17 @@ pub(crate) fn say_thread_hole(holes: &[StartHole], unit_mm: f64) {
         let at = hole.at * unit_mm;
         say(&say!(the_wire_is_threaded_at, at.x, at.y));
     }
+}
+
+/// What of the findings of a program is only to be known, to stderr: how its tabs hold.
+pub(crate) fn say_what_holds(warnings: &[Finding], telling: Telling) {
+    let holds = warnings.iter().filter(|one| is_what_holds(one));
+    holds.for_each(|one| say(&readable(&sentence(one, telling))));
+}
+
+/// True for the information how the tabs of a program hold.
+pub(crate) fn is_what_holds(finding: &Finding) -> bool {
+    finding.rule == Rule::LeadIn && finding.severity == Severity::Information
 }
 
 /// The failure, to stderr.

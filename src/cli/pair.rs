@@ -3,7 +3,7 @@
 use super::options::{Common, Pairing, Program};
 use super::output::{self, styled};
 use super::{Failure, Verdict, ending, files, report};
-use crate::finding::{Detail, Finding};
+use crate::finding::{Detail, Finding, Rule};
 use crate::job::{self, Wanted};
 use crate::message::lengths;
 use crate::program::Format;
@@ -102,12 +102,16 @@ pub(super) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
             lengths(program.length, program.jumps, say!(comma))
         ));
         let mut said = part.made.warnings.clone();
-        said.retain(job::is_of_program);
+        said.retain(|finding| {
+            let is_of_tab = finding.rule == Rule::LeadIn && !output::is_what_holds(finding);
+            is_of_tab || job::is_of_program(finding)
+        });
         report::say(path, document, &said);
         if let Some(line) = output::offsets(program) {
             output::say(&line);
         }
         output::say_thread_hole(&part.made.holes, document.unit_mm());
+        output::say_what_holds(&part.made.warnings, document.telling());
         let beyond: Vec<String> = (1..)
             .zip(&part.corrections)
             .filter(|(_, correction)| **correction < 0.0)

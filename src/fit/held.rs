@@ -2,16 +2,18 @@
 //!
 //! A place of the punch binds where it is farther than half a kerf from the way of the wire that cut the plate, and the other way round. Along
 //! walls that both wires follow, the clearance is what the kerfs leave. It is missing where a wire turned in a point and left its own
-//! radius: how much is missing follows from the places of the other part that are nearest to that point, and of these from the farthest.
+//! radius: how much is missing follows from the places of the other part that are nearest to that point, and of these from the farthest; and
+//! where walls lie folded, from how near the two outlines come to each other there, or how deep one stands in the other.
 
 use super::Spot;
 use super::about::{About, Limits};
 use super::observations::{Lies, Observations, Verdict};
+use super::penetration::{Deep, depth};
 use super::places::own_places;
 use super::reuse::Reuse;
-use super::walls::{sharper, wall};
+use super::walls::{nearest_places, sharper, wall};
 use crate::geometry::{
-    Bounds, Few, Point, Segment, Vector, cross, line_circle, line_line, reached,
+    Bounds, Few, Point, Segment, Vector, cross, line_circle, line_line, meetings, reached,
 };
 use crate::toolpath::Part;
 use rayon::iter::{IntoParallelIterator, ParallelExtend, ParallelIterator};
@@ -286,7 +288,8 @@ fn observations(
     all
 }
 
-/// A place where the wire turned in a point, and left less than the clearance to the other part.
+/// A place where the wire turned in a point, and left less than the clearance to the other part: the tightest of those straight before that
+/// point, of those where the two outlines are nearest to each other, and of those where one stands in the other.
 fn corner(
     [one, other]: [&Part; 2],
     edge: usize,
@@ -294,15 +297,76 @@ fn corner(
     limits: &Limits,
 ) -> Option<Verdict> {
     let turned = one.edges[edge].turned_about?;
-    let (far, at_other, on) = farthest([one, other], edge, turned, about, limits)?;
-    Some(Verdict {
+    let before = farthest([one, other], edge, turned, about, limits);
+    let before = before.map(|(far, at_other, on)| Verdict {
         edge: edge as u32,
         at: turned + (at_other - turned) * (one.radius_of(edge) / far),
         clearance: one.radius_of(edge) - far,
         other: on as u32,
         at_other,
         lies: Lies::InCorner { away: far },
-    })
+    });
+    let nearest = nearest([one, other], edge, about, limits);
+    let is_tighter = |it: &Verdict| {
+        let known = before.as_ref().map_or(limits.clearance, |it| it.clearance);
+        it.clearance < known - limits.rounding
+    };
+    nearest.filter(is_tighter).or(before)
+}
+
+/// Where an edge comes nearest to the other part, or how deep one of the two stands in the other there.
+fn nearest(
+    [one, other]: [&Part; 2],
+    edge: usize,
+    about: &mut About,
+    limits: &Limits,
+) -> Option<Verdict> {
+    let geometry = &one.edges[edge].geometry;
+    let area = geometry.bounds().grown(limits.clearance);
+    about.asked.merge(&area);
+    let (mut nearest, mut crossed) = (None, Vec::new());
+    let mut least = limits.clearance - limits.rounding;
+    about.edges.find(&area, |on| {
+        if let Some(away) = other.near.distance_below(geometry, on, least) {
+            least = away.max(limits.rounding);
+            nearest = Some((away, on));
+            if away <= limits.rounding {
+                crossed.push(on);
+            }
+        }
+        false
+    });
+    let mut deepest: Option<Deep> = None;
+    let mut look = |parts: [&Part; 2], begins: (usize, f64)| {
+        let deep = depth(parts, begins, limits, &mut about.asked);
+        let is_deeper = |it: &Deep| deepest.is_none_or(|known| it.depth > known.depth);
+        deepest = deep.filter(is_deeper).or(deepest);
+    };
+    for on in crossed {
+        let partner = &other.edges[on].geometry;
+        for at in meetings(geometry, partner) {
+            look([other, one], (on, partner.share_of(at)));
+            look([one, other], (edge, geometry.share_of(at)));
+        }
+    }
+    let (away, on) = nearest?;
+    let verdict = |clearance: f64, at: Point, at_other: Point| Verdict {
+        edge: edge as u32,
+        at,
+        clearance,
+        other: on as u32,
+        at_other,
+        lies: Lies::InCorner {
+            away: one.radius_of(edge) - clearance,
+        },
+    };
+    match deepest {
+        Some(Deep { depth, at, way }) => Some(verdict(-depth, at - way, at)),
+        None => {
+            let (at, at_other) = nearest_places(geometry, &other.edges[on].geometry);
+            Some(verdict(away, at, at_other))
+        }
+    }
 }
 
 /// Of the places of the other part that are nearest to where the wire turned, the farthest one: how far away it is, where, and on which edge.

@@ -1,7 +1,8 @@
-//! How deep an edge stands in the other part.
+//! How deep an edge, or a stretch of an outline, stands in the other part.
 
-use crate::geometry::{Bounds, Point, Segment};
-use crate::toolpath::Nearby;
+use super::about::Limits;
+use crate::geometry::{Bounds, Point, Segment, Vector, meetings};
+use crate::toolpath::{Nearby, Part};
 
 /// The most looks at one edge.
 const MOST: usize = 2_000;
@@ -75,4 +76,66 @@ pub(super) fn deepest(
         }
     }
     worst
+}
+
+/// A place of an outline that stands in the other part.
+#[derive(Clone, Copy)]
+pub(super) struct Deep {
+    pub(super) depth: f64,
+    pub(super) at: Point,
+    /// To it from the edge of what the other wire has cut.
+    pub(super) way: Vector,
+}
+
+/// How deep an outline stands in another part, both ways from a share of an edge up to where it passes into that part or out of it again.
+pub(super) fn depth(
+    [own, other]: [&Part; 2],
+    begins: (usize, f64),
+    limits: &Limits,
+    asked: &mut Bounds,
+) -> Option<Deep> {
+    let mut way = Nearby::of(&other.path);
+    let (half, count) = (other.half, own.edges.len());
+    let mut found: Option<(f64, Point)> = None;
+    for (step, goes_on) in [(1, true), (count - 1, false)] {
+        let (mut edge, mut from) = begins;
+        for _ in 0..count {
+            let geometry = &own.edges[edge].geometry;
+            asked.merge(&geometry.bounds());
+            let apart = limits.rounding / geometry.length();
+            let mut passes = passes(geometry, other);
+            let next = match goes_on {
+                true => passes.find(|share| *share > from + apart),
+                false => passes.rev().find(|share| *share < from - apart),
+            };
+            let to = next.unwrap_or(if goes_on { 1.0 } else { 0.0 });
+            let stretch = geometry.part(from.min(to), from.max(to));
+            let deep = deepest(&stretch, &mut way, [half, limits.rounding], asked);
+            let is_deeper = |deep: &(f64, Point)| found.is_none_or(|(most, _)| deep.0 > most);
+            found = deep.filter(is_deeper).or(found);
+            if deep.is_none() || next.is_some() {
+                break;
+            }
+            edge = (edge + step) % count;
+            from = if goes_on { 0.0 } else { 1.0 };
+        }
+    }
+    let (depth, at) = found?;
+    let (_, piece) = way.nearest_to(at, half + depth)?;
+    let piece = other.path.segment(piece);
+    let foot = piece.point_at(piece.share_of(at).clamp(0.0, 1.0));
+    let way = (at - foot).try_normalize(0.0).unwrap_or_default() * depth;
+    Some(Deep { depth, at, way })
+}
+
+/// Where an edge passes the outline of another part, by shares of the edge, rising.
+fn passes(edge: &Segment, other: &Part) -> impl DoubleEndedIterator<Item = f64> {
+    let mut shares = Vec::new();
+    other.near.find(&edge.bounds(), |on| {
+        let met = meetings(edge, &other.edges[on].geometry);
+        shares.extend(met.into_iter().map(|at| edge.share_of(at)));
+        false
+    });
+    shares.sort_by(f64::total_cmp);
+    shares.into_iter()
 }

@@ -75,7 +75,7 @@ pub(super) fn wall(
     let (clearance, at, other) = match (stands_out, nearest) {
         (Some((depth, at)), _) => (-depth, at, None),
         (None, (apart, Some(other))) => {
-            let at = nearest_place(geometry, &plate.edges[other].geometry);
+            let (at, _) = nearest_places(geometry, &plate.edges[other].geometry);
             (apart, at, Some(other))
         }
         (None, (_, None)) => return None,
@@ -198,15 +198,14 @@ fn tip(
     found
 }
 
-/// The point of a segment that is nearest to another one.
-fn nearest_place(segment: &Segment, other: &Segment) -> Point {
-    let feet = [other.start(), other.end()]
-        .map(|end| segment.point_at(segment.share_of(end).clamp(0.0, 1.0)));
-    let ends = [segment.start(), segment.end()];
-    let facing = facing(segment, other);
-    let places = ends.into_iter().chain(feet);
-    let places = places.chain(facing.into_iter().map(|(own, _)| own));
+/// The places of two segments that are nearest to each other.
+pub(super) fn nearest_places(segment: &Segment, other: &Segment) -> (Point, Point) {
+    let foot = |on: &Segment, at: Point| on.point_at(on.share_of(at).clamp(0.0, 1.0));
+    let ends = [segment.start(), segment.end()].map(|end| (end, foot(other, end)));
+    let feet = [other.start(), other.end()].map(|end| (foot(segment, end), end));
+    let places = ends.into_iter().chain(feet).chain(facing(segment, other));
+    let away = |(one, other): &(Point, Point)| (one - other).norm();
     places
-        .min_by(|a, b| other.distance_to(*a).total_cmp(&other.distance_to(*b)))
-        .unwrap_or_else(|| segment.start())
+        .min_by(|one, two| away(one).total_cmp(&away(two)))
+        .unwrap_or((segment.start(), other.start()))
 }

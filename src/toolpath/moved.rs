@@ -79,6 +79,11 @@ impl Part {
         if !is_laid || contour.len() != self.drawn.len() {
             return None;
         }
+        // What the wire does not reach now it may reach then, anywhere.
+        let followed = self.path_follows.chunk_by(|one, next| one / 2 == next / 2);
+        if followed.count() < self.drawn.len() {
+            return None;
+        }
         let new = self.changed(&job, contour, edited)?;
         if new.is_empty() {
             return Some(Moved::default());
@@ -195,6 +200,13 @@ impl Part {
         let stretches = relaid(job, &drawn, &kept)?.into_iter();
         let stretches = stretches.map(|(gone, new)| (gone, new.into_iter().map(piece).collect()));
         let stretches: Vec<Stretch> = stretches.collect();
+        let is_kept = |(gone, new): &Stretch| {
+            let is_among_new = |was: &u32| new.iter().any(|(_, now)| now / 2 == was / 2);
+            self.path_follows[gone.clone()].iter().all(is_among_new)
+        };
+        if !stretches.iter().all(is_kept) {
+            return None;
+        }
         let mut moved = Moved::default();
         let before = self.ways.len();
         let mut was: Vec<u32> = (0..before as u32).collect();

@@ -1,7 +1,8 @@
 //! The outline of a part as the wire leaves it: everything within half the kerf of the last pass's path is gone.
 //!
-//! The path of the last pass is laid beside the contour, and the outline half a kerf beside the path, on the side of the part. Where the path
-//! turns in a point the wire leaves its own radius: such an edge remembers the point.
+//! The path of the last pass is the one that is written: laid beside the contour as for a program, and refused where one would be. The outline is
+//! laid half a kerf beside the path, on the side of the part. Where the path turns in a point the wire leaves its own radius: such an edge
+//! remembers the point.
 
 use super::clearance::Walls;
 use super::contour_path::{Along, Fault, Known, Laid};
@@ -129,7 +130,13 @@ pub(crate) fn part(
     goes_on: &(dyn Fn() -> bool + Sync),
 ) -> Result<Part, Refusal> {
     let cut = Cut::of(drawing, cutting, goes_on)?;
-    let (job, half) = (&cut.job, cut.half);
+    // What falls off beside the part is no part of it.
+    let job = &Job {
+        a_loop_will_do: true,
+        goes_on,
+        ..Job::of(drawing, &[], cutting.settings)
+    };
+    let half = cut.half;
     let Cutting { side, walls, .. } = cutting;
     let segment = |at: usize| match walls {
         Some(walls) => contour.segment_with(drawing, at, *walls.segment(at)),
@@ -146,7 +153,7 @@ pub(crate) fn part(
         is_proved,
         swing,
     } = cut.last_path(contour, before)?;
-    let is_path_by_neighbours = !job.searched.swap(false, Relaxed);
+    let is_path_by_neighbours = !cut.job.searched.load(Relaxed);
     let path_follows = follows(&path);
     let beside: Vec<Wall> = path
         .iter()
@@ -262,7 +269,6 @@ impl<'a> Cut<'a> {
     ) -> Result<Cut<'a>, Refusal> {
         let settings = cutting.settings;
         let job = Job {
-            a_loop_will_do: true,
             goes_on,
             ..Job::of(drawing, &[], settings)
         };
@@ -328,24 +334,22 @@ impl Cut<'_> {
         } = self;
         let rounding = job.units(super::job::ROUNDING);
         let swing = (rough - last.correction).abs();
+        let is_after_rough = swing > rounding;
         let is_beside_rough =
-            job.settings.passes.skim_corner() == SkimCorner::ConstantStock && swing > rounding;
-        if last.correction.abs() <= rounding && !is_beside_rough {
+            job.settings.passes.skim_corner() == SkimCorner::ConstantStock && is_after_rough;
+        if last.correction.abs() <= rounding && !is_after_rough {
             let walls = job.closed_walls(contour);
             let path = elements(&walls);
             return Ok(Last::of(walls, None, path));
         }
-        let is_plain = !is_beside_rough && job.settings.corner == Corner::Arc;
+        let is_plain = !is_after_rough && job.settings.corner == Corner::Arc;
         if let Some(before) = before.filter(|_| is_plain)
             && let Some(mended) = job.mended(contour, last.on_own_side(), before)?
         {
             return Ok(mended);
         }
         let first = Along {
-            correction: match is_beside_rough {
-                true => *rough,
-                false => last.correction,
-            },
+            correction: *rough,
             ..*last
         };
         let first = first.on_own_side();
@@ -356,15 +360,17 @@ impl Cut<'_> {
             first.correction,
             true,
         )?;
-        let laid = match (laid, is_beside_rough) {
-            (Ok(Laid::Path(path)), true) => {
-                let rough = Rough {
-                    correction: *rough,
-                    path,
-                };
-                job.skim(&walls, &own, &rough, *last)?
-            }
-            (laid, _) => laid,
+        let skimmed = |path: Vec<Element>| {
+            let rough = Rough {
+                correction: *rough,
+                path,
+            };
+            job.skim(&walls, &own, &rough, *last)
+        };
+        let laid = match laid {
+            Ok(Laid::Path(path)) if is_after_rough => skimmed(path)?,
+            Ok(Laid::Point(_)) if is_after_rough => skimmed(Vec::new())?,
+            laid => laid,
         };
         match laid {
             Ok(Laid::Path(path)) => {

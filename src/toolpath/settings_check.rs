@@ -3,7 +3,7 @@
 use super::job::Job;
 use super::leads::finding;
 use super::milling::swept_length;
-use super::standing::weak_tabs;
+use super::standing::holds;
 use super::{Refusal, StartHole, WirePath, lengths, plan};
 use crate::drawing::{Drawing, Outline};
 use crate::finding::{Finding, Place, Rule, Severity};
@@ -45,7 +45,8 @@ pub(crate) fn stated_faults(
             let job = Job::of(drawing, outlines, settings);
             let mut found = job.short_layers(&paths);
             found.extend(job.worn_layers(&paths));
-            found.extend(weak_tabs(drawing, outlines, settings, &paths));
+            let of_tabs = holds(drawing, outlines, settings, &paths).into_iter();
+            found.extend(of_tabs.filter(|one| one.severity <= Severity::Warning));
             found
         }
         Err(Refusal::Findings(mut found)) => {

@@ -1,6 +1,7 @@
 //! What is left between punch and plate in a corner.
 
 use super::{corner, drawing, fit_of, notch, pair, polyline, settings};
+use wedm::drawing::Vertex;
 
 /// What is left in one corner, µm, and whether it fits.
 #[track_caller]
@@ -121,5 +122,81 @@ fn passes_with_a_constant_stock_leave_the_radius_of_the_first_in_a_corner() {
                 }
             }
         }
+    }
+}
+
+/// A tall edge comes down to the first of two acute corners, goes back to the second, and on to the left side: what is drawn, half a kerf, the
+/// right upper corner, the two acute ones, where the left side begins, and how deep the parts stand in each other, by sampling both beside the
+/// programs that are written.
+#[test]
+fn parts_bind_where_an_edge_lies_folded() {
+    for (drawn_as, half, [x, y], first, second, end, depth) in [
+        (
+            "plate",
+            0.106,
+            [6.99, 3.47],
+            [3.01, 3.81],
+            [5.24, 3.37],
+            4.11,
+            0.1989,
+        ),
+        (
+            "punch",
+            0.114,
+            [6.81, 3.27],
+            [1.65, 2.13],
+            [4.85, 2.47],
+            1.53,
+            0.2781,
+        ),
+        (
+            "plate",
+            0.091,
+            [5.29, 3.29],
+            [1.18, 3.62],
+            [3.45, 3.72],
+            3.98,
+            0.2276,
+        ),
+        (
+            "punch",
+            0.094,
+            [5.45, 2.78],
+            [1.57, 3.05],
+            [4.19, 3.1],
+            3.21,
+            0.1817,
+        ),
+        (
+            "punch",
+            0.068,
+            [5.19, 4.25],
+            [3.22, 3.16],
+            [3.56, 3.42],
+            2.42,
+            0.0191,
+        ),
+        (
+            "plate",
+            0.111,
+            [5.09, 4.42],
+            [1.39, 4.86],
+            [1.78, 4.87],
+            4.83,
+            0.0008,
+        ),
+    ] {
+        let corners = [[0.0, 0.0], [x, 0.0], [x, y], first, second, [0.0, end]];
+        let vertices = corners.map(|[x, y]| Vertex::new(x, y, 0.0)).to_vec();
+        let found = fit_of(
+            &drawing(vec![polyline("0", "2A", vertices)]),
+            &pair(drawn_as, half, 0.05),
+        );
+        assert!(
+            (found.least() + depth).abs() < 1e-3,
+            "{corners:?}: {}",
+            found.least()
+        );
+        assert!(!found.fits(), "{corners:?}");
     }
 }

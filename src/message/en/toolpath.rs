@@ -20,8 +20,8 @@ declare! {
     a_punch_is_free_after_its_first_pass(handle) => "contour {handle} is a punch and keeps no tab: it drops in its first pass, and the later ones cut nothing; expected a program.tab, unless it is held otherwise";
     the_tab_is_longer_than_contour(tab, handle, length) => "the tab of {tab:.3} mm leaves nothing of contour {handle}, which is {length:.3} mm long: expected a shorter tab";
     the_overlap_is_longer_than_contour(overlap, handle, length) => "the overlap of {overlap:.3} mm goes all round contour {handle}, which is {length:.3} mm long: expected a shorter one";
-    nothing_of_the_tab_is_left_standing(tab, handle, cut) => "nothing of the tab of {tab:.3} mm at contour {handle} is left standing: what is cut from both its ends is {cut:.3} mm wide; expected a longer tab, or a start hole that is smaller or farther away";
-    the_tab_stands_by_a_neck(tab, handle, width) => "of the tab of {tab:.3} mm at contour {handle} a neck of {width:.3} mm is left standing, between what is cut from both its ends";
+    nothing_of_the_tab_is_left_standing(tab, handle, x, y, cut) => "nothing of the tab of {tab:.3} mm at contour {handle} is left standing: what is cut before the stop meets at ({x:.3}, {y:.3}), {cut:.3} mm wide; expected a longer tab, another lead or entry, or a start hole that is smaller or farther away";
+    the_tab_stands_by_a_neck(tab, handle, width, x, y) => "of the tab of {tab:.3} mm at contour {handle} a neck of {width:.3} mm is left standing at ({x:.3}, {y:.3}) until the stop";
     the_cut_meets_itself(handle, x, y, area) => "the cut of contour {handle} meets itself at ({x:.3}, {y:.3}) before the stop: {area:.1} mm² of the slug are loose there, and the tab does not hold them; expected another entry, a shorter lead or no tab";
     no_tab_fits_at(x, y) => "no tab begins at ({x:.3}, {y:.3}): the wire does not pass there";
     the_start_hole_cuts_into(diameter, x, y, handle, by) => "the start hole of Ø {diameter:.3} mm at ({x:.3}, {y:.3}) cuts {by:.3} mm into contour {handle}";

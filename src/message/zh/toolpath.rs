@@ -20,8 +20,8 @@ translate! {
     a_punch_is_free_after_its_first_pass(handle) => "轮廓 {handle} 是凸模而不留暂留段：第一次切割后它就掉下，以后各次切不到东西；若不另行固定，请设 program.tab";
     the_tab_is_longer_than_contour(tab, handle, length) => "暂留段长 {tab:.3} mm，而轮廓 {handle} 只长 {length:.3} mm，没有可切的了：请缩短暂留段";
     the_overlap_is_longer_than_contour(overlap, handle, length) => "重叠段长 {overlap:.3} mm，绕满了只长 {length:.3} mm 的轮廓 {handle}：请缩短重叠段";
-    nothing_of_the_tab_is_left_standing(tab, handle, cut) => "轮廓 {handle} 的暂留段长 {tab:.3} mm，却什么也没留下：两端共切去 {cut:.3} mm；请加长暂留段，或用更小、更远的穿丝孔";
-    the_tab_stands_by_a_neck(tab, handle, width) => "轮廓 {handle} 的暂留段长 {tab:.3} mm，两端切去之后只剩 {width:.3} mm 宽的颈";
+    nothing_of_the_tab_is_left_standing(tab, handle, x, y, cut) => "轮廓 {handle} 的暂留段长 {tab:.3} mm，却什么也没留下：停机前的切缝在 ({x:.3}, {y:.3}) 处相通，共切去 {cut:.3} mm；请加长暂留段，换引入线或切入点，或用更小、更远的穿丝孔";
+    the_tab_stands_by_a_neck(tab, handle, width, x, y) => "轮廓 {handle} 的暂留段长 {tab:.3} mm，停机前在 ({x:.3}, {y:.3}) 处只剩 {width:.3} mm 宽的颈";
     the_cut_meets_itself(handle, x, y, area) => "轮廓 {handle} 的切缝在停机前于 ({x:.3}, {y:.3}) 处相遇：那里有 {area:.1} mm² 的废料松脱，暂留段没有支撑它；请换切入点、缩短引入线或不留暂留段";
     no_tab_fits_at(x, y) => "({x:.3}, {y:.3}) 处留不出暂留段：电极丝到不了那里";
     the_start_hole_cuts_into(diameter, x, y, handle, by) => "({x:.3}, {y:.3}) 处 Ø {diameter:.3} mm 的穿丝孔切入轮廓 {handle} {by:.3} mm";
