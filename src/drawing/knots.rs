@@ -100,6 +100,18 @@ impl Knots<'_> {
         near
     }
 
+    /// The entity of a strand of one.
+    fn only(&self, strand: usize) -> Option<u32> {
+        let Strand { ends, count, .. } = self.strands.get(strand)?;
+        (*count == 1).then(|| ends[0].entity())
+    }
+
+    /// The other one of an edge that two outlines share.
+    fn twin(&self, strand: usize) -> Option<u32> {
+        let borders = &self.joints.doubles.borders;
+        borders.get(&self.only(strand)?).copied()
+    }
+
     /// The direction in which the strand leaves a tip.
     fn heading(&self, tip: Tip) -> f64 {
         self.joints.heading(self.end(tip))
@@ -266,12 +278,22 @@ impl Knots<'_> {
                 // Straight back counts as the leftmost way, on whichever side rounding puts it.
                 if turn < -PI + 1e-6 { turn + TAU } else { turn }
             };
+            // An edge that two outlines share leads round the one on this side of it, but not straight back.
+            let shared = |other: Tip| {
+                let twin = self.twin(other / 2);
+                (
+                    twin.is_some() && twin == self.only(last / 2),
+                    twin.is_none(),
+                )
+            };
             let onward = near
                 .iter()
                 .filter(|(other, _)| self.is_free[other / 2])
                 .min_by(|(one, near), (other, far)| {
                     let turns = || turned(*one).total_cmp(&turned(*other));
-                    near.total_cmp(far)
+                    shared(*one)
+                        .cmp(&shared(*other))
+                        .then(near.total_cmp(far))
                         .then_with(turns)
                         .then_with(|| self.by_place(*one, *other))
                 });

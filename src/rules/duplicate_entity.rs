@@ -2,7 +2,6 @@
 //!
 //! The wire would cut the same path twice, or the chaining would branch there. Fix: delete the later one.
 
-use super::short_segment::is_point;
 use super::wall::Wall;
 use super::{PairObservation, PairRule};
 use crate::drawing::{Change, Geometry, run_together};
@@ -12,8 +11,10 @@ use crate::geometry::{Point, Segment};
 pub(crate) const RULE: PairRule = PairRule {
     rule: Rule::DuplicateEntity,
     reach: |limits| limits.tolerances.same_place,
-    check: |one, other, _| {
-        if are_doubles(one, other).unwrap_or(false) {
+    check: |one, other, same_contour| {
+        // An edge that two outlines share is no double: one of them would be open without it.
+        let is_shared = !same_contour && one.is_edge() && other.is_edge();
+        if !is_shared && are_doubles(one, other).unwrap_or(false) {
             vec![PairObservation::default()]
         } else {
             Vec::new()
@@ -30,21 +31,6 @@ pub(crate) const RULE: PairRule = PairRule {
 fn are_doubles(one: &Wall, other: &Wall) -> Option<bool> {
     let (a, b) = (one.segment, other.segment);
     if a.entity == b.entity || a.segment != 0 {
-        return None;
-    }
-    let resolution = one.outlook.limits.tolerances.resolution;
-    if [one, other]
-        .into_iter()
-        .all(|wall| wall.geometry().length() < resolution && wall.segment.segment == 0)
-        && one.outlook.drawing.get(a.entity)?.geometry.segment_count() == 1
-    {
-        return None;
-    }
-    // A point is never cut.
-    if [a, b]
-        .into_iter()
-        .all(|point| is_point(&one.outlook, &point))
-    {
         return None;
     }
     let (first, second) = (

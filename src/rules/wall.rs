@@ -38,6 +38,11 @@ impl<'a> Wall<'a> {
         Some(Wall::behind(before, outlook, index, segment))
     }
 
+    /// True for one of several entities that make a closed contour, which is open without it.
+    pub(super) fn is_edge(&self) -> bool {
+        self.outlook.contour.closed && self.outlook.contour.pieces.len() > 1
+    }
+
     /// The segment at an index after the one before it, both of which are known.
     pub(crate) fn behind(
         before: Option<Segment>,
