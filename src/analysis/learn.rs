@@ -296,7 +296,7 @@ impl Analysis {
                 .get(first)
                 .is_some_and(|entity| entity.geometry.is_closed())
         })?;
-        let (_, index) = self.chains.index_of(first, 0)?;
+        let index = self.chains.piece_of(first)?.first();
         let run = self.known.get(&key)?.index.run_of(index);
         Some((key, run as u32))
     }

@@ -38,8 +38,20 @@ impl Twice {
                 false => [other, one],
             }
         };
+        // What was left out when ends were joined lies on what was kept.
+        let holder = |each: &Observed| {
+            let is_on = |left_out: ContourKey, (key, index): (ContourKey, usize)| {
+                let kept = outlook(left_out)?.contour.double_of?;
+                (outlook(key)?.segment_id(index)?.0 == kept).then_some([key, left_out])
+            };
+            is_on(each.one.0, each.other).or_else(|| is_on(each.other.0, each.one))
+        };
+        let mut held: Vec<[ContourKey; 2]> = Vec::new();
         let mut known = FxHashSet::default();
-        let pairs = seen.filter(is_asked).map(ordered);
+        let pairs = seen
+            .filter(is_asked)
+            .inspect(|each| held.extend(holder(each)))
+            .map(ordered);
         let mut pairs: Vec<[ContourKey; 2]> = pairs
             .filter(|&[one, other]| one != other && known.insert([one, other]))
             .collect();
@@ -61,6 +73,13 @@ impl Twice {
         for [one, other] in pairs {
             let first = twice.first(one);
             twice.first_of.entry(other).or_insert(first);
+        }
+        let firsts: FxHashSet<ContourKey> = twice.first_of.values().copied().collect();
+        for [kept, left_out] in held {
+            let first = twice.first(kept);
+            if firsts.contains(&first) {
+                twice.first_of.entry(left_out).or_insert(first);
+            }
         }
         twice
     }

@@ -113,7 +113,7 @@ impl Contour {
     }
 
     /// Whether segments of its entities are no part of it.
-    pub(super) fn leaves_out(&self) -> bool {
+    pub(crate) fn leaves_out(&self) -> bool {
         !self.left_out.is_empty()
     }
 
@@ -149,6 +149,12 @@ impl Contour {
             index - piece.first(),
             drawing.flat(),
         )
+    }
+
+    /// The first and the last segment of the piece of segment `index`.
+    pub(crate) fn ends_of_piece(&self, index: usize) -> Option<(usize, usize)> {
+        let (_, piece) = self.piece_of(index)?;
+        Some((piece.first(), piece.range().end.checked_sub(1)?))
     }
 
     /// Segment `index` of which the geometry is known.

@@ -30,17 +30,14 @@ pub(crate) const RULE: PairRule = PairRule {
 /// which it begins.
 fn are_doubles(one: &Wall, other: &Wall) -> Option<bool> {
     let (a, b) = (one.segment, other.segment);
-    if a.entity == b.entity || a.segment != 0 {
+    if a.entity == b.entity || !one.is_at_start() {
         return None;
     }
     let (first, second) = (
         &one.outlook.drawing.get(a.entity)?.geometry,
         &other.outlook.drawing.get(b.entity)?.geometry,
     );
-    let (count, tolerance) = (
-        first.segment_count(),
-        one.outlook.limits.tolerances.same_place,
-    );
+    let tolerance = one.outlook.limits.tolerances.same_place;
     let flat = one.outlook.drawing.flat();
     // In the entities' own directions; most pairs have no end in common.
     let [(start, _), (their_start, their_end)] = [a, b].map(|segment| {
@@ -53,12 +50,12 @@ fn are_doubles(one: &Wall, other: &Wall) -> Option<bool> {
     });
     let begins_at = |point: Point| (point - start).norm() <= tolerance;
     let forward = || {
-        b.segment == 0
+        other.is_at_start()
             && begins_at(their_start)
             && run_together(first, second, false, tolerance, flat)
     };
     let backward = || {
-        b.segment + 1 == count
+        other.is_at_end()
             && begins_at(their_end)
             && run_together(first, second, true, tolerance, flat)
     };

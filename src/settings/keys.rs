@@ -161,7 +161,7 @@ tables! {
         /// How the wire goes round a convex corner of the part.
         corner: Corner = Corner::Arc => name;
         /// Thread hole `[x, y]` in drawing units. A table has them by handle. Else the TEXT or MTEXT "O" nearest to the
-        /// contour, or a POINT on a layer of start holes (START-HOLES, 穿丝孔) or where the contour has no other mark, else the centre of a round opening where neither entry nor `lead-in` is set, else found from the entry. An "O" on the
+        /// contour, or a POINT on a layer of start holes (as START-HOLES) or where the contour has no other mark, else the centre of a round opening where neither entry nor `lead-in` is set, else found from the entry. An "O" on the
         /// part's side, or within the correction of the contour, is not the hole but the entry beside it.
         thread: PointSetting => point_setting;
         /// Point `[x, y]` of the contour where the cut begins, in drawing units. A table has them by handle. Else the point beside an "O"
