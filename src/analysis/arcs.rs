@@ -194,7 +194,7 @@ impl Analysis {
                 {
                     return None;
                 }
-                numbers.stock_left = numbers.stock_left.min(depth);
+                numbers.stock_left = depth;
             }
             Some(TightArc {
                 index,
