@@ -1,11 +1,17 @@
 //! Arcs below the correction, and the larger arc that replaces a run of them.
 
 use super::Analysis;
+use super::notable::TightArc;
 use super::repair::{self, Tried, Wanted};
-use crate::drawing::{ContourKey, ContourSegment, Drawing, DrawingEdit, EntityId};
-use crate::finding::{Fix, FixKind, NoFix, Rule, Side, SmallRadius};
+use crate::drawing::{ContourKey, ContourSegment, Drawing, DrawingEdit, EntityId, Kind};
+use crate::finding::{Fix, FixKind, NoFix, Place, Rule, Side, SmallRadius};
 use crate::rules::small_radius::{self, Attempt, Replacement, Travel};
+use crate::settings::Compensation;
 use rustc_hash::FxHashSet;
+use std::sync::Arc;
+
+/// An arc below the correction, with its index in the contour.
+type Fault = (usize, ContourSegment, SmallRadius);
 
 impl Analysis {
     /// The repair of an arc below the correction that replaces its run by one larger arc, if that improves the drawing.
@@ -133,9 +139,91 @@ impl Analysis {
         let contour = self.chains.get(key)?;
         let segment = contour.segment(drawing, index)?;
         let found = small_radius::check(&segment, wire_side, &self.limits)?;
-        let all = |at: usize| contour.segment(drawing, at);
-        let is_noise = small_radius::is_noise(contour, index, all, &self.limits);
-        (!is_noise).then_some((segment, found))
+        Some((segment, found))
+    }
+
+    /// The arcs of a contour that are below the correction with the wire on a side. Arcs that were fitted to a curve count by the
+    /// stretch, at its tightest one, where the wire leaves anything of the curve that could be measured.
+    pub(super) fn small_radii(
+        &self,
+        drawing: &Drawing,
+        key: ContourKey,
+        wire_side: Option<Side>,
+    ) -> Arc<[TightArc]> {
+        let known = self.known.get(&key);
+        let tight = known.into_iter().flat_map(|known| known.index.tight());
+        let fault = |index| {
+            let (segment, numbers) = self.fault(drawing, key, index, wire_side)?;
+            Some((index, segment, numbers))
+        };
+        let faults: Vec<(usize, ContourSegment, SmallRadius)> = tight.filter_map(fault).collect();
+        let is_fitted = |at: &ContourSegment| {
+            let kind = drawing.get(at.entity).map(|entity| entity.kind);
+            matches!(kind, Some(Kind::Spline | Kind::Ellipse))
+        };
+        let turns_left = |at: &ContourSegment| at.geometry.bulge() > 0.0;
+        let are_one = |one: &ContourSegment, next: &ContourSegment| {
+            one.entity == next.entity && is_fitted(one) && turns_left(one) == turns_left(next)
+        };
+        let follows = |one: &Fault, next: &Fault| one.0 + 1 == next.0 && are_one(&one.1, &next.1);
+        let stretches = faults.chunk_by(follows).map(<[Fault]>::to_vec);
+        let mut stretches: Vec<Vec<Fault>> = stretches.collect();
+        // A stretch may lead over the beginning of its contour.
+        if let Some(contour) = self.chains.get(key).filter(|contour| contour.closed)
+            && let [first, .., last] = stretches.as_slice()
+            && let (Some(begin), Some(end)) = (first.first(), last.last())
+            && (begin.0, end.0 + 1) == (0, contour.len())
+            && are_one(&end.1, &begin.1)
+            && let Some(mut whole) = stretches.pop()
+            && let Some(first) = stretches.first_mut()
+        {
+            whole.append(first);
+            *first = whole;
+        }
+        let told = stretches.into_iter().filter_map(|stretch| {
+            let depth = match stretch.first() {
+                Some(first) if is_fitted(&first.1) => self.depth(key, &stretch, drawing),
+                _ => None,
+            };
+            let by_radius = |one: &Fault, other: &Fault| one.2.radius.total_cmp(&other.2.radius);
+            let (index, segment, mut numbers) = stretch.into_iter().min_by(by_radius)?;
+            if let Some(depth) = depth {
+                // A control that offsets the curve loses the arc, whatever that costs.
+                if depth < self.limits.tolerances.resolution
+                    && self.settings.compensation == Compensation::Path
+                {
+                    return None;
+                }
+                numbers.stock_left = depth;
+            }
+            Some(TightArc {
+                index,
+                place: Place::from(&segment),
+                numbers,
+            })
+        });
+        told.collect()
+    }
+
+    /// What the wire leaves of a stretch of fitted arcs in a row.
+    fn depth(&self, key: ContourKey, stretch: &[Fault], drawing: &Drawing) -> Option<f64> {
+        let ((first, segment, _), (last, ..)) = (stretch.first()?, stretch.last()?);
+        let travel = Travel {
+            drawing,
+            contour: self.chains.get(key)?,
+            index: &self.known.get(&key)?.index,
+            side: small_radius::center_side(segment.geometry.bulge()),
+        };
+        let [one, other] = [*first, *last].map(|index| travel.position_of(index));
+        let begin = match travel.side {
+            Side::Left => one,
+            Side::Right => other,
+        };
+        small_radius::depth(
+            &travel,
+            begin..=begin + stretch.len() as isize - 1,
+            &self.limits,
+        )
     }
 
     /// The replacement of the run with a tight arc, searched for on the side of its centre.

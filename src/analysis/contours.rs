@@ -4,7 +4,7 @@ use super::Analysis;
 use super::suppressed::own_role;
 use crate::drawing::{
     Contour, ContourKey, Drawing, EntityId, Outline, Role, is_drafting_layer, is_drafting_linetype,
-    nesting_depths,
+    nesting_depths, twins,
 };
 use crate::finding::{Aside, Side};
 use crate::geometry::Bounds;
@@ -31,15 +31,37 @@ impl Analysis {
                     twice_area,
                 })
             };
-            Arc::new(
-                ordered
-                    .iter()
-                    .copied()
-                    .zip(roles)
-                    .filter_map(outline)
-                    .collect(),
-            )
+            let outlines = ordered.iter().copied().zip(roles).filter_map(outline);
+            let mut outlines: Vec<Outline> = outlines.collect();
+            self.mark_doubles(drawing, &mut outlines);
+            Arc::new(outlines)
         })
+    }
+
+    /// Of closed contours in one place, whatever their entities, the first is cut.
+    fn mark_doubles(&self, drawing: &Drawing, outlines: &mut [Outline]) {
+        let part_of = |at: usize| {
+            let contour = outlines.get(at).map(|outline| &outline.contour)?;
+            Some(self.settings.workpieces.of_contour(drawing, contour))
+        };
+        let with_box = |outline: &Outline| {
+            let first = outline.contour.pieces.first()?;
+            let known = self.known.get(&self.chains.contour_of(first.entity)?)?;
+            Some(known.index.bounds())
+        };
+        let contours = outlines
+            .iter()
+            .map(|outline| (&outline.contour, with_box(outline).unwrap_or(Bounds::EMPTY)));
+        let contours: Vec<_> = contours.collect();
+        let mut pairs = twins(drawing, &contours, self.limits.tolerances.same_place);
+        pairs.retain(|[first, later]| part_of(*first) == part_of(*later));
+        for [first, later] in pairs {
+            let kept = outlines.get(first).and_then(|it| it.contour.pieces.first());
+            let kept = kept.map(|piece| piece.entity);
+            if let Some(outline) = outlines.get_mut(later) {
+                outline.contour.double_of = kept;
+            }
+        }
     }
 
     pub(super) fn wire_side(&self, key: ContourKey, role: Role) -> Option<Side> {

@@ -1,21 +1,19 @@
 //! Entities drawn only to be read, not to be cut: centre lines, hidden edges, hatches, dimensions,
 //! construction.
 //!
-//! An entity is set aside by its linetype or its layer, whatever lies about it. A line is set aside as a contour of its
-//! own if it is alone, with a stretch of it within a closed contour and no end near that of another
+//! An entity is set aside by its linetype or its layer, whatever lies about it. A line without a role is set aside as a
+//! contour of its own if it is alone, with a stretch of it within a closed contour and no end near that of another
 //! contour: a chain, or an end that faces another one, belongs to an outline with something
-//! missing. A closed contour with a lone line in it is still sound, so rules do not see lines that
+//! missing. One that ends on a closed contour, or leads from outside into it, is a slit or a wall between two parts, and
+//! never set aside; a centre line comes out again, or stays within. A closed contour with a lone line in it is still sound, so rules do not see lines that
 //! are set aside; the decision is made again where something near has changed.
 
 use super::Analysis;
-use super::contours::{role_of, role_of_linetype, set_aside};
+use super::contours::{role_of, set_aside};
 use super::end_index::{EndIndex, SHARE};
 use super::report::Report;
 use super::runs::{MANY_RUNS, Runs, boxes_of, is_flat};
-use super::suppressed::own_role;
-use crate::drawing::{
-    ContourIndex, ContourKey, Drawing, EntityId, Role, is_drafting_layer, is_drafting_linetype,
-};
+use crate::drawing::{ContourIndex, ContourKey, Drawing, EntityId, Role};
 use crate::finding::{Aside, Detail, MOST_HANDLES, Place, Rule, SetAside};
 use crate::geometry::{
     Bounds, Boxes, Grid, Line, Point, Segment, Vector, cross, line_line, meetings,
@@ -62,18 +60,7 @@ impl Analysis {
             return None;
         };
         let settings = &self.settings;
-        let linetype = drawing.linetype(piece.entity);
-        // A role for a reference layer means that its entities are wanted.
-        let is_for_reading = || {
-            is_drafting_layer(&entity.layer)
-                || linetype.is_some_and(|it| it.of_layer && is_drafting_linetype(&it.name))
-        };
-        let has_role = entity.role.is_some()
-            || own_role(drawing, settings, piece.entity).is_some()
-            || linetype.is_some_and(|it| role_of_linetype(settings, &it.name).is_some())
-            || (settings.layers.contains(&entity.layer) && is_for_reading())
-            // `left` and `right` are said of open contours.
-            || matches!(role_of(drawing, settings, piece.entity), Some(Role::Left | Role::Right | Role::Both));
+        let has_role = role_of(drawing, settings, piece.entity).is_some();
         let join = self.limits.tolerances.join;
         let length = line.length();
         // Where the contour is the wire's own path, or the middle of a milled slot, a single line may be all of it.
@@ -179,7 +166,11 @@ impl Analysis {
         let holds = |lone: &Lone, other: ContourKey| {
             is_closed(&other) && self.holds_some_of(drawing, &lone.line, other, sorted.get(&other))
         };
+        let is_met = |lone: &Lone, other: ContourKey| {
+            is_closed(&other) && self.is_met_by(drawing, &lone.line, other, sorted.get(&other))
+        };
         // Thousands of lines may be near each other: those in no closed contour are not examined.
+        // Those in one that they meet are no annotation.
         let closed = (keys.len() > MANY).then(|| {
             let mut closed = Grid::default();
             let join = self.limits.tolerances.join;
@@ -191,18 +182,16 @@ impl Analysis {
             }
             closed
         });
-        let is_in_none = |lone: &Lone, closed: &Grid<ContourKey>| {
-            let is_held = |key| self.is_there(drawing, key) && holds(lone, key);
-            !closed.any_near(&lone.reach, is_held)
+        let is_cut = |lone: &Lone, closed: &Grid<ContourKey>| {
+            let is_there = |key| self.is_there(drawing, key);
+            !closed.any_near(&lone.reach, |key| is_there(key) && holds(lone, key))
+                || closed.any_near(&lone.reach, |key| is_there(key) && is_met(lone, key))
         };
         let faced = OnceLock::new();
         let is_sorted = keys.len() > MANY && keys.len() * FEW_OF_ALL > self.lone.len();
         let judge = |&key: &ContourKey| {
             let lone = self.lone.get(&key)?;
-            if closed
-                .as_ref()
-                .is_some_and(|closed| is_in_none(lone, closed))
-            {
+            if closed.as_ref().is_some_and(|closed| is_cut(lone, closed)) {
                 return Some((key, false));
             }
             if is_sorted {
@@ -219,6 +208,7 @@ impl Analysis {
             }
             let near = self.contours_near(drawing, &lone.reach);
             let is_aside = near.iter().any(|&other| holds(lone, other))
+                && !near.iter().any(|&other| is_met(lone, other))
                 && !near
                     .iter()
                     .any(|&other| other != key && self.faces(drawing, lone, other));
@@ -385,17 +375,31 @@ impl Analysis {
             .windows(2)
             .filter(|cut| (cut[1] - cut[0]) * length > 2.0 * join)
             .map(|cut| own.point_at(cut[0].midpoint(cut[1])));
-        let lies_on = |point: Point| {
-            let about = Bounds::of_disc(point, join);
-            runs.near(&about).into_iter().any(|range| {
-                contour
-                    .segments_in(drawing, range)
-                    .any(|segment| segment.geometry.distance_to(point) <= join)
-            })
-        };
         middles
             .into_iter()
-            .any(|middle| runs.enclose(middle) && !lies_on(middle))
+            .any(|middle| runs.enclose(middle) && !runs.pass_by(middle, join))
+    }
+
+    /// True where the line ends on a closed contour, or has one end within it.
+    fn is_met_by(
+        &self,
+        drawing: &Drawing,
+        line: &Line,
+        other: ContourKey,
+        sorted: Option<&Boxes>,
+    ) -> bool {
+        let join = self.limits.tolerances.join;
+        let (Some(contour), Some(known)) = (self.chains.get(other), self.known.get(&other)) else {
+            return false;
+        };
+        let runs = Runs {
+            drawing,
+            contour,
+            index: &known.index,
+            sorted,
+        };
+        let [starts, ends] = [line.start, line.end].map(|end| runs.enclose(end));
+        starts != ends || runs.pass_by(line.start, join) || runs.pass_by(line.end, join)
     }
 
     /// The lines whose answer may depend on something within these boxes.

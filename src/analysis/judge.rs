@@ -10,7 +10,6 @@ use crate::settings::SideSetting;
 use crate::toolpath;
 use rustc_hash::FxHashMap;
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 /// The most segments that are looked at to find which repairs of arcs below the correction would
 /// cause another fault.
@@ -349,26 +348,6 @@ impl Analysis {
                 Vec::new(),
             );
         }
-    }
-
-    /// The arcs of a contour that are below the correction with the wire on a side.
-    fn small_radii(
-        &self,
-        drawing: &Drawing,
-        key: ContourKey,
-        wire_side: Option<Side>,
-    ) -> Arc<[TightArc]> {
-        let known = self.known.get(&key);
-        let tight = known.into_iter().flat_map(|known| known.index.tight());
-        let fault = |index| {
-            let (segment, numbers) = self.fault(drawing, key, index, wire_side)?;
-            Some(TightArc {
-                index,
-                place: Place::from(&segment),
-                numbers,
-            })
-        };
-        tight.filter_map(fault).collect()
     }
 }
 

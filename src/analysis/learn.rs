@@ -124,6 +124,20 @@ impl Analysis {
         self.pairs = pairs;
     }
 
+    /// Whether what is shorter than the resolution decides about the contour of an entity of which these vertices have changed.
+    pub(super) fn leaves_out(
+        &self,
+        drawing: &Drawing,
+        entity: EntityId,
+        vertices: Option<(usize, usize, usize)>,
+    ) -> bool {
+        drawing.get(entity).is_some_and(|it| {
+            let (count, closed) = (it.geometry.segment_count(), it.geometry.is_closed());
+            let ranges = segments_of(vertices, count, closed);
+            self.chains.leaves_out(drawing, entity, &ranges)
+        })
+    }
+
     /// Checks again an entity whose contour still runs as it did. False where it is in no contour.
     pub(super) fn look_again(
         &mut self,
@@ -282,7 +296,7 @@ impl Analysis {
                 .get(first)
                 .is_some_and(|entity| entity.geometry.is_closed())
         })?;
-        let (_, index) = self.chains.index_of(first, 0)?;
+        let index = self.chains.piece_of(first)?.first();
         let run = self.known.get(&key)?.index.run_of(index);
         Some((key, run as u32))
     }

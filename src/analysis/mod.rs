@@ -35,6 +35,7 @@ mod search;
 mod splice;
 mod suppressed;
 mod told;
+mod twice;
 mod within;
 
 #[cfg(test)]
@@ -122,7 +123,7 @@ struct Suspended {
 impl Analysis {
     pub fn new(drawing: &Drawing, settings: Arc<Effective>) -> Analysis {
         let limits = Limits::new(&settings, settings.unit_of(drawing).mm);
-        let chains = Chains::of_parts(drawing, limits.tolerances.join, &|id| {
+        let chains = Chains::of_parts(drawing, (limits.tolerances.join, limits.least()), &|id| {
             contours::part_of(drawing, &settings, id)
         });
         let mut analysis = Analysis {
@@ -250,6 +251,7 @@ impl Analysis {
             let part = contours::part_of(drawing, &self.settings, entity);
             let stays = !is_lone
                 && self.chains.same_ends(drawing, entity, part.is_some())
+                && !self.leaves_out(drawing, entity, vertices)
                 && part.is_none_or(|part| self.is_of_part(entity, part));
             let box_of = |analysis: &Analysis| key.and_then(|key| analysis.box_of(key));
             changed.extend(box_of(self).filter(|_| !self.lone.is_empty()));

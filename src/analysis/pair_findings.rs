@@ -6,6 +6,7 @@ use super::report::Report;
 use super::told::{
     Doubles, Told, ToldPair, gather_crossings, is_without_room, merged, reaches, takes_of_the_other,
 };
+use super::twice::Twice;
 use crate::drawing::{ContourKey, Drawing, EntityId};
 use crate::finding::{Detail, NotJudged, Place, Rule, Severity, Side};
 use crate::geometry::Point;
@@ -216,6 +217,8 @@ impl Pairs {
                 seen.push((each.rule, (one, other), each));
             }
         }
+        let twice = Twice::among(drawing, outlook, seen.iter().map(|(_, _, each)| *each));
+        seen.retain(|(_, _, each)| !twice.are_one(each.one.0, each.other.0));
         let rank = |(entity, segment): (EntityId, usize)| (drawing.rank(entity), segment);
         seen.sort_unstable_by_key(|(rule, ends, _)| (*rule, rank(ends.0), rank(ends.1)));
         let is_double =
@@ -314,6 +317,15 @@ impl Pairs {
             });
         }
         told.meeting = meeting;
+        let of_pair = |pair: &ToldPair| {
+            let first = outlook(pair.one.0).and_then(|it| it.segment_id(pair.one.1));
+            (pair.rule, first.map(rank))
+        };
+        let of_contours = twice.told(drawing, outlook);
+        if !of_contours.is_empty() {
+            told.pairs.extend(of_contours);
+            told.pairs.sort_by_key(of_pair);
+        }
         for kind in gather_crossings(&mut told.pairs) {
             *told.absorbed.entry(kind).or_default() += 1;
         }

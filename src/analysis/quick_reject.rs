@@ -76,7 +76,6 @@ impl Analysis {
         contour.pieces.len() > 1
             && !contour.closed
             && contour.double_of.is_none()
-            && contour.has_length(drawing, self.limits.tolerances.zero_length)
             && wire_side(role(), false, 0.0).is_none()
     }
 }

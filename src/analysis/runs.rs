@@ -74,6 +74,15 @@ impl Runs<'_> {
         near
     }
 
+    /// Whether the contour comes within a distance of a point.
+    pub(super) fn pass_by(&self, point: Point, distance: f64) -> bool {
+        let about = Bounds::of_disc(point, distance);
+        self.near(&about).into_iter().any(|range| {
+            let mut segments = self.contour.segments_in(self.drawing, range);
+            segments.any(|segment| segment.geometry.distance_to(point) <= distance)
+        })
+    }
+
     /// Whether the contour, which is closed, encloses a point. Runs about which a box does not hold the point are replaced by their chord.
     pub(super) fn enclose(&self, point: Point) -> bool {
         let here = Bounds::of_points(&[point]);

@@ -245,7 +245,15 @@ fn deliver(
 
 /// Reports to stderr what was repaired, and what is left and why: stdout may be the drawing.
 fn summarise(path: &Path, repair: &Repair) {
-    let of_rule = |rows: &[Row], rule: Rule| rows.iter().filter(|row| row.rule == rule).count();
+    let of_rule = |rows: &[Row], rule: Rule| -> usize {
+        // One finding stands for all that lie in one place.
+        let count = |row: &Row| match rule {
+            Rule::DuplicateEntity => row.related.len().max(1),
+            _ => 1,
+        };
+        let own = rows.iter().filter(|row| row.rule == rule);
+        own.map(count).sum()
+    };
     let repaired = repaired_rules().into_iter().filter_map(|(rule, counted)| {
         let count = of_rule(&repair.before, rule).saturating_sub(of_rule(&repair.after, rule));
         (count > 0).then(|| counted(&count))

@@ -11,6 +11,7 @@
 
 mod groups;
 
+use super::crumbs::{has_short, is_crumb};
 use super::ends::{Buckets, Cells, End, Ends, NO_ENDS, has_ends};
 use super::joints::Joints;
 use super::linked::{Linked, Way};
@@ -19,6 +20,7 @@ use crate::geometry::Point;
 use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// Up to this many entities are sorted without looking at all others.
@@ -39,6 +41,8 @@ const NO_KEY: Key = 0;
 #[derive(Clone, Debug)]
 pub struct Chains {
     cells: Cells,
+    /// What is shorter is no part of a contour, drawing units.
+    least: f64,
     /// All free ends by cell, numbered by entity id; empty until the first edit. All contours with an end in one cell
     /// are of one group.
     ends: Option<Buckets>,
@@ -75,18 +79,19 @@ pub struct Rechained {
 impl Chains {
     /// Chains every entity of `drawing` for which `is_cut` holds; `join` is the join tolerance in drawing units.
     pub fn new(drawing: &Drawing, join: f64, is_cut: &(dyn Fn(EntityId) -> bool + Sync)) -> Chains {
-        Chains::of_parts(drawing, join, &|id| is_cut(id).then_some(0))
+        Chains::of_parts(drawing, (join, 0.0), &|id| is_cut(id).then_some(0))
     }
 
     /// The same for the entities of several workpieces, which are not joined to each other: the number of its workpiece
-    /// for each entity that is cut.
+    /// for each entity that is cut. What is shorter than `least` is no part of a contour.
     pub(crate) fn of_parts(
         drawing: &Drawing,
-        join: f64,
+        (join, least): (f64, f64),
         part_of: &(dyn Fn(EntityId) -> Option<u16> + Sync),
     ) -> Chains {
         let mut chains = Chains {
             cells: Cells::new(join),
+            least,
             ends: None,
             ends_of: Vec::new(),
             contours: FxHashMap::default(),
@@ -99,7 +104,8 @@ impl Chains {
         chains.grow(drawing);
         let told = |&id: &EntityId| {
             let ends = || free_ends(drawing, id).unwrap_or(NO_ENDS);
-            part_of(id).map(|part| (id, part, ends()))
+            let part = part_of(id).filter(|_| !is_too_small(drawing, id, least));
+            part.map(|part| (id, part, ends()))
         };
         let order = drawing.order().par_iter().with_min_len(SHARE);
         let told: Vec<(EntityId, u16, Ends)> = order.filter_map(told).collect();
@@ -149,16 +155,31 @@ impl Chains {
 
     /// The contour that holds a segment of an entity, and its index in it.
     pub(crate) fn index_of(&self, entity: EntityId, segment: usize) -> Option<(Key, usize)> {
-        Some((
-            self.contour_of(entity)?,
-            self.piece_of(entity)?.index_of(segment)?,
-        ))
+        let key = self.contour_of(entity)?;
+        self.piece_of(entity)?;
+        let place = *self.piece_of.get(entity.0 as usize)?;
+        Some((key, self.get(key)?.index_of(place as usize, segment)?))
+    }
+
+    /// True where the contour of an entity leaves segments out, or where some of the entity's in `ranges` are short enough for that.
+    pub(crate) fn leaves_out(
+        &self,
+        drawing: &Drawing,
+        entity: EntityId,
+        ranges: &[Range<usize>],
+    ) -> bool {
+        let contour = self.contour_of(entity).and_then(|key| self.get(key));
+        contour.is_some_and(Contour::leaves_out)
+            || drawing
+                .get(entity)
+                .is_some_and(|entity| has_short(&entity.geometry, ranges, self.least))
     }
 
     /// True when an entity's free ends have not moved, so that the contours hold. Never for an entity whose own ends
     /// touch, nor in a contour with a double, of two entities that close a loop, or joined where several ends meet:
     /// there the part between the ends counts.
     pub(crate) fn same_ends(&self, drawing: &Drawing, entity: EntityId, is_cut: bool) -> bool {
+        let is_cut = is_cut && !is_too_small(drawing, entity, self.least);
         let known = self.ends_of(entity);
         let now = if is_cut {
             free_ends(drawing, entity)
@@ -199,14 +220,10 @@ impl Chains {
         };
         let contour = &mut Arc::make_mut(chain).contour;
         let pieces = contour.pieces.iter();
-        *contour = Contour {
-            double_of: contour.double_of,
-            ..Contour::new(
-                drawing,
-                pieces.map(|piece| (piece.entity, piece.reversed)),
-                contour.closed,
-            )
-        };
+        let pieces = pieces.map(|piece| (piece.entity, piece.reversed));
+        let mut counted = Contour::of(drawing, pieces, contour.closed, self.least);
+        counted.double_of = contour.double_of;
+        *contour = counted;
     }
 
     /// Rechains the groups that the entities of `touched` (new, changed or removed) belonged to or belong to now.
@@ -226,6 +243,8 @@ impl Chains {
         touched: &[EntityId],
         part_of: &dyn Fn(EntityId) -> Option<u16>,
     ) -> Rechained {
+        let least = self.least;
+        let part_of = |id: EntityId| part_of(id).filter(|_| !is_too_small(drawing, id, least));
         let is_cut = |id: EntityId| part_of(id).is_some();
         self.grow(drawing);
         let mut entities = FxHashSet::default();
@@ -391,7 +410,11 @@ impl Chains {
         self.ends_of = ends_of;
         for (entities, linked) in linked {
             let ways = linked.ways.par_iter().with_min_len(SHARE);
-            let chain = |way: &Way| Arc::new(Chain::new(drawing, entities, &linked.pieces, way));
+            let least = self.least;
+            let chain = |way: &Way| {
+                let pieces = linked.pieces.get(way.range.clone()).unwrap_or_default();
+                Arc::new(Chain::new(drawing, entities, (pieces, way), least))
+            };
             let chains: Vec<Arc<Chain>> = ways.map(chain).collect();
             self.contours.reserve(chains.len());
             for chain in chains {
@@ -409,11 +432,16 @@ impl Chains {
 
 impl Chain {
     /// The chain along `way`, which leads through some of these entities.
-    fn new(drawing: &Drawing, entities: &[EntityId], pieces: &[(u32, bool)], way: &Way) -> Chain {
-        let pieces = pieces[way.range.clone()]
+    fn new(
+        drawing: &Drawing,
+        entities: &[EntityId],
+        (pieces, way): (&[(u32, bool)], &Way),
+        least: f64,
+    ) -> Chain {
+        let pieces = pieces
             .iter()
             .map(|&(at, reversed)| (entities[at as usize], reversed));
-        let mut contour = Contour::new(drawing, pieces, way.closed);
+        let mut contour = Contour::of(drawing, pieces, way.closed, least);
         contour.double_of = way.double_of.map(|kept| entities[kept as usize]);
         Chain {
             contour,
@@ -449,6 +477,13 @@ fn in_machining_order(drawing: &Drawing, entities: FxHashSet<EntityId>) -> Vec<E
         .copied()
         .filter(|id| wanted[id.0 as usize])
         .collect()
+}
+
+/// True for an entity that is no part of a contour since all of it is shorter than `least`.
+fn is_too_small(drawing: &Drawing, id: EntityId, least: f64) -> bool {
+    drawing
+        .get(id)
+        .is_some_and(|entity| is_crumb(&entity.geometry, least))
 }
 
 fn free_ends(drawing: &Drawing, id: EntityId) -> Option<Ends> {

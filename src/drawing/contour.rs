@@ -1,5 +1,6 @@
-//! A contour: entities joined end to end, with a direction of travel.
+//! A contour: entities joined end to end, with a direction of travel. Segments that are shorter than the resolution are no part of it.
 
+use super::crumbs::{LeftOut, left_out};
 use super::{Drawing, EntityId, Geometry};
 use crate::geometry::{Bounds, Point, Segment};
 use std::ops::Range;
@@ -30,14 +31,12 @@ impl Piece {
         self.first()..self.first() + self.count()
     }
 
-    /// The index within the contour of one of the piece's own segments.
-    pub(crate) fn index_of(&self, segment: usize) -> Option<usize> {
-        let along = if self.reversed {
-            self.count().checked_sub(1 + segment)?
-        } else {
-            segment
-        };
-        (along < self.count()).then_some(self.first() + along)
+    /// The place along the piece of the segment that is the `nth` of its entity, and the other way round.
+    fn turned(&self, nth: usize) -> Option<usize> {
+        match self.reversed {
+            true => self.count().checked_sub(1 + nth),
+            false => (nth < self.count()).then_some(nth),
+        }
     }
 }
 
@@ -49,6 +48,8 @@ pub struct Contour {
     pub closed: bool,
     /// Left out when the ends were joined, since this entity lies in the same place and is cut.
     pub(crate) double_of: Option<EntityId>,
+    /// Segments of the entities that are no part of it, in the order of the pieces.
+    left_out: Vec<LeftOut>,
 }
 
 /// A segment of a contour and where it comes from.
@@ -63,34 +64,75 @@ pub struct ContourSegment {
 }
 
 impl Contour {
-    /// A contour of `(entity, reversed)` in order of travel; entities without segments are left out.
+    /// A contour of `(entity, reversed)` in order of travel, with all their segments; entities without segments are left out.
     pub fn new(
         drawing: &Drawing,
         entities: impl IntoIterator<Item = (EntityId, bool)>,
         closed: bool,
     ) -> Contour {
+        Contour::of(drawing, entities, closed, 0.0)
+    }
+
+    /// The same without the segments that are shorter than `least`, drawing units: where they were, the contour has a gap of
+    /// less than that.
+    pub(crate) fn of(
+        drawing: &Drawing,
+        entities: impl IntoIterator<Item = (EntityId, bool)>,
+        closed: bool,
+        least: f64,
+    ) -> Contour {
         let entities = entities.into_iter();
-        let mut pieces = Vec::with_capacity(entities.size_hint().0);
+        let mut contour = Contour {
+            pieces: Vec::with_capacity(entities.size_hint().0),
+            closed,
+            ..Contour::default()
+        };
         let mut first = 0;
         for (entity, reversed) in entities {
-            let count = drawing
-                .get(entity)
-                .map_or(0, |entity| entity.geometry.segment_count()) as u32;
-            if count > 0 {
-                pieces.push(Piece {
-                    entity,
-                    reversed,
-                    first,
-                    count,
-                });
-                first += count;
+            let Some(geometry) = drawing.get(entity).map(|entity| &entity.geometry) else {
+                continue;
+            };
+            let place = contour.pieces.len();
+            let before = contour.left_out.len();
+            left_out(geometry, least, place, &mut contour.left_out);
+            let gone = contour.left_out.len() - before;
+            let count = (geometry.segment_count() - gone) as u32;
+            if count == 0 {
+                contour.left_out.truncate(before);
+                continue;
             }
+            contour.pieces.push(Piece {
+                entity,
+                reversed,
+                first,
+                count,
+            });
+            first += count;
         }
-        Contour {
-            pieces,
-            closed,
-            double_of: None,
+        contour
+    }
+
+    /// Whether segments of its entities are no part of it.
+    pub(crate) fn leaves_out(&self) -> bool {
+        !self.left_out.is_empty()
+    }
+
+    /// What is left out of the piece at a place.
+    fn left_out_of(&self, place: usize) -> &[LeftOut] {
+        if self.left_out.is_empty() {
+            return &[];
         }
+        let until = |place: usize| self.left_out.partition_point(|it| it.piece() < place);
+        self.left_out
+            .get(until(place)..until(place + 1))
+            .unwrap_or_default()
+    }
+
+    /// The index within the contour of a segment of the piece at a place; `None` for one that is left out.
+    pub(crate) fn index_of(&self, place: usize, segment: usize) -> Option<usize> {
+        let piece = self.pieces.get(place)?;
+        let nth = LeftOut::nth(self.left_out_of(place), segment)?;
+        Some(piece.first() + piece.turned(nth)?)
     }
 
     /// Number of segments.
@@ -98,21 +140,21 @@ impl Contour {
         self.pieces.last().map_or(0, |piece| piece.range().end)
     }
 
-    /// False where there is nothing to cut: no segment is longer than `zero_length` (drawing units).
-    pub(crate) fn has_length(&self, drawing: &Drawing, zero_length: f64) -> bool {
-        self.segments(drawing)
-            .any(|segment| segment.geometry.length() > zero_length)
-    }
-
     /// Segment `index` in the direction of travel, `None` past the end.
     pub(crate) fn segment(&self, drawing: &Drawing, index: usize) -> Option<ContourSegment> {
-        let piece = self.piece_of(index)?;
+        let (place, piece) = self.piece_of(index)?;
         segment_of(
-            piece,
+            (piece, self.left_out_of(place)),
             &drawing.get(piece.entity)?.geometry,
             index - piece.first(),
             drawing.flat(),
         )
+    }
+
+    /// The first and the last segment of the piece of segment `index`.
+    pub(crate) fn ends_of_piece(&self, index: usize) -> Option<(usize, usize)> {
+        let (_, piece) = self.piece_of(index)?;
+        Some((piece.first(), piece.range().end.checked_sub(1)?))
     }
 
     /// Segment `index` of which the geometry is known.
@@ -126,24 +168,22 @@ impl Contour {
         Some(ContourSegment {
             entity,
             segment,
-            reversed: self.piece_of(index)?.reversed,
+            reversed: self.piece_of(index)?.1.reversed,
             geometry,
         })
     }
 
-    fn piece_of(&self, index: usize) -> Option<&Piece> {
+    fn piece_of(&self, index: usize) -> Option<(usize, &Piece)> {
         let behind = |piece: &Piece| piece.range().end <= index;
-        self.pieces.get(self.pieces.partition_point(behind))
+        let place = self.pieces.partition_point(behind);
+        Some((place, self.pieces.get(place)?))
     }
 
     /// The entity of segment `index`, and the segment in there: without its geometry.
     pub(crate) fn segment_id(&self, drawing: &Drawing, index: usize) -> Option<(EntityId, usize)> {
-        let piece = self.piece_of(index)?;
-        let along = index - piece.first();
-        let segment = match piece.reversed {
-            true => piece.count().checked_sub(1 + along)?,
-            false => along,
-        };
+        let (place, piece) = self.piece_of(index)?;
+        let nth = piece.turned(index - piece.first())?;
+        let segment = LeftOut::segment(self.left_out_of(place), nth);
         let geometry = &drawing.get(piece.entity)?.geometry;
         (segment < geometry.segment_count()).then_some((piece.entity, segment))
     }
@@ -166,14 +206,15 @@ impl Contour {
             .pieces
             .partition_point(|piece| piece.range().end <= range.start);
         let flat = drawing.flat();
-        let pieces = self.pieces[first..]
-            .iter()
-            .take_while(move |piece| piece.first() < range.end);
-        pieces.flat_map(move |piece| {
+        let pieces = (first..)
+            .zip(self.pieces.get(first..).unwrap_or_default())
+            .take_while(move |(_, piece)| piece.first() < range.end);
+        pieces.flat_map(move |(place, piece)| {
+            let left_out = self.left_out_of(place);
             let geometry = drawing.get(piece.entity).map(|entity| &entity.geometry);
             let along = range.start.saturating_sub(piece.first())
                 ..range.end.min(piece.range().end) - piece.first();
-            along.filter_map(move |along| segment_of(piece, geometry?, along, flat))
+            along.filter_map(move |along| segment_of((piece, left_out), geometry?, along, flat))
         })
     }
 
@@ -207,26 +248,26 @@ impl Contour {
             first += piece.count;
             turned
         });
+        let last = self.pieces.len().saturating_sub(1);
+        let mut left_out: Vec<LeftOut> = self.left_out.iter().map(|it| it.turned(last)).collect();
+        left_out.sort_unstable_by_key(LeftOut::place);
         Contour {
             pieces: pieces.collect(),
             closed: self.closed,
             double_of: self.double_of,
+            left_out,
         }
     }
 }
 
-/// The segment `along` a piece in the direction of travel.
+/// The segment `along` a piece, of which some are left out, in the direction of travel.
 fn segment_of(
-    piece: &Piece,
+    (piece, left_out): (&Piece, &[LeftOut]),
     geometry: &Geometry,
     along: usize,
     flat: f64,
 ) -> Option<ContourSegment> {
-    let segment = if piece.reversed {
-        piece.count().checked_sub(1 + along)?
-    } else {
-        along
-    };
+    let segment = LeftOut::segment(left_out, piece.turned(along)?);
     let own = geometry.segment_of(segment, flat)?;
     let geometry = if piece.reversed { own.reversed() } else { own };
     Some(ContourSegment {

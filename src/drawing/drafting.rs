@@ -49,6 +49,27 @@ const LINETYPES_IN_HAN: &[&str] = &[
 /// The layer of thread holes: they are drilled.
 pub(crate) const START_HOLES: &str = "START-HOLES";
 
+/// Parts of the names of layers with start holes, letters and digits alone.
+const START_HOLE_LAYERS: &[&str] = &[
+    "startbohrung",
+    "starthole",
+    "startloch",
+    "startpoint",
+    "threadhole",
+    "threadinghole",
+    "wirehole",
+    "穿丝",
+    "穿絲",
+    "ワイヤ穴",
+];
+
+/// True for the name of a layer with start holes.
+pub(crate) fn is_layer_of_start_holes(name: &str) -> bool {
+    let letters = name.chars().filter(|letter| letter.is_alphanumeric());
+    let own: String = letters.collect::<String>().to_lowercase();
+    START_HOLE_LAYERS.iter().any(|part| own.contains(part))
+}
+
 /// The layers on which the CAD plugins draw marks about faults and the wire's path.
 const OF_PLUGINS: &[&str] = &["WEDM_MARKS", "WEDM_PATH"];
 

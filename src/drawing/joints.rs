@@ -1,5 +1,7 @@
 //! Which free ends lie within the join tolerance of each other, and which of them can only be joined to each other.
 
+mod borders;
+
 use super::doubles::{self, SAME_PLACE};
 use super::ends::{Cell, Cells, End, Ends, NO_ENDS, Numbered, ONE_POINT, has_ends};
 use super::{Drawing, EntityId};
@@ -44,6 +46,8 @@ pub(super) struct Doubles {
     pub(crate) aside: FxHashMap<u32, u32>,
     /// Those that are chained and have a double that is not.
     pub(crate) kept: Vec<u32>,
+    /// Those of which both are chained, since two outlines share them: each with the other.
+    pub(crate) borders: FxHashMap<u32, u32>,
 }
 
 struct Dense {
@@ -92,6 +96,7 @@ impl<'a> Joints<'a> {
         let pairs = joints.meet();
         if !pairs.is_empty() {
             joints.doubles = joints.set_aside(&pairs);
+            joints.keep_borders();
             for &double in joints.doubles.aside.keys() {
                 joints.places.to_mut()[double as usize] = NO_ENDS;
             }

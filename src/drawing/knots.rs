@@ -100,6 +100,18 @@ impl Knots<'_> {
         near
     }
 
+    /// The entity of a strand of one.
+    fn only(&self, strand: usize) -> Option<u32> {
+        let Strand { ends, count, .. } = self.strands.get(strand)?;
+        (*count == 1).then(|| ends[0].entity())
+    }
+
+    /// The other one of an edge that two outlines share.
+    fn twin(&self, strand: usize) -> Option<u32> {
+        let borders = &self.joints.doubles.borders;
+        borders.get(&self.only(strand)?).copied()
+    }
+
     /// The direction in which the strand leaves a tip.
     fn heading(&self, tip: Tip) -> f64 {
         self.joints.heading(self.end(tip))
@@ -266,14 +278,26 @@ impl Knots<'_> {
                 // Straight back counts as the leftmost way, on whichever side rounding puts it.
                 if turn < -PI + 1e-6 { turn + TAU } else { turn }
             };
+            // Beside edges that two outlines share the nearest way to the left leads round one of these, but not straight back.
+            let is_free = |(other, _): &&(Tip, f64)| self.is_free[other / 2];
+            let is_shared = |(other, _): &(Tip, f64)| self.twin(other / 2).is_some();
+            let are_shared = near.iter().filter(is_free).any(is_shared);
+            let leads_back = |other: Tip| {
+                let twin = self.twin(other / 2);
+                twin.is_some() && twin == self.only(last / 2)
+            };
             let onward = near
                 .iter()
-                .filter(|(other, _)| self.is_free[other / 2])
+                .filter(is_free)
                 .min_by(|(one, near), (other, far)| {
                     let turns = || turned(*one).total_cmp(&turned(*other));
-                    near.total_cmp(far)
-                        .then_with(turns)
-                        .then_with(|| self.by_place(*one, *other))
+                    let order = match are_shared {
+                        true => leads_back(*one)
+                            .cmp(&leads_back(*other))
+                            .then_with(|| turns().reverse()),
+                        false => near.total_cmp(far).then_with(turns),
+                    };
+                    order.then_with(|| self.by_place(*one, *other))
                 });
             let onward = onward.copied();
             match (closing, onward) {

@@ -6,6 +6,7 @@
 mod appearance;
 mod chain;
 mod contour;
+mod crumbs;
 mod doubles;
 mod drafting;
 mod edit;
@@ -32,7 +33,9 @@ pub(crate) use chain::stated_role;
 pub use contour::Contour;
 pub(crate) use contour::{ContourSegment, Piece};
 pub(crate) use doubles::run_together;
-pub(crate) use drafting::{START_HOLES, is_drafting_layer, is_drafting_linetype};
+pub(crate) use drafting::{
+    START_HOLES, is_drafting_layer, is_drafting_linetype, is_layer_of_start_holes,
+};
 pub(crate) use edit::differing;
 pub use edit::{Change, Delta, DrawingEdit, Touched};
 pub use entity::{Entity, EntityId, Geometry, Role, Vertex};

@@ -4,7 +4,8 @@ use super::{Contour, Drawing};
 use crate::geometry::{Bounds, Grid, Point, Segment};
 use rustc_hash::FxHashMap;
 
-/// Pairs of closed contours, by their places and the earlier one first, that lie within `tolerance` of each other everywhere.
+/// Pairs of closed contours, by their places and the earlier one first, that lie within `tolerance` of each other everywhere:
+/// each of those that lie in one place with the first of them.
 ///
 /// Costs the segments of those whose boxes are the same within that.
 pub(crate) fn twins(
@@ -27,20 +28,16 @@ pub(crate) fn twins(
         let (x, y) = cell(bounds);
         let about = (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| (dx, dy)));
         let about = about.map(|(dx, dy)| (x.saturating_add(dx), y.saturating_add(dy)));
-        let mut near: Vec<usize> = about
-            .filter_map(|cell| cells.get(&cell))
-            .flatten()
-            .copied()
-            .collect();
-        near.sort_unstable();
-        near.dedup();
-        let is_twin = |&earlier: &usize| {
+        let near = about.filter_map(|cell| cells.get(&cell)).flatten();
+        let is_twin = |&&earlier: &&usize| {
             contours.get(earlier).is_some_and(|(other, theirs)| {
                 are_twins(drawing, (other, theirs), (contour, bounds), tolerance)
             })
         };
-        found.extend(near.into_iter().filter(is_twin).map(|it| [it, place]));
-        cells.entry((x, y)).or_default().push(place);
+        match near.filter(is_twin).min() {
+            Some(&first) => found.push([first, place]),
+            None => cells.entry((x, y)).or_default().push(place),
+        }
     }
     found
 }
@@ -87,11 +84,9 @@ fn lies_on(segments: &[Segment], others: &[Segment], tolerance: f64) -> bool {
 /// The earliest of those that each is a twin of, itself where it is of none; `pairs` as [`twins`] finds them.
 pub(super) fn firsts(count: usize, pairs: &[[usize; 2]]) -> Vec<usize> {
     let mut firsts: Vec<usize> = (0..count).collect();
-    // The earlier one of a pair has been paired with those before it: pairs come by their later one.
-    for &[earlier, later] in pairs {
-        let first = firsts.get(earlier).copied().unwrap_or(earlier);
+    for &[first, later] in pairs {
         if let Some(of_later) = firsts.get_mut(later) {
-            *of_later = first.min(*of_later);
+            *of_later = first;
         }
     }
     firsts

@@ -82,10 +82,7 @@ told! {
     /// Two segments coincide over `length`.
     Overlap { length: f64 } => say!(segment_runs_on_another_one_over_mm, telling.mm(*length));
     NotJudged(what: NotJudged) => what.sentence();
-    ShortSegment { length: f64 } => match *length == 0.0 {
-        true => say!(segment_has_no_length).to_owned(),
-        false => say!(the_segment_is_too_short, telling.mm(*length)),
-    };
+    ShortSegment { length: f64 } => say!(the_segment_is_too_short, telling.mm(*length));
     /// Two segments meet at `turn` radians: nearly tangent, but not quite.
     NearTangent { turn: f64 }
         => say!(contour_kinks_by_degrees, turn.abs().to_degrees(), telling.tool());

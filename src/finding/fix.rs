@@ -188,8 +188,6 @@ told! {
     DeleteDouble => say!(delete_the_double);
     /// A segment too short to cut goes, its neighbours meet.
     Merge => say!(remove_the_short_segment_its_neighbours_meet);
-    /// An entity without length goes.
-    DeletePoint => say!(delete_what_has_no_length);
     /// An arc is changed so that it leaves its neighbour without a kink.
     MakeTangent { moved: f64 } => say!(make_the_segments_tangent, mm(moved * unit_mm));
     /// One arc replaces `chords` lines.

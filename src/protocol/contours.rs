@@ -100,7 +100,8 @@ impl Contours {
 }
 
 fn contour(drawing: &Drawing, outline: &Outline, unit_mm: f64) -> ContoursContour {
-    let rounding = Tolerances::default().in_units(unit_mm).report;
+    // What is smaller is no gap, see `Limits::least`.
+    let least = Tolerances::default().in_units(unit_mm).resolution;
     let segments: Vec<_> = outline.contour.segments(drawing).collect();
     let count = segments.len();
     let closed = outline.contour.closed;
@@ -115,7 +116,7 @@ fn contour(drawing: &Drawing, outline: &Outline, unit_mm: f64) -> ContoursContou
             segments.get((after + 1) % count)?.geometry.start(),
         );
         let distance = (start - end).norm();
-        (distance > rounding).then_some(Gap { after, distance })
+        (distance > least).then_some(Gap { after, distance })
     });
     let direction = if outline.twice_area < 0.0 {
         Direction::Cw

@@ -311,10 +311,12 @@ fn in_polyline(
     let mut changes = Vec::new();
     for (range, arc) in arcs {
         let own = &places[range.clone()];
-        let (start, bulge) = match own.first()?.reversed {
-            false => (own.first()?.segment, arc.bulge()),
-            true => (own.last()?.segment, -arc.bulge()),
+        let (first, last) = (own.first()?, own.last()?);
+        let (start, end, bulge) = match first.reversed {
+            false => (first.segment, last.segment, arc.bulge()),
+            true => (last.segment, first.segment, -arc.bulge()),
         };
+        let steps = (end + vertices.len() - start) % vertices.len();
         let vertex = Vertex {
             bulge,
             ..*vertices.get(start)?
@@ -324,7 +326,7 @@ fn in_polyline(
             index: start,
             vertex,
         });
-        changes.extend((1..own.len()).map(|along| Change::RemoveVertex {
+        changes.extend((1..=steps).map(|along| Change::RemoveVertex {
             entity,
             index: (start + along) % vertices.len(),
         }));

@@ -2,7 +2,6 @@
 //!
 //! The wire would cut the same path twice, or the chaining would branch there. Fix: delete the later one.
 
-use super::short_segment::is_point;
 use super::wall::Wall;
 use super::{PairObservation, PairRule};
 use crate::drawing::{Change, Geometry, run_together};
@@ -12,8 +11,10 @@ use crate::geometry::{Point, Segment};
 pub(crate) const RULE: PairRule = PairRule {
     rule: Rule::DuplicateEntity,
     reach: |limits| limits.tolerances.same_place,
-    check: |one, other, _| {
-        if are_doubles(one, other).unwrap_or(false) {
+    check: |one, other, same_contour| {
+        // An edge that two outlines share is no double: one of them would be open without it.
+        let is_shared = !same_contour && one.is_edge() && other.is_edge();
+        if !is_shared && are_doubles(one, other).unwrap_or(false) {
             vec![PairObservation::default()]
         } else {
             Vec::new()
@@ -29,32 +30,14 @@ pub(crate) const RULE: PairRule = PairRule {
 /// which it begins.
 fn are_doubles(one: &Wall, other: &Wall) -> Option<bool> {
     let (a, b) = (one.segment, other.segment);
-    if a.entity == b.entity || a.segment != 0 {
-        return None;
-    }
-    let resolution = one.outlook.limits.tolerances.resolution;
-    if [one, other]
-        .into_iter()
-        .all(|wall| wall.geometry().length() < resolution && wall.segment.segment == 0)
-        && one.outlook.drawing.get(a.entity)?.geometry.segment_count() == 1
-    {
-        return None;
-    }
-    // A point is never cut.
-    if [a, b]
-        .into_iter()
-        .all(|point| is_point(&one.outlook, &point))
-    {
+    if a.entity == b.entity || !one.is_at_start() {
         return None;
     }
     let (first, second) = (
         &one.outlook.drawing.get(a.entity)?.geometry,
         &other.outlook.drawing.get(b.entity)?.geometry,
     );
-    let (count, tolerance) = (
-        first.segment_count(),
-        one.outlook.limits.tolerances.same_place,
-    );
+    let tolerance = one.outlook.limits.tolerances.same_place;
     let flat = one.outlook.drawing.flat();
     // In the entities' own directions; most pairs have no end in common.
     let [(start, _), (their_start, their_end)] = [a, b].map(|segment| {
@@ -67,12 +50,12 @@ fn are_doubles(one: &Wall, other: &Wall) -> Option<bool> {
     });
     let begins_at = |point: Point| (point - start).norm() <= tolerance;
     let forward = || {
-        b.segment == 0
+        other.is_at_start()
             && begins_at(their_start)
             && run_together(first, second, false, tolerance, flat)
     };
     let backward = || {
-        b.segment + 1 == count
+        other.is_at_end()
             && begins_at(their_end)
             && run_together(first, second, true, tolerance, flat)
     };

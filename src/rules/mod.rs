@@ -75,6 +75,17 @@ impl Limits {
         }
     }
 
+    /// What is shorter is no part of a contour: the resolution, but never what a control could stumble over.
+    pub(crate) fn least(&self) -> f64 {
+        let Tolerances {
+            resolution,
+            short,
+            zero_length,
+            ..
+        } = self.tolerances;
+        resolution.min(short).max(zero_length)
+    }
+
     /// An arc below the correction that a later pass can follow.
     pub(crate) fn is_for_skims(&self, radius: f64) -> bool {
         self.skims_follow
@@ -273,7 +284,6 @@ pub(crate) const LOCAL_RULES: &[LocalRule] = &[
     sharp_corner::RULE,
     gap::RULE,
     short_segment::RULE,
-    short_segment::POINTS,
     near_tangent::RULE,
     arc_as_chords::RULE,
 ];

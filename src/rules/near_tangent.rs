@@ -139,19 +139,22 @@ fn one_line(
     let geometry = &outlook.drawing.get(before.entity)?.geometry;
     let changes = match geometry {
         Geometry::Polyline { closed, vertices } if before.entity == behind.entity => {
-            // The vertex between them starts the later one in the entity's own direction.
-            let index = if before.reversed {
-                before.segment
-            } else {
-                behind.segment
+            // In the entity's own direction; one vertex lies between them, and more where something was too short to be seen.
+            let (early, late) = match before.reversed {
+                true => (behind.segment, before.segment),
+                false => (before.segment, behind.segment),
             };
-            if vertices.len() <= if *closed { 3 } else { 2 } {
+            let steps = (late + vertices.len() - early) % vertices.len();
+            let least = if *closed { 3 } else { 2 };
+            if vertices.len() < least + steps {
                 return None;
             }
-            vec![Change::RemoveVertex {
+            let index = |step| (early + step) % vertices.len();
+            let gone = (1..=steps).map(|step| Change::RemoveVertex {
                 entity: before.entity,
-                index,
-            }]
+                index: index(step),
+            });
+            gone.collect()
         }
         Geometry::Line { .. } if before.entity != behind.entity => {
             let Geometry::Line { .. } = outlook.drawing.get(behind.entity)?.geometry else {

@@ -23,11 +23,7 @@ const SHARE: f64 = 0.05;
 const JOINS: f64 = 100.0;
 
 fn holds(outlook: &Outlook) -> bool {
-    // `short-segment` reports an entity without length.
     !outlook.contour.closed
-        && outlook
-            .contour
-            .has_length(outlook.drawing, outlook.limits.tolerances.zero_length)
 }
 
 /// Where the contour itself is the wire's path, or the middle of a milled slot, it may well be open.

@@ -1,77 +1,42 @@
 //! `short-segment`: a segment shorter than 0.005 mm.
 //!
 //! Controllers compute corners and compensation between neighbours: over a segment of a few microns they jerk, stop, or
-//! turn the offset the wrong way. Fix: the segment goes and its neighbours meet. An entity without any length just
-//! goes.
+//! turn the offset the wrong way. Fix: the segment goes and its neighbours meet. What is shorter than the resolution is
+//! no part of a contour.
 
 use super::ends::joined;
 use super::{LocalRule, Observation, Outlook};
 use crate::drawing::{Change, ContourSegment, Geometry, Vertex};
-use crate::finding::{Detail, Fix, FixKind, Rule, Severity};
-use std::ops::Range;
+use crate::finding::{Detail, Fix, FixKind, Rule};
 
 pub(crate) const RULE: LocalRule = LocalRule {
     rule: Rule::ShortSegment,
     check: |outlook, range, observations| {
         let tolerances = &outlook.limits.tolerances;
         let least = tolerances.resolution.max(tolerances.zero_length);
-        see(outlook, range, observations, |length| {
-            length > tolerances.zero_length && (least..tolerances.short).contains(&length)
-        })
+        let is_short = |index: &usize| {
+            let segment = outlook.segment(*index as isize);
+            segment.is_some_and(|it| (least..tolerances.short).contains(&it.geometry.length()))
+        };
+        observations.extend(range.filter(is_short).map(Observation::at));
     },
     detail,
     fixes,
     ..LocalRule::PLAIN
 };
 
-/// An entity without length draws nothing and does no harm.
-pub(crate) const POINTS: LocalRule = LocalRule {
-    check: |outlook, range, observations| {
-        let zero_length = outlook.limits.tolerances.zero_length;
-        see(outlook, range, observations, |length| length <= zero_length)
-    },
-    mildest: Some(Severity::Hint),
-    ..RULE
-};
-
-fn see(
-    outlook: &Outlook,
-    range: Range<usize>,
-    observations: &mut Vec<Observation>,
-    is_short: impl Fn(f64) -> bool,
-) {
-    let is_short = |index: &usize| {
-        let segment = outlook.segment(*index as isize);
-        segment.is_some_and(|segment| is_short(segment.geometry.length()))
-    };
-    observations.extend(range.filter(is_short).map(Observation::at));
-}
-
 fn detail(outlook: &Outlook, observation: Observation, _count: Option<usize>) -> Option<Detail> {
     let length = outlook
         .segment(observation.index as isize)?
         .geometry
         .length();
-    Some(Detail::ShortSegment {
-        length: if length > outlook.limits.tolerances.zero_length {
-            length
-        } else {
-            0.0
-        },
-    })
+    Some(Detail::ShortSegment { length })
 }
 
 fn fixes(outlook: &Outlook, observation: Observation) -> Vec<Fix> {
     let Some(place) = outlook.segment(observation.index as isize) else {
         return Vec::new();
     };
-    if is_point(outlook, &place) {
-        let entity = place.entity;
-        return vec![Fix::new(
-            FixKind::DeletePoint,
-            vec![Change::RemoveEntity { entity }],
-        )];
-    }
     let changes = match outlook
         .drawing
         .get(place.entity)
@@ -85,15 +50,6 @@ fn fixes(outlook: &Outlook, observation: Observation) -> Vec<Fix> {
     };
     let fix = |changes| Fix::new(FixKind::Merge, changes);
     changes.map(fix).into_iter().collect()
-}
-
-/// True where the segment is its entity's only one and has no length: its removal changes nothing.
-pub(super) fn is_point(outlook: &Outlook, place: &ContourSegment) -> bool {
-    let is_alone = outlook
-        .drawing
-        .get(place.entity)
-        .is_some_and(|entity| entity.geometry.segment_count() == 1);
-    is_alone && place.geometry.length() <= outlook.limits.tolerances.zero_length
 }
 
 /// The segment's start vertex goes, and the segment before it then ends where this one did. The

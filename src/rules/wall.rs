@@ -38,6 +38,28 @@ impl<'a> Wall<'a> {
         Some(Wall::behind(before, outlook, index, segment))
     }
 
+    /// Whether it is the first segment of its entity that counts, in the entity's own direction; and the last.
+    pub(super) fn is_at_start(&self) -> bool {
+        let contour = self.outlook.contour;
+        let starts = |(first, last)| self.index == if self.segment.reversed { last } else { first };
+        match contour.leaves_out() {
+            false => self.segment.segment == 0,
+            true => contour.ends_of_piece(self.index).is_some_and(starts),
+        }
+    }
+
+    pub(super) fn is_at_end(&self) -> bool {
+        let ends = self.outlook.contour.ends_of_piece(self.index);
+        ends.is_some_and(|(first, last)| {
+            self.index == if self.segment.reversed { first } else { last }
+        })
+    }
+
+    /// True for one of several entities that make a closed contour, which is open without it.
+    pub(super) fn is_edge(&self) -> bool {
+        self.outlook.contour.closed && self.outlook.contour.pieces.len() > 1
+    }
+
     /// The segment at an index after the one before it, both of which are known.
     pub(crate) fn behind(
         before: Option<Segment>,

@@ -58,8 +58,8 @@ tables! {
         units: UnitSetting = UnitSetting::Mm => name;
         /// mm added to the correction when a fix chooses its radius.
         margin: f64 = 0.001 => number in Range::FROM_ZERO;
-        /// What is smaller than this, mm, nobody can measure on the part: `gap`, `near-tangent`, `sharp-corner`, `short-segment`,
-        /// `duplicate-entity` and `overlap` say nothing of it. Errors are never silenced by it.
+        /// What is smaller than this, mm, nobody can measure on the part. A shorter segment (up to 0.005) is no part of any contour,
+        /// and the corner that it hides counts as that corner; `gap`, `near-tangent`, `sharp-corner` and `overlap` say nothing of less.
         resolution: f64 = 0.001 => number in Range::FROM_ZERO;
         /// Several passes.
         passes: Passes => table;
@@ -160,8 +160,8 @@ tables! {
         direction: Direction = Direction::Ccw => name;
         /// How the wire goes round a convex corner of the part.
         corner: Corner = Corner::Arc => name;
-        /// Thread hole `[x, y]` in drawing units. A table has them by handle. Else the TEXT or MTEXT "O", or the POINT, nearest to the
-        /// contour, else the centre of a round opening where neither entry nor `lead-in` is set, else found from the entry. An "O" on the
+        /// Thread hole `[x, y]` in drawing units. A table has them by handle. Else the TEXT or MTEXT "O" nearest to the
+        /// contour, or a POINT on a layer of start holes (as START-HOLES) or where the contour has no other mark, else the centre of a round opening where neither entry nor `lead-in` is set, else found from the entry. An "O" on the
         /// part's side, or within the correction of the contour, is not the hole but the entry beside it.
         thread: PointSetting => point_setting;
         /// Point `[x, y]` of the contour where the cut begins, in drawing units. A table has them by handle. Else the point beside an "O"

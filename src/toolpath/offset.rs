@@ -3,7 +3,7 @@
 use super::cores::{any, each};
 use super::path::{PathSegment, Source};
 use crate::drawing::ContourSegment;
-use crate::geometry::{Arc, Line, Point, Segment, Vector, left_normal};
+use crate::geometry::{Arc, Line, Point, Segment, Vector, equally_far, left_normal};
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 /// A segment of a contour as it is cut: without gaps to its neighbours, in the direction of the cut.
@@ -91,7 +91,8 @@ pub(super) fn walls(
     walls
 }
 
-/// The segment with its ends moved a little; an arc keeps its sweep.
+/// The segment with its ends moved a little. An arc keeps its sweep, one of more than a half turn its place: of a nearly full turn
+/// the ends are so near to each other that they say nothing of the radius.
 fn with_ends(segment: &Segment, start: Point, end: Point) -> Segment {
     match segment {
         Segment::Line(_) => Segment::line(start, end),
@@ -101,7 +102,17 @@ fn with_ends(segment: &Segment, start: Point, end: Point) -> Segment {
         {
             Segment::Arc(Arc { start, end, ..*arc })
         }
-        Segment::Arc(arc) => Segment::from_bulge(start, end, arc.bulge()),
+        Segment::Arc(arc) if arc.is_minor() => Segment::from_bulge(start, end, arc.bulge()),
+        Segment::Arc(arc) => {
+            let center = equally_far(arc.center, start, end).unwrap_or(arc.center);
+            let moved = Arc::about(center, start, end, arc.sweep > 0.0);
+            // One whose ends have passed each other is a full turn.
+            let is_whole = (moved.sweep - arc.sweep).abs() > 1.0;
+            Segment::Arc(match is_whole {
+                true => Arc::about(center, start, start, arc.sweep > 0.0),
+                false => moved,
+            })
+        }
     }
 }
 

@@ -44,7 +44,7 @@ impl Job<'_> {
 
     /// Indices of the outlines to cut, in machining order: all as they are drawn, or those that hold one of `handles` as these select
     /// them, brought into the `order`; the nearest is for [`Job::by_nearest`]. Those that are given `places` come first. What lies within a contour comes before it, because
-    /// the part drops when the contour round it is cut. Doubles are no contours to cut, and neither is what has no length.
+    /// the part drops when the contour round it is cut. Doubles are no contours to cut.
     pub(super) fn chosen(
         &self,
         handles: Option<&[String]>,
@@ -61,10 +61,8 @@ impl Job<'_> {
                 .map(|handle| self.outline_of(handle))
                 .collect::<Result<_, _>>()?,
         };
-        let zero_length = self.units(self.settings.tolerances.zero_length);
         let mut known = FxHashSet::default();
         chosen.retain(|&index| known.insert(index));
-        chosen.retain(|&index| outlines[index].contour.has_length(drawing, zero_length));
         if chosen.is_empty() {
             return Err(Refusal::Sentence(say!(there_is_no_contour_to_cut).into()));
         }

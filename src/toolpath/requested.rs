@@ -3,7 +3,7 @@
 use super::containment::Places;
 use super::job::Job;
 use super::path::Refusal;
-use crate::drawing::{Geometry, Outline, winding};
+use crate::drawing::{Geometry, Kind, Outline, is_layer_of_start_holes, winding};
 use crate::geometry::Point;
 use crate::settings::{Compensation, ContourSettings, NEAR, PointSetting, point_of};
 use rustc_hash::FxHashMap;
@@ -128,21 +128,26 @@ impl<'a> Job<'a> {
         Ok(points)
     }
 
-    /// Every text "O", with the contour that it marks; `None` where there are more than `most`.
+    /// Every text "O", with the contour that it marks; `None` where there are more than `most`. A POINT is a mark on a layer of
+    /// start holes, or where its contour has no other.
     pub(super) fn marks(&self, most: usize) -> Option<Vec<Mark>> {
         let drawing = self.drawing;
         let seen = drawing
             .entities()
             .filter(|(id, _)| drawing.visibility(*id).is_seen());
         let texts = seen.filter_map(|(_, entity)| match &entity.geometry {
-            Geometry::Text { at, text } if text.trim().eq_ignore_ascii_case("o") => Some(*at),
+            Geometry::Text { at, text } if text.trim().eq_ignore_ascii_case("o") => {
+                let is_doubtful =
+                    entity.kind == Kind::Point && !is_layer_of_start_holes(&entity.layer);
+                Some((*at, is_doubtful))
+            }
             _ => None,
         });
-        let texts: Vec<Point> = texts.collect();
+        let texts: Vec<(Point, bool)> = texts.collect();
         if texts.len() > most {
             return None;
         }
-        let marks = texts.into_iter().filter_map(|at| {
+        let marks = texts.into_iter().filter_map(|(at, is_doubtful)| {
             let distance = |outline: &Outline| {
                 outline
                     .contour
@@ -155,13 +160,22 @@ impl<'a> Job<'a> {
                 .filter(|(_, outline)| outline.contour.double_of.is_none())
                 .map(|(index, outline)| (index, distance(outline)))
                 .min_by(|a, b| a.1.total_cmp(&b.1));
-            nearest.map(|(outline, distance)| Mark {
+            let mark = |(outline, distance)| Mark {
                 at,
                 outline,
                 distance,
-            })
+            };
+            nearest.map(|found| (mark(found), is_doubtful))
         });
-        Some(marks.collect())
+        let marks: Vec<(Mark, bool)> = marks.collect();
+        let mut counts: FxHashMap<usize, usize> = FxHashMap::default();
+        for (mark, _) in &marks {
+            *counts.entry(mark.outline).or_default() += 1;
+        }
+        let is_only = |mark: &Mark| counts.get(&mark.outline) == Some(&1);
+        let counts_as_one =
+            |(mark, is_doubtful): (Mark, bool)| (!is_doubtful || is_only(&mark)).then_some(mark);
+        Some(marks.into_iter().filter_map(counts_as_one).collect())
     }
 }
 

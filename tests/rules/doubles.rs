@@ -405,3 +405,74 @@ fn an_outline_that_lies_there_twice_is_one_finding() {
         }
     }
 }
+
+/// Plates side by side, each with its own edges: as many outlines as plates, and an error where the wire has no room between them.
+#[test]
+fn an_edge_that_two_outlines_share_belongs_to_both() {
+    for (columns, rows) in [(2, 1), (3, 1), (2, 2), (3, 2)] {
+        let mut lines = Vec::new();
+        for (column, row) in (0..columns).flat_map(|column| (0..rows).map(move |row| (column, row)))
+        {
+            let at =
+                |x: i32, y: i32| Point::new(f64::from(column + x) * 10.0, f64::from(row + y) * 6.0);
+            let corners = [at(0, 0), at(1, 0), at(1, 1), at(0, 1)];
+            let ends = (0..4).map(|nth| (corners[nth], corners[(nth + 1) % 4]));
+            lines.extend(ends.map(|(start, end)| Geometry::Line { start, end }));
+        }
+        // Whatever their order.
+        for step in [1, 3, 5, 7] {
+            let order = (0..lines.len()).map(|at| lines[at * step % lines.len()].clone());
+            let distinct = step == 1 || lines.len() % step != 0;
+            if !distinct {
+                continue;
+            }
+            let drawing = drawing_of(order, Some(Role::Punch));
+            let (analysis, findings) = analysed(&drawing);
+            let areas: Vec<f64> = analysis
+                .outlines(&drawing)
+                .iter()
+                .map(|it| it.twice_area.abs())
+                .collect();
+            assert_eq!(
+                areas,
+                vec![120.0; (columns * rows) as usize],
+                "{columns} by {rows}, {step}"
+            );
+            assert!(count(&findings, Rule::NarrowSlot) > 0, "{findings:#?}");
+            assert_eq!(count(&findings, Rule::DuplicateEntity), 0, "{findings:#?}");
+        }
+    }
+}
+
+/// A circle, as arcs, as a polyline: one cut, one finding.
+#[test]
+fn a_closed_outline_that_is_drawn_again_is_cut_once_whatever_its_entities() {
+    let half = |from: f64| Geometry::Arc {
+        center: Point::origin(),
+        radius: 3.0,
+        start_angle: from,
+        end_angle: from + PI,
+    };
+    let ways = [
+        vec![Geometry::Circle {
+            center: Point::origin(),
+            radius: 3.0,
+        }],
+        vec![half(0.3), half(0.3 + PI)],
+        vec![closed(&[(-3.0, 0.0, 1.0), (3.0, 0.0, 1.0)]).geometry()],
+    ];
+    for (one, other) in (0..3).flat_map(|one| (0..3).map(move |other| (one, other))) {
+        let all = ways[one].iter().chain(&ways[other]).cloned();
+        let drawing = drawing_of(all, Some(Role::Opening));
+        let (analysis, findings) = analysed(&drawing);
+        let told: Vec<Rule> = findings.iter().map(|it| it.rule).collect();
+        assert_eq!(told, [Rule::DuplicateEntity], "{one} {other}");
+        let repaired = all_fixed(drawing.clone());
+        assert_eq!(
+            repaired.len(),
+            ways[one].len(),
+            "{one} {other}: {:?}",
+            analysis.fixes(&drawing, &findings[0])
+        );
+    }
+}

@@ -1,6 +1,7 @@
 //! The rules on segments and on contours: what they see in a drawing, however it is drawn, and that a fix lets it go.
 
 mod corners;
+mod crumbs;
 mod doubles;
 mod ends;
 mod sides;
@@ -148,7 +149,11 @@ fn saying_from(resolution: f64) -> Arc<Effective> {
 }
 
 fn analysed(drawing: &Drawing) -> (Analysis, Vec<Finding>) {
-    let mut analysis = Analysis::new(drawing, settings());
+    analysed_under(drawing, settings())
+}
+
+fn analysed_under(drawing: &Drawing, settings: Arc<Effective>) -> (Analysis, Vec<Finding>) {
+    let mut analysis = Analysis::new(drawing, settings);
     let (findings, count) = analysis.findings(drawing, usize::MAX);
     assert_eq!(findings.len(), count, "what is counted is told");
     (analysis, findings)

@@ -106,7 +106,6 @@ declare! {
     entity_lies_in_the_same_place_as_another(tool) => "entity lies in the same place as another: {tool} would cut it twice";
     entities_of_the_outline_lie_there_twice(count, tool) => "{count} entities of the outline lie in the same place as others: {tool} would cut them twice";
     segment_runs_on_another_one_over_mm(length) => "segment runs on another one over {length} mm";
-    segment_has_no_length => "segment has no length: it is a point, and is not cut";
     the_segment_is_too_short(length) => "segment is only {length} mm long: controllers stumble over it";
     contour_kinks_by_degrees(turn, tool) => "contour kinks by {turn:.2}° where it looks tangent: {tool} leaves a mark";
     the_wire_would_cut_into_the_part_each_time(touches, count, tool) => "contour {touches} {count} times along this segment: {tool} would cut into the part";
@@ -162,7 +161,6 @@ declare! {
     close_the_contour_with_a_line_of_mm(length) => "Close the contour with a line of {length} mm";
     snap_the_ends_together(distance) => "Snap the ends together (moves them by {distance} mm)";
     delete_the_double => "Delete the double";
-    delete_what_has_no_length => "Delete what has no length";
     remove_the_short_segment_its_neighbours_meet => "Remove the short segment and join its neighbours";
     make_the_segments_tangent(moved) => "Make the segments tangent (moves the contour by {moved} mm)";
     set_j_to(j) => "Set J to {j}";

@@ -106,7 +106,6 @@ translate! {
     entity_lies_in_the_same_place_as_another(tool) => "图元与另一图元重合：{tool}会切两遍";
     entities_of_the_outline_lie_there_twice(count, tool) => "轮廓中有 {count} 个图元与其他图元重合：{tool}会切两遍";
     segment_runs_on_another_one_over_mm(length) => "此段与另一段重叠 {length} mm";
-    segment_has_no_length => "此段没有长度：是一个点，不切割";
     the_segment_is_too_short(length) => "此段只有 {length} mm 长：控制器容易出错";
     contour_kinks_by_degrees(turn, tool) => "轮廓看似相切，实际折了 {turn:.2}°：{tool}会留下切痕";
     the_wire_would_cut_into_the_part_each_time(touches, count, tool) => "轮廓沿此段{touches} {count} 次：{tool}会切入工件";
@@ -157,7 +156,6 @@ translate! {
     close_the_contour_with_a_line_of_mm(length) => "用 {length} mm 的直线封闭轮廓";
     snap_the_ends_together(distance) => "把两端接上（移动 {distance} mm）";
     delete_the_double => "删除重复图元";
-    delete_what_has_no_length => "删除没有长度的图元";
     remove_the_short_segment_its_neighbours_meet => "删除短线段，相邻两段直接相接";
     make_the_segments_tangent(moved) => "使两段相切（轮廓移动 {moved} mm）";
     set_j_to(j) => "J 改为 {j}";

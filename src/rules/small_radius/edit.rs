@@ -34,6 +34,12 @@ pub(crate) fn drawing_edit(
             };
             fates.insert((segment.entity, segment.segment), fate);
         }
+        for position in replacement.before..replacement.after {
+            let ends = [travel.segment(position)?, travel.segment(position + 1)?];
+            for between in between(drawing, ends) {
+                fates.insert(between, Fate::Removed);
+            }
+        }
         for (position, point, at_end) in [
             (replacement.before, replacement.arc.start, true),
             (replacement.after, replacement.arc.end, false),
@@ -100,7 +106,8 @@ fn corner_edit(travel: &Travel, before: isize, arc: Arc) -> Option<DrawingEdit> 
             ),
         };
         // The two ends of an open polyline may touch in a corner: that joint has no vertex of its own.
-        if (early + 1) % vertices.len() == late {
+        let gone = between(drawing, [one, other]);
+        if (early + 1 + gone.len()) % vertices.len() == late {
             let bulge_of = |segment: Segment, old: Vertex| {
                 if segment.as_arc().is_some() {
                     segment.bulge()
@@ -135,6 +142,10 @@ fn corner_edit(travel: &Travel, before: isize, arc: Arc) -> Option<DrawingEdit> 
                     bulge,
                 },
             });
+            changes.extend(
+                gone.into_iter()
+                    .map(|(entity, index)| Change::RemoveVertex { entity, index }),
+            );
             return Some(DrawingEdit { changes });
         }
     }
@@ -207,6 +218,29 @@ pub(crate) fn keep_end_points(
         },
         (own.sweep.abs() - sweep.abs()) / 2.0,
     ))
+}
+
+/// The segments of a polyline between two that follow each other in a contour: they are shorter than the resolution, and no part of it.
+fn between(drawing: &Drawing, [one, other]: [ContourSegment; 2]) -> Vec<(EntityId, usize)> {
+    let entity = one.entity;
+    let (early, late) = match one.reversed {
+        false => (one.segment, other.segment),
+        true => (other.segment, one.segment),
+    };
+    let geometry = drawing.get(entity).map(|entity| &entity.geometry);
+    let count = match geometry {
+        Some(geometry @ Geometry::Polyline { closed, .. }) if *closed || early < late => {
+            geometry.segment_count()
+        }
+        _ => return Vec::new(),
+    };
+    if other.entity != entity || early == late {
+        return Vec::new();
+    }
+    let steps = (late + count - early) % count;
+    (1..steps)
+        .map(|step| (entity, (early + step) % count))
+        .collect()
 }
 
 /// The position whose segment becomes the new arc: the longest arc that curves the same way.

@@ -11,7 +11,7 @@ mod edit;
 mod in_the_way;
 mod refillet;
 mod run;
-mod speck;
+mod stretch;
 mod travel;
 
 pub(crate) use edit::fillet;
@@ -19,7 +19,7 @@ pub(crate) use edit::{drawing_edit, keep_end_points};
 pub(crate) use refillet::{Attempt, Replacement};
 pub(crate) use refillet::{made_tangent, refillet};
 pub(crate) use run::{rounded_run_of, run_of};
-pub(crate) use speck::is_noise;
+pub(crate) use stretch::depth;
 pub(crate) use travel::Travel;
 
 use super::Limits;
