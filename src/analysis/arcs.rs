@@ -135,7 +135,15 @@ impl Analysis {
         let found = small_radius::check(&segment, wire_side, &self.limits)?;
         let all = |at: usize| contour.segment(drawing, at);
         let is_noise = small_radius::is_noise(contour, index, all, &self.limits);
-        (!is_noise).then_some((segment, found))
+        let length = |at: Option<usize>| Some(all(at?)?.geometry.length());
+        let count = contour.len();
+        let beside = match contour.closed {
+            true => [Some((index + count - 1) % count), Some((index + 1) % count)],
+            false => [index.checked_sub(1), Some(index + 1)],
+        };
+        let walls = beside.into_iter().filter_map(length);
+        let shorter = walls.reduce(f64::min).unwrap_or(segment.geometry.length());
+        (!is_noise).then(|| (segment, found.beside_walls_of(shorter)))
     }
 
     /// The replacement of the run with a tight arc, searched for on the side of its centre.
