@@ -273,7 +273,7 @@ pub(super) fn ellipse(
     to: f64,
 ) -> EllipticArc {
     let side = if mirrored { -ratio } else { ratio };
-    let forward = crate::geometry::positive_angle(to - from);
+    let forward = crate::geometry::sweep_between(from, to);
     let sweep = if forward < ALIKE || TAU - forward < ALIKE {
         TAU
     } else {
