@@ -85,6 +85,7 @@ pub(crate) fn weak_tabs(
     });
     found.extend(kept.filter_map(|(path, _)| {
         let Loose { at, area, source } = loose(settings, unit_mm, path)?;
+        let at = job.in_mm(at);
         let sentence = say!(the_cut_meets_itself, handle(path), at.x, at.y, area);
         Some(said(source, sentence))
     }));
