@@ -2,7 +2,7 @@
 
 use super::{Handle, Kind};
 use crate::geometry::{
-    Arc, Bounds, Point, Segment, Tolerances, Xy, positive_angle, serialize_degrees, sweep_between,
+    Arc, Bounds, Point, Segment, Tolerances, Xy, positive_angle, serialize_degrees,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -182,8 +182,8 @@ impl Geometry {
         self.segment_of(index, Tolerances::default().flat)
     }
 
-    /// Segment `index` in the entity's own direction. An ARC whose angles coincide, or are a hair more than
-    /// a turn apart, is a full turn, as a CIRCLE is, which starts at its +X-most point. A segment that rises less than `flat` (see [`Drawing::flat`]) above its chord
+    /// Segment `index` in the entity's own direction. An ARC whose angles coincide is a full turn, as a CIRCLE is,
+    /// which starts at its +X-most point. A segment that rises less than `flat` (see [`Drawing::flat`]) above its chord
     /// is a line.
     ///
     /// [`Drawing::flat`]: super::Drawing::flat
@@ -204,7 +204,8 @@ impl Geometry {
                 start_angle,
                 end_angle,
             } => {
-                let sweep = sweep_between(*start_angle, *end_angle);
+                let forward = positive_angle(end_angle - start_angle);
+                let sweep = if forward == 0.0 { TAU } else { forward };
                 Some(
                     Segment::Arc(Arc::from_center(*center, *radius, *start_angle, sweep))
                         .straightened(flat),

@@ -88,22 +88,12 @@ pub fn turn(a: Vector, b: Vector) -> f64 {
 
 /// How far beyond a full turn (degrees) the end of an arc may lie for the arc to be a full turn: as programs round 2π or
 /// 360°. Nobody writes 361° for 1°.
-const BEYOND_A_TURN: f64 = 1.0;
+pub(crate) const BEYOND_A_TURN: f64 = 1.0;
 
 /// The angles of an arc, degrees, in radians; the same one twice where the second lies a hair beyond a full turn.
 pub(crate) fn radians_of_arc(from: f64, to: f64) -> (f64, f64) {
     let is_turn = (0.0..BEYOND_A_TURN).contains(&(to - from - 360.0));
     (radians(from), radians(if is_turn { from } else { to }))
-}
-
-/// The sweep of an arc that runs counter-clockwise from an angle to another: a full turn where they coincide, or where
-/// the second lies a hair beyond a full turn.
-pub(crate) fn sweep_between(from: f64, to: f64) -> f64 {
-    const TURN: f64 = std::f64::consts::TAU;
-    let forward = positive_angle(to - from);
-    let beyond = 0.0..BEYOND_A_TURN.to_radians();
-    let is_turn = forward == 0.0 || beyond.contains(&(to - from - TURN));
-    if is_turn { TURN } else { forward }
 }
 
 /// `angle` brought into [0, 2π).
