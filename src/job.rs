@@ -379,6 +379,12 @@ fn written(
         &paths,
         &holes,
     ));
+    warnings.extend(toolpath::long_leads(
+        &snapshot.drawing,
+        &snapshot.outlines,
+        &of_format,
+        &paths,
+    ));
     warnings.extend(picked_without_picks(settings, chosen.as_deref()));
     warnings.extend(corners::cut_off(snapshot, &program));
     warnings.extend(tabs::none_kept(snapshot, &paths));

@@ -11,7 +11,7 @@ mod writing;
 pub(crate) use aside::Again;
 pub(crate) use line_starts::LineStarts;
 pub(crate) use patch::Patch;
-pub(crate) use writing::Writing;
+pub(crate) use writing::{Writing, consists_of_pairs, is_gb_18030_by_chance};
 
 use gap::Bytes;
 use std::borrow::Cow;

@@ -139,7 +139,15 @@ impl Analysis {
         let contour = self.chains.get(key)?;
         let segment = contour.segment(drawing, index)?;
         let found = small_radius::check(&segment, wire_side, &self.limits)?;
-        Some((segment, found))
+        let length = |at: Option<usize>| Some(contour.segment(drawing, at?)?.geometry.length());
+        let count = contour.len();
+        let beside = match contour.closed {
+            true => [Some((index + count - 1) % count), Some((index + 1) % count)],
+            false => [index.checked_sub(1), Some(index + 1)],
+        };
+        let walls = beside.into_iter().filter_map(length);
+        let shorter = walls.reduce(f64::min).unwrap_or(segment.geometry.length());
+        Some((segment, found.beside_walls_of(shorter)))
     }
 
     /// The arcs of a contour that are below the correction with the wire on a side. Arcs that were fitted to a curve count by the

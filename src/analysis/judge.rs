@@ -115,6 +115,7 @@ impl Analysis {
             self.report_punches_within(drawing, &ordered, &sides, &mut report);
             self.report_doubtful_nesting(drawing, &ordered, &mut report);
         }
+        self.report_roles_of_no_layer(drawing, &mut report);
         let mut of_job = Vec::new();
         if self.settings.start_hole.is_some() {
             let outlines = self.outlines(drawing).clone();

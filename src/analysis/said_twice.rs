@@ -1,4 +1,4 @@
-//! Contours that are given two roles: the one that decides, and the other.
+//! Contours that are given two roles: the one that decides, and the other; and roles that are given to no contour.
 
 use super::Analysis;
 use super::contours::role_of_linetype;
@@ -6,6 +6,9 @@ use super::report::Report;
 use crate::drawing::{ContourKey, Drawing, EntityId, Role};
 use crate::finding::{Detail, Place, Rule, Severity};
 use crate::settings::Effective;
+use rustc_hash::FxHashSet;
+use std::collections::BTreeSet;
+use std::sync::Arc;
 
 /// Contours of more segments in all are not looked through at every edit.
 const MOST_SEGMENTS: usize = 2_000;
@@ -69,6 +72,54 @@ impl Analysis {
             );
         }
     }
+}
+
+/// Up to this many layers are listed.
+const MOST_LAYERS: usize = 12;
+
+impl Analysis {
+    /// Roles of layers that the drawing does not have, where contours have none: a name that is spelled otherwise, or that was
+    /// read in another code page.
+    pub(super) fn report_roles_of_no_layer(&self, drawing: &Drawing, report: &mut Report) {
+        let severity = Some(Severity::Warning);
+        let roles = &self.settings.layers;
+        let is_whole = self.known.values().all(|known| known.stated.is_some());
+        if is_whole || roles.is_empty() || !report.shows_findings() {
+            return;
+        }
+        // Neighbours mostly share the name of their layer.
+        let mut layers: BTreeSet<&Arc<str>> = BTreeSet::new();
+        let mut last = None;
+        for (_, entity) in drawing.entities() {
+            if !last.is_some_and(|last| Arc::ptr_eq(last, &entity.layer)) {
+                layers.insert(&entity.layer);
+                last = Some(&entity.layer);
+            }
+        }
+        let upper: FxHashSet<String> = layers.iter().map(|layer| layer.to_uppercase()).collect();
+        let has_none = |name: &&str| !upper.contains(&name.to_uppercase());
+        let idle: Vec<&str> = roles.names().filter(has_none).collect();
+        if idle.is_empty() || !report.counts(Rule::Settings, severity) {
+            return;
+        }
+        let idle = listed(idle.into_iter());
+        let layers = listed(layers.into_iter().map(|layer| &**layer));
+        let sentence = say!(roles_of_no_layer, "[layers]", idle, layers);
+        let detail = Detail::Said(sentence);
+        report.add(
+            Rule::Settings,
+            severity,
+            Place::Document,
+            detail,
+            Vec::new(),
+        );
+    }
+}
+
+fn listed<'a>(mut names: impl Iterator<Item = &'a str>) -> String {
+    let first: Vec<&str> = names.by_ref().take(MOST_LAYERS).collect();
+    let more = if names.next().is_some() { " …" } else { "" };
+    format!("{}{more}", first.join(say!(comma)))
 }
 
 /// The roles that an entity is given, in the order in which they decide.

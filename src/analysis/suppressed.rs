@@ -179,12 +179,13 @@ pub(super) fn own_role(drawing: &Drawing, settings: &Effective, id: EntityId) ->
     }
 }
 
-/// Whether a point lies on an entity, within 0.01 mm.
+/// Whether a point, mm, lies on an entity, within 0.01 mm.
 fn runs_through(drawing: &Drawing, settings: &Effective, id: EntityId, at: Point) -> bool {
     let Some(entity) = drawing.get(id) else {
         return false;
     };
-    let near = NEAR / settings.unit_of(drawing).mm;
+    let unit_mm = settings.unit_of(drawing).mm;
+    let (near, at) = (NEAR / unit_mm, at / unit_mm);
     let flat = drawing.flat();
     entity
         .geometry

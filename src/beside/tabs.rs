@@ -107,7 +107,7 @@ pub(super) fn tabs(
     found
 }
 
-/// Where the wire is threaded for each contour, and where its cut begins, in the drawing's unit, by handles; `None` for
+/// Where the wire is threaded for each contour, and where its cut begins, in mm, by handles; `None` for
 /// a program that does not state its place.
 pub(super) fn threads(
     drawn: &Drawn,
@@ -131,12 +131,9 @@ pub(super) fn threads(
         };
         let wall = walls.at(index, along)?;
         let name = (*names.get(index)?).to_owned();
-        let scale = drawn.unit_mm * 1e3;
-        let in_drawing = |place: Point| [place.x / scale, place.y / scale];
-        threads
-            .entry(name.clone())
-            .or_insert(in_drawing(begin.start()));
-        entries.entry(name).or_insert(in_drawing(wall));
+        let in_mm = |place: Point| [place.x / 1e3, place.y / 1e3];
+        threads.entry(name.clone()).or_insert(in_mm(begin.start()));
+        entries.entry(name).or_insert(in_mm(wall));
     }
     let by_handle = [threads, entries].map(PointSetting::ByHandle);
     Some(by_handle)

@@ -98,9 +98,9 @@ pub(super) fn heading(index: usize, contour: &ContoursContour, unit_mm: f64) -> 
     let order = contour
         .order
         .map_or_else(String::new, |order| say!(cut_number, order + 1));
-    let mark = contour
-        .mark
-        .map_or_else(String::new, |[x, y]| say!(start_mark_at, x, y));
+    let mark = contour.mark.map_or_else(String::new, |[x, y]| {
+        say!(start_mark_at, x * unit_mm, y * unit_mm)
+    });
     let segments = say!(segments, contour.segments.len());
     let what = say!(
         contour_and_what_it_is,

@@ -105,11 +105,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     }
     told(&snapshot, &made.work);
     if let Some(finished) = made.finished {
+        let at = finished.at * document.unit_mm();
         output::say(&say!(
             the_finished_part_deviates,
             finished.uncut,
-            finished.at.x,
-            finished.at.y,
+            at.x,
+            at.y,
             finished.overcut
         ));
     }

@@ -82,7 +82,7 @@ impl Measured {
 
     /// Extents, smallest radius, handles.
     fn measures(&self, unit_mm: f64) -> String {
-        let corner = self.bounds.min;
+        let corner = self.bounds.min * unit_mm;
         let extents = say!(
             extents_from,
             self.bounds.width() * unit_mm,
@@ -264,7 +264,7 @@ fn table(printed: &Printed) -> String {
     let units = if unit == 1.0 {
         "mm".into()
     } else {
-        say!(units_of_the_drawing_and_of_the_radius, unit)
+        say!(in_mm_whatever_the_drawing_s_unit, unit)
     };
     text + &say!(all_in_units, entities, segments, units, result) + "\n"
 }
@@ -291,10 +291,10 @@ fn columns() -> String {
         "{} {} {:>13} {:>13}  {} {} {}  {}",
         flush_left(say!(column_of_handles), 8),
         flush_right(say!(vertex), 7),
-        "x",
-        "y",
+        "x mm",
+        "y mm",
         flush_left(say!(column_of_segments), 7),
-        flush_right(say!(radius), 10),
+        flush_right(&format!("{} mm", say!(radius)), 10),
         flush_right(say!(column_of_sweeps), 9),
         say!(column_of_verdicts)
     )
@@ -317,7 +317,9 @@ fn line(handle: &str, segment: &InspectedSegment, unit_mm: f64) -> String {
     let handle = flush_left(&readable(handle), 8);
     let row = format!(
         "{handle} {:>7} {:>13.4} {:>13.4}  {kind} {radius:>10} {sweep:>9}  ",
-        segment.index, shape.start.0, shape.start.1
+        segment.index,
+        shape.start.0 * unit_mm,
+        shape.start.1 * unit_mm
     );
     let style = if segment.verdict == "ok" {
         output::GOOD

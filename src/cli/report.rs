@@ -71,6 +71,9 @@ pub(crate) struct Row {
     keeps: Vec<(String, String)>,
     #[serde(skip)]
     excerpt: Option<Excerpt>,
+    /// mm of the unit of `data`.
+    #[serde(skip)]
+    unit_mm: f64,
 }
 
 /// Another place of a finding, in the same file.
@@ -220,6 +223,7 @@ fn row_at(
         message,
         data,
     );
+    row.unit_mm = document.unit_mm();
     row.related = finding
         .related
         .iter()
@@ -268,6 +272,7 @@ impl Row {
             is_marked: false,
             keeps: Vec::new(),
             excerpt: text.and_then(|text| excerpt(text, &range)),
+            unit_mm: 1.0,
         }
     }
 
@@ -328,7 +333,7 @@ impl Row {
         self.related.iter().take(MOST_OTHERS).map(told).chain(more)
     }
 
-    /// The entity, the segment of it, and the start of that or of a program's block, in drawing units.
+    /// The entity, the segment of it, and the start of that or of a program's block, mm.
     pub(crate) fn whereabouts(&self) -> Option<String> {
         let data = &self.data;
         let entity = data.handle.as_deref().map(readable).map(|handle| {
@@ -336,7 +341,8 @@ impl Row {
             data.segment.map_or_else(|| handle.to_string(), of_segment)
         });
         let point = data.at.or(data.start).or(data.center);
-        let point = point.map(|point| say!(at_point, point.0, point.1));
+        let unit_mm = self.unit_mm;
+        let point = point.map(|point| say!(at_point, point.0 * unit_mm, point.1 * unit_mm));
         let places: Vec<String> = entity.into_iter().chain(point).collect();
         (!places.is_empty()).then(|| places.join(say!(comma)))
     }

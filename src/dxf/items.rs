@@ -11,6 +11,7 @@ use super::reader::{ReadItem, Said, range_key, read_item};
 use super::reading::{is_fitted, set_appearance};
 use super::shape::{MOST_CURVE_ARCS, Shape, curve_arcs};
 use super::table::{Became, Context, Item, NO_ITEM, Named};
+use super::unit::StatedUnit;
 use crate::drawing::{
     Delta, Drawing, Entity, EntityId, Geometry, Handle, Touched, Vertex, differing,
 };
@@ -117,7 +118,7 @@ impl Document {
             .collect();
         let second_section = before.contains(&Became::Structure {
             entities: true,
-            unit: None,
+            unit: StatedUnit::default(),
         }) && self.table.sections > 1;
         // A layer entry affects everything on the layer.
         let layers_before = old.iter().filter_map(|item| match item.became {

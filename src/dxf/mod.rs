@@ -51,7 +51,7 @@ mod write;
 pub use write::write;
 
 use crate::drawing::{Drawing, EntityId, Unit};
-use crate::finding::{Detail, Finding, Place, Rule, Severity};
+use crate::finding::{Detail, Finding, Place, Rule};
 use crate::geometry::Tolerances;
 use crate::text::{Again, SourceText};
 pub(crate) use append::Added;
@@ -63,8 +63,8 @@ use reading::{Reading, is_fitted};
 use std::ops::Range;
 use std::sync::Arc;
 use table::Table;
+use unit::fit_tolerance;
 pub(crate) use unit::unit_of;
-use unit::{about_unit, fit_tolerance};
 
 /// Endings of the names of drawings, in lower case and without their dots; the bytes tell text from binary.
 pub(crate) const ENDINGS: [&str; 3] = ["dxf", "dxb", "dxfb"];
@@ -259,14 +259,14 @@ impl Document {
         let mut blocks = known.unwrap_or(blocks);
         self.table.used = std::mem::take(&mut blocks.used);
         self.table.blocks = Arc::new(blocks);
-        drawing.unit = unit.and_then(unit_of);
+        drawing.unit = unit.unit();
         if let Some(unit) = self.assumed_unit {
             drawing.assume_unit(unit);
         }
-        if let Some(sentence) = about_unit(unit) {
+        if let Some((severity, sentence)) = unit.doubt() {
             let finding = Finding {
                 rule: Rule::Units,
-                severity: Severity::Information,
+                severity,
                 place: Place::Document,
                 detail: Detail::Said(sentence),
                 related: Vec::new(),

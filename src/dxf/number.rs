@@ -2,9 +2,9 @@
 
 use std::ops::Range;
 
-/// The range of `bytes` without padding (spaces and tabs) on either side.
+/// The range of `bytes` without padding on either side: spaces, tabs, and the end mark of old systems (^Z).
 pub(super) fn trimmed_range(bytes: &[u8]) -> Range<usize> {
-    let padding = |byte: &u8| matches!(byte, b' ' | b'\t');
+    let padding = |byte: &u8| matches!(byte, b' ' | b'\t' | 0x1a);
     let start = bytes
         .iter()
         .position(|byte| !padding(byte))

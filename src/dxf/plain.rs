@@ -9,7 +9,7 @@ use super::number;
 use super::shape::Shape;
 use super::space::Lies;
 use crate::drawing::{Color, Geometry, Handle, Kind};
-use crate::geometry::{Point, radians};
+use crate::geometry::{Point, radians_of_arc};
 
 /// Numbers by their place in the record: x, y, z; the second x, y, z; radius; first and last angle.
 const CODES: [i16; 9] = [10, 20, 30, 11, 21, 31, 40, 50, 51];
@@ -75,12 +75,15 @@ pub(super) fn read(lines: Lines, line: usize, layers: &mut Layers) -> Option<(Re
             center,
             radius: radius?,
         },
-        _ => Geometry::Arc {
-            center,
-            radius: radius?,
-            start_angle: radians(from?),
-            end_angle: radians(to?),
-        },
+        _ => {
+            let (start_angle, end_angle) = radians_of_arc(from?, to?);
+            Geometry::Arc {
+                center,
+                radius: radius?,
+                start_angle,
+                end_angle,
+            }
+        }
     };
     let read = Read {
         handle,

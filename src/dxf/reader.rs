@@ -11,6 +11,7 @@ use super::number::{self, Number};
 use super::shape::Shape;
 use super::space::Lies;
 use super::table::{Became, Context};
+use super::unit::StatedUnit;
 use crate::finding::{Finding, Severity};
 use crate::geometry::Unfit;
 use crate::text::head;
@@ -20,10 +21,10 @@ use crate::text::head;
 pub(super) enum Said {
     /// Kept, without a meaning here.
     Nothing,
-    /// Another section: whether ENTITIES begins, and the unit that a HEADER states (`$INSUNITS`).
+    /// Another section: whether ENTITIES begins, and what a HEADER states of the unit.
     Structure {
         entities: bool,
-        unit: Option<i32>,
+        unit: StatedUnit,
     },
     Entity(Outcome),
     /// A block of the drawing begins.
@@ -36,7 +37,10 @@ impl Said {
     /// A section ends, or one begins that states nothing.
     const END: Said = Said::Structure {
         entities: false,
-        unit: None,
+        unit: StatedUnit {
+            insunits: None,
+            measurement: None,
+        },
     };
 
     pub(super) fn structure(&self) -> Option<Became> {
@@ -215,13 +219,13 @@ fn drawn(outcome: Outcome, start: Tag, lexer: &mut Lexer, tolerance: f64) -> Out
 /// After EOF nothing is read. Anything there has a finding, except the end mark of old systems (^Z).
 fn pass_over_what_follows(lexer: &mut Lexer) {
     let blank = |line: &usize| {
-        lexer
-            .lines
-            .content(*line)
-            .iter()
-            .all(|byte| byte.is_ascii_whitespace() || *byte == 0x1a)
+        let content = lexer.lines.content(*line);
+        content.iter().all(u8::is_ascii_whitespace)
     };
-    if let Some(line) = (lexer.at()..lexer.lines.count()).find(|line| !blank(line)) {
+    let odd = (lexer.at()..lexer.lines.count()).find(|line| !blank(line));
+    // Old systems fill the last sector of a file with whatever they have after the mark.
+    let is_end_mark = |line: &usize| lexer.lines.content(*line).trim_ascii().starts_with(b"\x1a");
+    if let Some(line) = odd.filter(|line| !is_end_mark(line)) {
         lexer.oddity(line, say!(what_stands_behind_eof_is_not_read).into());
     }
     lexer.begin_item(lexer.lines.count());
@@ -312,7 +316,7 @@ fn end_of_section(already: usize, lexer: &mut Lexer, after: Context) -> bool {
 /// SECTION, its name and, in HEADER, its variables.
 fn section(start: Tag, lexer: &mut Lexer) -> (Said, Context) {
     let mut name: Option<&[u8]> = None;
-    let (mut variable, mut unit): (&[u8], _) = (b"", None);
+    let (mut variable, mut unit): (&[u8], _) = (b"", StatedUnit::default());
     while let Some(tag) = lexer.next() {
         let value = lexer.lines.trimmed(tag.value_line());
         match tag.code {
@@ -322,18 +326,24 @@ fn section(start: Tag, lexer: &mut Lexer) -> (Said, Context) {
             }
             2 if name.is_none() => name = Some(value),
             9 => variable = value,
-            70 if variable == b"$INSUNITS" && name == Some(b"HEADER") => {
-                match number::number(value) {
+            70 if name == Some(b"HEADER") => {
+                let whole = match number::number(value) {
                     Number::Exact(value) if value.fract() == 0.0 && value.abs() < 1e6 => {
-                        unit = Some(value as i32)
+                        Some(value as i32)
                     }
-                    _ => {
+                    _ => None,
+                };
+                match variable {
+                    b"$MEASUREMENT" => unit.measurement = whole,
+                    b"$INSUNITS" if whole.is_none() => {
                         let sentence = say!(
                             group_code_70_of_insunits_is_expected_a_whole_number,
                             quoted(value)
                         );
                         lexer.damage_in(lexer.lines.range(tag.value_line()), sentence);
                     }
+                    b"$INSUNITS" => unit.insunits = whole,
+                    _ => {}
                 }
             }
             _ => {}
@@ -343,7 +353,7 @@ fn section(start: Tag, lexer: &mut Lexer) -> (Said, Context) {
         Some(b"ENTITIES") => (
             Said::Structure {
                 entities: true,
-                unit: None,
+                unit: StatedUnit::default(),
             },
             Context::Entities,
         ),

@@ -11,7 +11,7 @@ use super::lines::Lines;
 use super::reader::{ReadItem, Said, read_item};
 use super::shape::{self, Shape};
 use super::table::{Became, Context, Item, Named, Table};
-use super::unit::{fit_tolerance, unit_of};
+use super::unit::{StatedUnit, fit_tolerance};
 use super::{Document, doubled, fault, frame};
 use crate::drawing::{Drawing, Entity, EntityId, Handle, Kind, Visibility};
 use crate::finding::NotJudged;
@@ -23,7 +23,7 @@ use std::sync::Arc;
 #[derive(Default)]
 pub(super) struct Reading {
     pub(super) drawing: Drawing,
-    pub(super) unit: Option<i32>,
+    pub(super) unit: StatedUnit,
     ordinal: usize,
     pub(super) any_record: bool,
     pub(super) blocks: Blocks,
@@ -212,11 +212,11 @@ impl Pass<'_> {
         Became::Layer(self.table.layers.len() as u32 - 1)
     }
 
-    fn structure(&mut self, entities: bool, unit: Option<i32>, line: usize) {
+    fn structure(&mut self, entities: bool, unit: StatedUnit, line: usize) {
         self.reading.unit = unit.or(self.reading.unit);
         // One tolerance for all entities, also for those that are read again.
         if self.table.sections == 0 {
-            let unit = self.reading.unit.and_then(unit_of);
+            let unit = self.reading.unit.unit();
             self.table.fit_tolerance = fit_tolerance(self.arc_fit, unit);
         }
         self.table.sections += usize::from(entities);

@@ -2,7 +2,8 @@
 
 use crate::drawing::{Geometry, Kind, Vertex};
 use crate::geometry::{
-    Chain, Curve, EllipticArc, Point, Segment, Spline, SplineCurve, Unfit, Vector, cross, fit,
+    BEYOND_A_TURN, Chain, Curve, EllipticArc, Point, Segment, Spline, SplineCurve, Unfit, Vector,
+    cross, fit, positive_angle,
 };
 use std::f64::consts::TAU;
 
@@ -273,8 +274,9 @@ pub(super) fn ellipse(
     to: f64,
 ) -> EllipticArc {
     let side = if mirrored { -ratio } else { ratio };
-    let forward = crate::geometry::positive_angle(to - from);
-    let sweep = if forward < ALIKE || TAU - forward < ALIKE {
+    let forward = positive_angle(to - from);
+    let is_beyond = (0.0..BEYOND_A_TURN.to_radians()).contains(&(to - from - TAU));
+    let sweep = if is_beyond || forward < ALIKE || TAU - forward < ALIKE {
         TAU
     } else {
         forward

@@ -3,6 +3,7 @@
 use super::blocks::Blocks;
 use super::entity::VertexLines;
 use super::layer_table::{LayerEntry, LayerStates};
+use super::unit::StatedUnit;
 use crate::drawing::EntityId;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::sync::Arc;
@@ -22,11 +23,11 @@ pub(crate) enum Context {
 pub(crate) enum Became {
     /// Text that is kept and does not concern the modelspace.
     Nothing,
-    /// SECTION, ENDSEC or EOF: it decides what the records after it are. A HEADER gives the unit (`$INSUNITS`).
+    /// SECTION, ENDSEC or EOF: it decides what the records after it are. A HEADER states the unit.
     Structure {
         /// The section ENTITIES begins.
         entities: bool,
-        unit: Option<i32>,
+        unit: StatedUnit,
     },
     Entity(EntityId),
     /// A reference to a block: `count` entities with ids in a row, from `first` on.

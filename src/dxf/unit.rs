@@ -1,6 +1,7 @@
 //! The unit that a drawing states, and the tolerance of fitted arcs in it.
 
 use crate::drawing::Unit;
+use crate::finding::Severity;
 use crate::geometry::Tolerances;
 
 /// The setting for fitted arcs in drawing units. A drawing without a stated unit may be in inches.
@@ -34,13 +35,45 @@ pub(crate) fn unit_of(insunits: i32) -> Option<Unit> {
     Some(Unit { mm })
 }
 
-pub(super) fn about_unit(insunits: Option<i32>) -> Option<String> {
-    match insunits {
-        None => Some(say!(the_drawing_does_not_say_its_unit).into()),
-        Some(0) => Some(say!(the_drawing_says_that_it_has_no_unit).into()),
-        Some(other) if unit_of(other).is_none() => {
-            Some(say!(insunits_is_no_unit_that_is_known, other))
+/// What a HEADER states of the unit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct StatedUnit {
+    /// `$INSUNITS`.
+    pub(super) insunits: Option<i32>,
+    /// `$MEASUREMENT`: 0 for inches, 1 for millimetres. Templates leave it behind in drawings of the other kind, so it
+    /// is evidence, and no unit.
+    pub(super) measurement: Option<i32>,
+}
+
+impl StatedUnit {
+    const INCHES: Option<i32> = Some(0);
+
+    /// The same, and what an earlier HEADER states beside it.
+    pub(super) fn or(self, earlier: StatedUnit) -> StatedUnit {
+        StatedUnit {
+            insunits: self.insunits.or(earlier.insunits),
+            measurement: self.measurement.or(earlier.measurement),
         }
-        Some(_) => None,
+    }
+
+    pub(super) fn unit(self) -> Option<Unit> {
+        self.insunits.and_then(unit_of)
+    }
+
+    /// What is to be said of a drawing that states no unit.
+    pub(super) fn doubt(self) -> Option<(Severity, String)> {
+        let sentence: String = match self.insunits {
+            None if self.measurement == StatedUnit::INCHES => {
+                let sentence = say!(measurement_speaks_for_inches).to_owned();
+                return Some((Severity::Warning, sentence));
+            }
+            None => say!(the_drawing_does_not_say_its_unit).into(),
+            Some(0) => say!(the_drawing_says_that_it_has_no_unit).into(),
+            Some(other) if unit_of(other).is_none() => {
+                say!(insunits_is_no_unit_that_is_known, other)
+            }
+            Some(_) => return None,
+        };
+        Some((Severity::Information, sentence))
     }
 }

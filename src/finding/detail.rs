@@ -2,7 +2,7 @@
 
 use super::aside::{SetAside, set_aside};
 use super::fault::Fault;
-use super::lengths::{Telling, absurd, told_apart};
+use super::lengths::{Telling, absurd, between_walls, told_apart};
 use super::misfit::Misfit;
 use super::not_judged::NotJudged;
 use super::small_radius::SmallRadius;
@@ -24,12 +24,12 @@ told! {
     SharpCorner { turn: f64, radius: f64, uncut: f64, count: Option<usize> }
         => match (count, telling.mm(*radius)) {
             (None, radius) => {
-                let (turn, uncut) = (turn.abs().to_degrees(), telling.mm(*uncut));
-                say!(corner_of_degrees_is_left_with_r_mm, turn, radius, uncut)
+                let (angle, uncut) = (between_walls(*turn), telling.mm(*uncut));
+                say!(an_inside_corner_is_left_rounded, angle, radius, uncut)
             }
             (Some(1), radius) => {
-                let turn = turn.abs().to_degrees();
-                say!(a_sharp_corner_that_the_wire_runs_inside, turn, radius, telling.tool())
+                let angle = between_walls(*turn);
+                say!(a_sharp_corner_that_the_wire_runs_inside, angle, radius, telling.tool())
             }
             (Some(count), radius) => {
                 say!(sharp_corners_that_the_wire_runs_inside, count, radius, telling.tool())

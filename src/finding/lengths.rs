@@ -1,4 +1,4 @@
-//! Lengths as people read them.
+//! Lengths and angles as people read them.
 
 /// How a finding is worded: the unit of its lengths and the tool. A plain number is a unit, with a
 /// wire as the tool.
@@ -42,6 +42,11 @@ pub(super) fn mm(length: f64) -> String {
         3
     };
     format!("{length:.places$}")
+}
+
+/// The angle of a corner as people read it, between its walls, degrees: a contour that turns by 160° makes a point of 20°.
+pub(super) fn between_walls(turn: f64) -> f64 {
+    180.0 - turn.abs().to_degrees()
 }
 
 /// Two lengths in mm with as many decimals as it takes to tell them apart, at least three.

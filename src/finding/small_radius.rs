@@ -5,6 +5,10 @@ use crate::geometry::{Arc, Point, Side};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
+/// From this turn on (radians) the walls beside an arc run side by side: what stays between them is a slot as deep as
+/// they are long, and no arc says how long that is.
+const SIDE_BY_SIDE: f64 = 170.0 / 180.0 * PI;
+
 /// Why an arc that is too tight has no fix.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -40,7 +44,8 @@ pub struct SmallRadius {
     pub(crate) side: Side,
     /// What an untrimmed offset cuts beyond the wire's contour: `(c − r)(1 − cos θ)`, at most `2 (c − r)`.
     pub(crate) overcut: f64,
-    /// What stays when the control trims: `(c − r)(1 / cos(θ/2) − 1)`; infinite at a half turn and beyond.
+    /// What stays when the control trims: `(c − r)(1 / cos(θ/2) − 1)`; infinite where that is not known: towards a half
+    /// turn, and where the walls end before their offsets meet.
     pub(crate) stock_left: f64,
     /// The pass (1-based) whose correction is the largest, where several passes are set.
     pub(crate) pass: Option<usize>,
@@ -55,7 +60,7 @@ impl SmallRadius {
     /// `unit`.
     pub(crate) fn of(arc: &Arc, radius: f64, required: f64, unit: f64) -> SmallRadius {
         let (short, turn) = ((required - radius).max(0.0) / unit, arc.sweep.abs().min(PI));
-        let stock_left = if turn < PI {
+        let stock_left = if turn < SIDE_BY_SIDE {
             short * (1.0 / (turn / 2.0).cos() - 1.0)
         } else {
             f64::INFINITY
@@ -79,6 +84,17 @@ impl SmallRadius {
             no_fix: None,
         }
     }
+
+    /// The same beside walls of which the shorter has this length. The offsets of the walls meet beside points of them
+    /// `(c − r) tan(θ/2)` from the arc; a wall that ends before is lost with it, and more stays than the arc says.
+    pub(crate) fn beside_walls_of(mut self, length: f64) -> SmallRadius {
+        let turn = self.sweep.abs().min(PI);
+        if (self.required - self.radius) * (turn / 2.0).tan() > length {
+            self.stock_left = f64::INFINITY;
+        }
+        self
+    }
+
     /// True where the wire cuts beyond the contour; else it leaves stock, for later passes or for good.
     pub(crate) fn overcuts(&self, unit_mm: f64) -> bool {
         !self.taken_by_skims && self.overcut * unit_mm >= 0.5e-6
@@ -123,5 +139,27 @@ impl SmallRadius {
             NoFix::NotEditable => say!(it_is_part_of_an_entity_that_cannot_be_edited_here).into(),
         });
         text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Arc;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// Beside an arc nothing stays standing that reaches farther than the walls do.
+        #[test]
+        fn what_stays_is_no_more_than_the_walls_reach(
+            radius in 0.0..0.1, sweep in 0.0..std::f64::consts::TAU, length in 0.0..20.0, clockwise: bool
+        ) {
+            let sweep = if clockwise { -sweep } else { sweep };
+            let arc = Arc::from_center(Point::origin(), radius, 0.0, sweep);
+            let told = SmallRadius::of(&arc, radius, 0.1, 1.0);
+            prop_assert!(told.stock_left < 1.2 || told.stock_left.is_infinite());
+            let left = told.beside_walls_of(length).stock_left;
+            prop_assert!(left <= length || left.is_infinite());
+        }
     }
 }

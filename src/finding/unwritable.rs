@@ -1,5 +1,7 @@
 //! What a language cannot express of a contour: its numbers and sentences.
 
+use super::lengths::between_walls;
+
 told! {
     /// Why 4B, whose controller changes the radius of each arc by its correction, cannot hold a contour. Lengths and
     /// coordinates in mm.
@@ -14,7 +16,7 @@ told! {
         => say!(n4b_needs_a_transition_arc_where_the_cut_begins, at[0], at[1]);
     /// A corner that turns by `turn` radians has no room for an arc of `radius` that is tangent to both its sides.
     NoTransition { at: [f64; 2], radius: f64, turn: f64 } => {
-        let turn = turn.to_degrees().abs();
-        say!(n4b_needs_a_transition_arc_of_r_at_the_corner, radius, at[0], at[1], turn)
+        let angle = between_walls(*turn);
+        say!(n4b_needs_a_transition_arc_of_r_at_the_corner, radius, at[0], at[1], angle)
     };
 }

@@ -68,7 +68,7 @@ pub fn direction(angle: f64) -> Vector {
 }
 
 /// `degrees` in radians. Whole turns are removed first, which is exact in degrees and not in radians.
-pub(crate) fn radians(degrees: f64) -> f64 {
+fn radians(degrees: f64) -> f64 {
     if degrees.abs() > 360.0 {
         (degrees % 360.0).to_radians()
     } else {
@@ -84,6 +84,16 @@ pub fn turn(a: Vector, b: Vector) -> f64 {
         return sine / cosine;
     }
     sine.atan2(cosine)
+}
+
+/// How far beyond a full turn (degrees) the end of an arc may lie for the arc to be a full turn: as programs round 2π or
+/// 360°. Nobody writes 361° for 1°.
+pub(crate) const BEYOND_A_TURN: f64 = 1.0;
+
+/// The angles of an arc, degrees, in radians; the same one twice where the second lies a hair beyond a full turn.
+pub(crate) fn radians_of_arc(from: f64, to: f64) -> (f64, f64) {
+    let is_turn = (0.0..BEYOND_A_TURN).contains(&(to - from - 360.0));
+    (radians(from), radians(if is_turn { from } else { to }))
 }
 
 /// `angle` brought into [0, 2π).

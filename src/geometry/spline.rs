@@ -17,8 +17,8 @@ pub(crate) struct Spline {
 }
 
 impl Spline {
-    /// Errors say what does not fit: the degree, the number of points, knots or weights, falling knots, weights of 0 or
-    /// less.
+    /// Errors say what does not fit: the degree, the number of points, knots or weights, falling knots, weights of both
+    /// signs or of 0, a knot at which the curve breaks in two.
     ///
     /// The curve runs over the knots from number `degree` to number `points.len()`, as DXF has it, so unclamped and
     /// periodic knots are valid too.
@@ -57,20 +57,40 @@ impl Spline {
                 points.len()
             ));
         }
-        if weights.iter().any(|&weight| weight <= 0.0) {
-            return Err(say!(has_a_weight_that_is_not_above_0).into());
+        // A factor that all weights share cancels, whatever its sign.
+        let are_one_sign = |sign: f64| weights.iter().all(|&weight| weight * sign > 0.0);
+        if !are_one_sign(1.0) && !are_one_sign(-1.0) {
+            return Err(say!(has_weights_of_both_signs_or_0).into());
         }
         let weights = if weights.windows(2).all(|pair| pair[0] == pair[1]) {
             Vec::new()
         } else {
             weights
         };
-        Ok(Spline {
+        let spline = Spline {
             degree,
             knots,
             points,
             weights,
-        })
+        };
+        match spline.break_in_two() {
+            Some(times) => Err(say!(breaks_in_two_at_a_knot, times)),
+            None => Ok(spline),
+        }
+    }
+
+    /// How often a knot occurs at which the curve jumps: more often than the degree, with another control point behind
+    /// it than before it.
+    fn break_in_two(&self) -> Option<usize> {
+        let bounds = Bounds::of_points(&self.points);
+        let rounding = 1e-9 * (bounds.max - bounds.min).norm();
+        let next = self.spans().skip(1);
+        let jumps = |(span, next): (usize, usize)| {
+            let times = next - span;
+            let ends = || self.points[span] - self.points[next - self.degree];
+            (times > self.degree && ends().norm() > rounding).then_some(times)
+        };
+        self.spans().zip(next).find_map(jumps)
     }
 
     /// The spline with even knots that begins at the first point and ends at the last one. Errors as in `Spline::new`.

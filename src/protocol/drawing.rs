@@ -2,7 +2,7 @@
 
 use super::number::Number;
 use crate::drawing::{self as core, Geometry, Role, Unit, Vertex};
-use crate::geometry::{Point, Xy, radians};
+use crate::geometry::{Point, Xy, radians_of_arc};
 use schemars::JsonSchema;
 use serde::de::{Error as _, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -142,8 +142,11 @@ impl<'de> Deserialize<'de> for Entity {
         let missing = |key: &str| D::Error::custom(say!(an_entity_needs, name, kind, key));
         let point =
             |key: &str, point: Option<Xy>| point.map(Point::from).ok_or_else(|| missing(key));
-        let angle =
-            |key: &str, degrees: Option<f64>| degrees.map(radians).ok_or_else(|| missing(key));
+        let angles = || -> Result<(f64, f64), D::Error> {
+            let from = keys.start_angle.ok_or_else(|| missing("startAngle"))?;
+            let to = keys.end_angle.ok_or_else(|| missing("endAngle"))?;
+            Ok(radians_of_arc(from, to))
+        };
         let geometry = match kind.as_str() {
             "polyline" => Geometry::Polyline {
                 closed: keys.closed.ok_or_else(|| missing("closed"))?,
@@ -153,12 +156,17 @@ impl<'de> Deserialize<'de> for Entity {
                 start: point("start", keys.start)?,
                 end: point("end", keys.end)?,
             },
-            "arc" => Geometry::Arc {
-                center: point("center", keys.center)?,
-                radius: keys.radius.ok_or_else(|| missing("radius"))?,
-                start_angle: angle("startAngle", keys.start_angle)?,
-                end_angle: angle("endAngle", keys.end_angle)?,
-            },
+            "arc" => {
+                let center = point("center", keys.center)?;
+                let radius = keys.radius.ok_or_else(|| missing("radius"))?;
+                let (start_angle, end_angle) = angles()?;
+                Geometry::Arc {
+                    center,
+                    radius,
+                    start_angle,
+                    end_angle,
+                }
+            }
             "circle" => Geometry::Circle {
                 center: point("center", keys.center)?,
                 radius: keys.radius.ok_or_else(|| missing("radius"))?,

@@ -42,6 +42,15 @@ impl<T: Copy> ByName<T> {
         found.copied()
     }
 
+    /// The names as they are written.
+    pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
+        self.written.keys().map(String::as_str)
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.written.is_empty()
+    }
+
     pub(crate) fn contains(&self, name: &str) -> bool {
         self.get(name).is_some()
     }

@@ -41,7 +41,7 @@ pub struct Effective {
     pub contours: BTreeMap<String, Role>,
     /// Settings of single contours of the document, by handle or point.
     pub own: BTreeMap<String, ContourSettings>,
-    /// The roles among those, for contours that are named by a point.
+    /// The roles among those, for contours that are named by a point, mm.
     pub points: Vec<(Point, Role)>,
     pub colors: BTreeMap<Color, Role>,
     pub severities: BTreeMap<Rule, Option<Severity>>,

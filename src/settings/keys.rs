@@ -109,19 +109,19 @@ tables! {
         /// Findings that somebody has looked at and lets stand, by the handle of the entity at which they are reported and the name of the
         /// rule, with the reason: [suppressions](rules/README.md#suppressions).
         suppress: BTreeMap<String, BTreeMap<String, String>> => reasons;
-        /// Settings of one contour, by the handle of an entity of it or by a point of it: `[drawings."plate.dxf".contours.2A]`,
+        /// Settings of one contour, by the handle of an entity of it or by a point of it, mm: `[drawings."plate.dxf".contours.2A]`,
         /// `[drawings."plate.dxf".contours."12.5,40"]`, in [its own keys](programs.md#one-contour). It comes before `contours`,
         /// `program.thread`, `program.entry` and `program.order`.
         contours: BTreeMap<String, ContourSettings> => tables;
     }
 
-    /// Settings of one contour of one drawing. Points are in drawing units.
+    /// Settings of one contour of one drawing. Points are in mm, as all lengths are, whatever unit the drawing is in.
     ContourSettings() {
         /// Where the wire runs.
         side: Role => name;
-        /// Thread hole `[x, y]`.
+        /// Thread hole `[x, y]`, mm.
         thread: [f64; 2] => point;
-        /// Point `[x, y]` of the contour where the cut begins.
+        /// Point `[x, y]` of the contour where the cut begins, mm.
         entry: [f64; 2] => point;
         /// Its place among the contours that have one; they are cut before all others. What lies within a contour comes before it all
         /// the same.
@@ -160,11 +160,11 @@ tables! {
         direction: Direction = Direction::Ccw => name;
         /// How the wire goes round a convex corner of the part.
         corner: Corner = Corner::Arc => name;
-        /// Thread hole `[x, y]` in drawing units. A table has them by handle. Else the TEXT or MTEXT "O" nearest to the
+        /// Thread hole `[x, y]`, mm. A table has them by handle. Else the TEXT or MTEXT "O" nearest to the
         /// contour, or a POINT on a layer of start holes (as START-HOLES) or where the contour has no other mark, else the centre of a round opening where neither entry nor `lead-in` is set, else found from the entry. An "O" on the
         /// part's side, or within the correction of the contour, is not the hole but the entry beside it.
         thread: PointSetting => point_setting;
-        /// Point `[x, y]` of the contour where the cut begins, in drawing units. A table has them by handle. Else the point beside an "O"
+        /// Point `[x, y]` of the contour where the cut begins, mm. A table has them by handle. Else the point beside an "O"
         /// that means it, under `as-picked` the beginning of the entity picked first, the point nearest to the thread hole, else the middle of
         /// the longest line, else the point of the longest arc with the largest x, or its middle.
         entry: PointSetting => point_setting;

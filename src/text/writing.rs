@@ -36,9 +36,19 @@ impl Writing {
     }
 }
 
+/// True for a text whose letters beyond ASCII may be codes of two bytes of a page of East Asia that are valid UTF-8 by chance.
+pub(crate) fn consists_of_pairs(text: &str) -> bool {
+    let is_common = |letter: char| {
+        let mut bytes = [0; 4];
+        let bytes = letter.encode_utf8(&mut bytes).as_bytes();
+        letter.is_ascii() || matches!(bytes, [_, 0xa1..=0xff])
+    };
+    text.chars().all(is_common)
+}
+
 /// True for a GB 18030 text that is valid UTF-8 too, as 凸模 alone would be: everything except ASCII
 /// is a common two-byte letter of GB 18030, and as UTF-8 it would mix scripts within a word.
-fn is_gb_18030_by_chance(text: &str) -> bool {
+pub(crate) fn is_gb_18030_by_chance(text: &str) -> bool {
     let script = |letter: char| match letter {
         // Signs, which occur beside letters of any script.
         '\0'..='\u{bf}' => None,
@@ -47,18 +57,11 @@ fn is_gb_18030_by_chance(text: &str) -> bool {
         '\u{400}'..='\u{52f}' => Some("Cyrillic"),
         _ => Some("further"),
     };
-    let is_common = |letter: char| {
-        let mut bytes = [0; 4];
-        let bytes = letter.encode_utf8(&mut bytes).as_bytes();
-        letter.is_ascii() || matches!(bytes, [_, 0xa1..=0xff])
-    };
     let mixes = |(one, other): (char, char)| match (script(one), script(other)) {
         (Some(one), Some(other)) => one != other,
         _ => false,
     };
-    !text.is_ascii()
-        && text.chars().all(is_common)
-        && text.chars().zip(text.chars().skip(1)).any(mixes)
+    !text.is_ascii() && consists_of_pairs(text) && text.chars().zip(text.chars().skip(1)).any(mixes)
 }
 
 #[cfg(test)]

@@ -184,6 +184,7 @@ impl Job<'_> {
                 found => {
                     let distance_mm =
                         found.map_or(f64::INFINITY, |(_, distance)| distance * self.unit_mm);
+                    let point = self.in_mm(point);
                     Err(Refusal::Sentence(say!(
                         the_entry_lies_from_contour,
                         point.x,

@@ -140,7 +140,7 @@ impl Job<'_> {
         let diameter = self.settings.start_hole?;
         let left = distance * self.unit_mm - diameter / 2.0;
         let handle = self.name(contours.outline_of(wall));
-        let cuts = left < -1e-6;
+        let (cuts, at) = (left < -1e-6, self.in_mm(at));
         let sentence = match cuts {
             true => say!(
                 the_start_hole_cuts_into,
@@ -212,6 +212,7 @@ impl Job<'_> {
                     let first =
                         |outline: usize| self.outlines[outline].contour.segment(self.drawing, 0);
                     let place = |outline| first(outline).as_ref().map(Place::from);
+                    let [at, other] = [*at, *other].map(|at| self.in_mm(at));
                     let sentence = say!(
                         the_start_holes_meet,
                         self.settings.start_hole.unwrap_or_default(),

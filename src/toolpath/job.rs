@@ -3,6 +3,7 @@
 use super::offset::{Wall, walls};
 use super::path::Refusal;
 use crate::drawing::{Contour, Drawing, EntityId, Outline};
+use crate::geometry::Point;
 use crate::settings::Effective;
 use rustc_hash::FxHashMap;
 use std::sync::atomic::AtomicBool;
@@ -117,6 +118,16 @@ impl Job<'_> {
         let segment = |at: usize| contour.segment(self.drawing, at);
         let zero_length = self.units(self.settings.tolerances.zero_length);
         walls(contour.len(), segment, contour.closed, zero_length)
+    }
+
+    /// A point of the settings, mm, in drawing units.
+    pub(super) fn place(&self, [x, y]: [f64; 2]) -> Point {
+        Point::new(x, y) / self.unit_mm
+    }
+
+    /// A place of the drawing as people read it: in mm, to a nanometre.
+    pub(super) fn in_mm(&self, at: Point) -> Point {
+        (at * self.unit_mm).map(|it| (it * 1e6).round() / 1e6 + 0.0)
     }
 
     /// mm in drawing units.

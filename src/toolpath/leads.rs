@@ -103,6 +103,7 @@ impl<'a> Surroundings<'a> {
         let (place, does) = obstacle
             .map(|obstacle| self.told(&obstacle, walls, correction))
             .unwrap_or_default();
+        let [thread, begin] = [thread, begin].map(|at| self.job.in_mm(at));
         let sentence = match self.lead {
             Lead::Arc => say!(
                 no_arc_leads_from_to,
@@ -384,12 +385,13 @@ pub(super) fn thread_hole(
     let (place, does) = last
         .map(|obstacle| surroundings.told(&obstacle, walls, correction))
         .unwrap_or_default();
+    let at_entry = job.in_mm(entry.point);
     if let Some(diameter) = settings.start_hole.filter(|_| threading.reach.is_some()) {
         let sentence = say!(
             no_start_hole_fits_beside,
             diameter,
-            entry.point.x,
-            entry.point.y,
+            at_entry.x,
+            at_entry.y,
             diameter / 2.0 + HOLE_CLEAR,
             because(does)
         );
@@ -402,16 +404,16 @@ pub(super) fn thread_hole(
             no_arc_fits_at,
             settings.lead_in,
             correction,
-            entry.point.x,
-            entry.point.y,
+            at_entry.x,
+            at_entry.y,
             because(does)
         ),
         _ => say!(
             no_lead_in_fits_at,
             settings.lead_in,
             correction,
-            entry.point.x,
-            entry.point.y,
+            at_entry.x,
+            at_entry.y,
             because(does)
         ),
     };

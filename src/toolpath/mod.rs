@@ -67,7 +67,9 @@ pub use path::{PathSegment, Refusal, Source, WirePath};
 pub(crate) use reuse::{NEW, which_it_is, which_it_was};
 pub(crate) use rounds::rounds;
 pub(crate) use said_twice::{MOST_SEGMENTS as MOST_SEGMENTS_SAID_TWICE, said_twice};
-pub(crate) use settings_check::{is_stated, short_layers, shortened_leads, stated_faults};
+pub(crate) use settings_check::{
+    is_stated, long_leads, short_layers, shortened_leads, stated_faults,
+};
 pub(crate) use standing::holds;
 pub use work::LargestWire;
 pub use work::Work;

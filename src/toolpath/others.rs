@@ -84,6 +84,7 @@ impl Job<'_> {
                 return None;
             }
             let wall = self.crossed(&Segment::line(from, to), contours, None)?;
+            let [from, to] = [from, to].map(|at| self.in_mm(at));
             let sentence = say!(
                 the_way_cuts_into_contour,
                 from.x,

@@ -88,7 +88,7 @@ impl Job<'_> {
                 && let Some(wall) = self.crossed(&lead, contours, Some(index))
             {
                 let crossed = self.name(contours.outline_of(wall));
-                let (from, to) = (lead.start(), lead.end());
+                let [from, to] = [lead.start(), lead.end()].map(|at| self.in_mm(at));
                 let sentence = say!(
                     the_lead_in_cuts_through_contour,
                     from.x,
@@ -265,7 +265,7 @@ impl Job<'_> {
         let (to_first, to_last) = ((begin - first).norm(), (begin - last).norm());
         let join = self.units(self.settings.tolerances.join);
         if wanted.entry.is_some() && to_first.min(to_last) > join {
-            let handle = self.name(index);
+            let (handle, begin) = (self.name(index), self.in_mm(begin));
             return Err(Refusal::Sentence(say!(
                 contour_is_open_and_cannot_be_entered_at,
                 handle,

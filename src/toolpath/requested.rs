@@ -8,7 +8,7 @@ use crate::geometry::Point;
 use crate::settings::{Compensation, ContourSettings, NEAR, PointSetting, point_of};
 use rustc_hash::FxHashMap;
 
-/// What settings and start marks give for one contour, in drawing units.
+/// What settings and start marks give for one contour, in drawing units; settings are in mm.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Requested {
     pub(crate) thread: Option<Point>,
@@ -30,8 +30,14 @@ impl<'a> Job<'a> {
         let points = threads.into_iter().zip(entries);
         let wanted = chosen.iter().zip(points).map(|(index, (thread, entry))| {
             let own = said.get(index);
-            let thread = own.and_then(|own| own.thread).map(Point::from).or(thread);
-            let entry = own.and_then(|own| own.entry).map(Point::from).or(entry);
+            let thread = own
+                .and_then(|own| own.thread)
+                .map(|at| self.place(at))
+                .or(thread);
+            let entry = own
+                .and_then(|own| own.entry)
+                .map(|at| self.place(at))
+                .or(entry);
             let mark = own_mark(&marks, *index);
             let is_entry = |mark: &&Mark| self.means_entry(mark);
             let beside = mark.filter(is_entry).map(|mark| mark.at);
@@ -70,7 +76,7 @@ impl<'a> Job<'a> {
             self.outlines.iter().position(runs_there)
         };
         match point_of(key) {
-            Some(at) => through(at),
+            Some(at) => through(self.place(at.into())),
             None => self.outline_of(key).ok(),
         }
     }
@@ -106,7 +112,7 @@ impl<'a> Job<'a> {
         match setting {
             None => {}
             Some(PointSetting::One(at)) => match &mut points[..] {
-                [only] => *only = Some(Point::from(*at)),
+                [only] => *only = Some(self.place(*at)),
                 several => {
                     let count = several.len();
                     return Err(Refusal::Sentence(say!(
@@ -120,7 +126,7 @@ impl<'a> Job<'a> {
                 for (handle, at) in table {
                     let outline = self.outline_of(handle)?;
                     if let Some(place) = chosen.iter().position(|&index| index == outline) {
-                        points[place] = Some(Point::from(*at));
+                        points[place] = Some(self.place(*at));
                     }
                 }
             }

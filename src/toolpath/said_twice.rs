@@ -41,8 +41,8 @@ pub(crate) fn said_twice(
             if (first.1 - other.1).norm() <= near {
                 continue;
             }
-            let [at, elsewhere] =
-                [first, other].map(|given| format!("({}, {})", given.1.x, given.1.y));
+            let [at, elsewhere] = [first, other].map(|given| job.in_mm(given.1));
+            let [at, elsewhere] = [at, elsewhere].map(|at| format!("({}, {})", at.x, at.y));
             let sentence = say!(
                 a_point_that_is_given_twice,
                 what,
@@ -87,19 +87,19 @@ impl Job<'_> {
             let at = of_one(own)?;
             let outline = self.key_outline(contour)?;
             let by = format!("drawings.\"{document}\".contours.\"{contour}\".{key}");
-            Some((outline, Point::from(at), by))
+            Some((outline, self.place(at), by))
         });
         let mut given: Vec<Given> = said.collect();
         let key = format!("program.{key}");
         match of_all {
             // One that is given to several contours is refused.
             Some(PointSetting::One(at)) if self.outlines.len() == 1 => {
-                given.push((0, Point::from(*at), key));
+                given.push((0, self.place(*at), key));
             }
             Some(PointSetting::ByHandle(table)) => {
                 let said = table.iter().rev().filter_map(|(handle, at)| {
                     let outline = self.outline_of(handle).ok()?;
-                    Some((outline, Point::from(*at), format!("{key}.{handle}")))
+                    Some((outline, self.place(*at), format!("{key}.{handle}")))
                 });
                 given.extend(said);
             }

@@ -10,6 +10,9 @@ use crate::finding::{Finding, Place, Rule, Severity};
 use crate::geometry::Segment;
 use crate::settings::{Compensation, Effective, Electrode, LengthSetting};
 
+/// A lead of up to this many mm is usual, however small the part.
+const USUAL_LEAD: f64 = 3.0;
+
 /// In drawings of more segments these are only reported when a path is requested.
 const MOST_SEGMENTS: usize = 2_000;
 
@@ -47,6 +50,7 @@ pub(crate) fn stated_faults(
             found.extend(job.worn_layers(&paths));
             let of_tabs = holds(drawing, outlines, settings, &paths).into_iter();
             found.extend(of_tabs.filter(|one| one.severity <= Severity::Warning));
+            found.extend(long_leads(drawing, outlines, settings, &paths));
             found
         }
         Err(Refusal::Findings(mut found)) => {
@@ -121,6 +125,42 @@ pub(crate) fn shortened_leads(
         is_shortened.then(|| finding(Rule::LeadIn, severity, place, sentence(), None))
     });
     shortened.collect()
+}
+
+/// The leads that are longer than the part that they lead to: a thread hole in another unit, or one of another part.
+pub(crate) fn long_leads(
+    drawing: &Drawing,
+    outlines: &[Outline],
+    settings: &Effective,
+    paths: &[WirePath],
+) -> Vec<Finding> {
+    let Some(severity) = settings.severity_over(Rule::LeadIn, Severity::Warning) else {
+        return Vec::new();
+    };
+    let job = Job::of(drawing, outlines, settings);
+    let long = paths
+        .iter()
+        .filter(|path| path.is_first())
+        .filter_map(|path| {
+            let mut pieces = path.segments.iter();
+            let begin = pieces.find(|piece| piece.source.place().is_some())?;
+            let thread = path.segments.first()?.geometry.start();
+            let length = (begin.geometry.start() - thread).norm() * job.unit_mm;
+            let bounds = outlines.get(path.outline)?.contour.bounds(drawing);
+            let size = bounds.width().max(bounds.height()) * job.unit_mm;
+            let is_long = length > size.max(USUAL_LEAD);
+            let sentence = || {
+                say!(
+                    the_lead_is_longer_than_the_part,
+                    job.name(path.outline),
+                    length,
+                    size
+                )
+            };
+            let place = begin.source.place();
+            is_long.then(|| finding(Rule::LeadIn, severity, place, sentence(), None))
+        });
+    long.collect()
 }
 
 /// The contours with a layer that is shorter than the step of linear compensation.

@@ -54,6 +54,7 @@ impl Job<'_> {
         let gone = self.necks(paths).filter(|neck| neck.width <= 0.0);
         let said = gone.map(|neck| {
             let Neck { tab, at, width, .. } = neck;
+            let at = self.in_mm(at);
             let sentence = say!(
                 nothing_of_the_tab_is_left_standing,
                 tab,
@@ -116,7 +117,7 @@ pub(crate) fn holds(
         finding(Rule::LeadIn, severity, source.place(), sentence, None)
     };
     let of_neck = |severity: Severity, neck: &Neck| {
-        let (handle, at) = (job.name(neck.outline), neck.at);
+        let (handle, at) = (job.name(neck.outline), job.in_mm(neck.at));
         let sentence = say!(
             the_tab_stands_by_a_neck,
             neck.tab,
@@ -137,6 +138,7 @@ pub(crate) fn holds(
     });
     found.extend(slugs.filter_map(|path| {
         let Loose { at, area, source } = loose(settings, job.unit_mm, path)?;
+        let at = job.in_mm(at);
         let sentence = say!(
             the_cut_meets_itself,
             job.name(path.outline),

@@ -268,7 +268,8 @@ impl Job<'_> {
         let (before, held) = split(ring.into_path(), at, self.units(ROUNDING));
         let wall = &unled.walls[tab.wall];
         if before.is_empty() || held.is_empty() {
-            let sentence = say!(no_tab_fits_at, tab.point.x, tab.point.y);
+            let at = self.in_mm(tab.point);
+            let sentence = say!(no_tab_fits_at, at.x, at.y);
             return Err(self.refused(Some(wall.source), sentence));
         }
         let (is_led, main) = main(Rotated::whole(before));

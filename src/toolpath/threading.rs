@@ -165,6 +165,7 @@ impl Job<'_> {
             return Ok(());
         };
         let wall = nearest(walls, thread, same).map_or(0, |(entry, _)| entry.wall);
+        let [thread, point] = [thread, point].map(|at| self.in_mm(at));
         let sentence = say!(
             the_thread_hole_comes_nearer_to_the_contour,
             thread.x,

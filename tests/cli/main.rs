@@ -19,6 +19,7 @@ mod table;
 mod targets;
 mod told;
 mod twice;
+mod units;
 mod untrusted;
 mod words;
 

@@ -541,14 +541,14 @@ export interface DrawingSettings {
     };
   };
   /**
-   * Settings of one contour, by the handle of an entity of it or by a point of it: `[drawings."plate.dxf".contours.2A]`, `[drawings."plate.dxf".contours."12.5,40"]`, in its own keys. It comes before `contours`, `program.thread`, `program.entry` and `program.order`.
+   * Settings of one contour, by the handle of an entity of it or by a point of it, mm: `[drawings."plate.dxf".contours.2A]`, `[drawings."plate.dxf".contours."12.5,40"]`, in its own keys. It comes before `contours`, `program.thread`, `program.entry` and `program.order`.
    */
   contours?: {
     [k: string]: ContourSettings;
   };
 }
 /**
- * Settings of one contour of one drawing. Points are in drawing units.
+ * Settings of one contour of one drawing. Points are in mm, as all lengths are, whatever unit the drawing is in.
  */
 export interface ContourSettings {
   /**
@@ -556,14 +556,14 @@ export interface ContourSettings {
    */
   side?: Role;
   /**
-   * Thread hole `[x, y]`.
+   * Thread hole `[x, y]`, mm.
    *
    * @minItems 2
    * @maxItems 2
    */
   thread?: [number, number];
   /**
-   * Point `[x, y]` of the contour where the cut begins.
+   * Point `[x, y]` of the contour where the cut begins, mm.
    *
    * @minItems 2
    * @maxItems 2
@@ -595,11 +595,11 @@ export interface ProgramSettings {
    */
   corner?: Corner;
   /**
-   * Thread hole `[x, y]` in drawing units. A table has them by handle. Else the TEXT or MTEXT "O" nearest to the contour, or a POINT on a layer of start holes (as START-HOLES) or where the contour has no other mark, else the centre of a round opening where neither entry nor `lead-in` is set, else found from the entry. An "O" on the part's side, or within the correction of the contour, is not the hole but the entry beside it.
+   * Thread hole `[x, y]`, mm. A table has them by handle. Else the TEXT or MTEXT "O" nearest to the contour, or a POINT on a layer of start holes (as START-HOLES) or where the contour has no other mark, else the centre of a round opening where neither entry nor `lead-in` is set, else found from the entry. An "O" on the part's side, or within the correction of the contour, is not the hole but the entry beside it.
    */
   thread?: PointSetting;
   /**
-   * Point `[x, y]` of the contour where the cut begins, in drawing units. A table has them by handle. Else the point beside an "O" that means it, under `as-picked` the beginning of the entity picked first, the point nearest to the thread hole, else the middle of the longest line, else the point of the longest arc with the largest x, or its middle.
+   * Point `[x, y]` of the contour where the cut begins, mm. A table has them by handle. Else the point beside an "O" that means it, under `as-picked` the beginning of the entity picked first, the point nearest to the thread hole, else the middle of the longest line, else the point of the longest arc with the largest x, or its middle.
    */
   entry?: PointSetting;
   /**

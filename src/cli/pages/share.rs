@@ -224,11 +224,12 @@ impl PageShare {
                     program.deviation
                 );
                 let finished = made.finished.as_ref().map(|finished| {
+                    let at = finished.at * unit_mm;
                     say!(
                         the_finished_part_deviates,
                         finished.uncut,
-                        finished.at.x,
-                        finished.at.y,
+                        at.x,
+                        at.y,
                         finished.overcut
                     )
                 });

@@ -7,7 +7,7 @@ use crate::dxf::layers::Layers;
 use crate::dxf::lexer::{Lexer, Tag};
 use crate::dxf::numbers::Numbers;
 use crate::dxf::shape::Shape;
-use crate::geometry::{Point, radians};
+use crate::geometry::{Point, radians_of_arc};
 
 /// The radius, if it is positive; else a finding.
 fn radius_of(value: f64, kind: &str, start: Tag, lexer: &mut Lexer) -> Option<f64> {
@@ -34,7 +34,7 @@ pub(super) fn arc(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Result<
     } else if radius_of(radius, "ARC", start, lexer).is_none() {
         return Err(Refused::Damaged);
     }
-    let (from, to) = (radians(from), radians(to));
+    let (from, to) = radians_of_arc(from, to);
     let lies = common.lies(numbers.values[5].unwrap_or(0.0))?;
     let (center, (start_angle, end_angle)) = match common.plane() {
         _ if common.paper_space => {

@@ -90,6 +90,91 @@ fn a_spline_without_knots_is_drawn_and_one_with_too_few_is_an_error() {
     );
 }
 
+/// Programs round 360° and 2π, up as well as down.
+#[test]
+fn a_sweep_a_hair_over_a_full_turn_is_a_full_turn() {
+    let arc = |from: f64, to: f64| format!("0 ARC 5 A 10 1 20 2 40 3 50 {from} 51 {to}");
+    let ellipse =
+        |from: f64, to: f64| format!("0 ELLIPSE 5 A 10 1 20 2 11 3 21 0 40 1 41 {from} 42 {to}");
+    let (turn, whole) = (std::f64::consts::TAU, 3.0 * std::f64::consts::TAU);
+    for (text, length) in [
+        (arc(0.0, 360.0), whole),
+        (arc(0.0, 360.0001), whole),
+        (arc(90.0, 450.002), whole),
+        (arc(-180.0, 180.05), whole),
+        (arc(10.0, 400.0), whole / 12.0),
+        (arc(350.0, 370.0), whole / 18.0),
+        (ellipse(0.0, 6.2832), whole),
+        (ellipse(1.0, 1.0 + 6.284), whole),
+        (ellipse(0.0, turn / 4.0), whole / 4.0),
+    ] {
+        let document = Document::read(dxf(&text).into_bytes());
+        assert_eq!(findings(&document), [""; 0], "{text}");
+        let drawn: f64 = segments(&document).iter().map(Segment::length).sum();
+        assert!((drawn - length).abs() < 2e-3, "{text}: {drawn}");
+    }
+}
+
+/// A factor that all weights share cancels; a knot that occurs more often than the degree may part the curve.
+#[test]
+fn weights_and_knots_of_splines() {
+    let spline = |weights: [f64; 4]| {
+        let points = weights.map(|weight| format!("41 {weight}")).join(" ");
+        let text = format!(
+            "0 SPLINE 5 A 100 AcDbSpline 70 8 71 3 40 0 40 0 40 0 40 0 40 1 40 1 40 1 40 1 {points} \
+             10 0 20 0 10 1 20 3 10 4 20 3 10 5 20 0"
+        );
+        Document::read(dxf(&text).into_bytes())
+    };
+    let plain = entities(&spline([1.0; 4]));
+    for same in [[-1.0; 4], [7.0; 4], [-0.25; 4]] {
+        assert_eq!(entities(&spline(same)), plain, "{same:?}");
+    }
+    let uneven = entities(&spline([1.0, 2.0, 3.0, 1.0]));
+    assert_ne!(uneven, plain);
+    assert_eq!(entities(&spline([-1.0, -2.0, -3.0, -1.0])), uneven);
+    for bad in [[1.0, -1.0, 1.0, 1.0], [1.0, 0.0, 1.0, 1.0], [0.0; 4]] {
+        assert_eq!(
+            findings(&spline(bad)),
+            [r#"error at "SPLINE": SPLINE has weights of both signs, or of 0: it is not drawn"#]
+        );
+    }
+    let broken = |x: f64| {
+        let text = format!(
+            "0 SPLINE 5 A 100 AcDbSpline 70 8 71 1 40 0 40 0 40 1 40 1 40 2 40 2 10 0 20 0 10 6 20 0 10 {x} 20 0 10 12 20 0"
+        );
+        Document::read(dxf(&text).into_bytes())
+    };
+    assert_eq!(findings(&broken(6.0)), [""; 0]);
+    assert_eq!(
+        findings(&broken(6.5)),
+        [
+            r#"error at "SPLINE": SPLINE breaks in two at a knot that occurs 2 times: it is not drawn"#
+        ]
+    );
+}
+
+/// The end mark of old systems, and what they fill the file with behind it.
+#[test]
+fn an_end_mark_is_no_fault() {
+    let text = dxf("0 LINE 5 A 10 0 20 0 11 1 21 0");
+    for end in ["\x1a", "\x1a\n", "\x1a\x1a\x1a", "\x1a\0\0\0"] {
+        for between in ["\n", "\r\n", ""] {
+            let whole = format!("{}{between}{end}", text.trim_end());
+            let document = Document::read(whole.clone().into_bytes());
+            let is_part_of_eof = between.is_empty() && end.contains('\0');
+            let expected = usize::from(is_part_of_eof);
+            assert!(findings(&document).len() <= 2 * expected, "{whole:?}");
+        }
+    }
+    let without = text.trim_end().trim_end_matches("0\nEOF");
+    let document = Document::read(format!("{without}\x1a").into_bytes());
+    assert_eq!(
+        findings(&document),
+        [r#"warning at "\u{1a}": the text ends without EOF: something may be missing"#]
+    );
+}
+
 /// Drawings written by scripts hold such splines: wedm reads them as any other, other programs refuse them.
 #[test]
 fn a_spline_without_the_mark_of_its_class_is_drawn_with_a_hint() {

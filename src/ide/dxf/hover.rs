@@ -120,7 +120,8 @@ fn about_bulge(
         Some(Segment::Line(_)) => say!(a_line_since_the_arc_hardly_rises, angle),
         Some(Segment::Arc(arc)) => {
             let radius = radius_in(arc.radius, unit);
-            let (x, y) = (rounded(arc.center.x), rounded(arc.center.y));
+            let center = arc.center * unit.mm;
+            let (x, y) = (rounded(center.x), rounded(center.y));
             format!("{angle}\n\n{}", say!(radius_and_centre, radius, x, y))
         }
         None => angle,

@@ -206,7 +206,7 @@ declare! {
     all_of_them_can_be_cut => "all of them can be cut";
     see_wedm_check => "not all of it could be judged, see wedm check";
     not_ok(count) => "{count} not ok";
-    units_of_the_drawing_and_of_the_radius(unit) => "drawing units of {unit} mm; radius in mm";
+    in_mm_whatever_the_drawing_s_unit(unit) => "mm (the drawing's unit is {unit} mm)";
     and_not_cut => ", not cut";
     on_layer(entity, handle, layer, closed, cut) => "{entity} {handle} on layer {layer}, {closed}{cut}";
     expected_a_length_in_mm_above_0 => "expected a length in mm above 0";

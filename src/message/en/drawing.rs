@@ -93,6 +93,7 @@ declare! {
     a_block_of_this_name_stands_before_this_one => "a block of this name comes before this one: that one is drawn";
     a_second_section_entities_begins_here => "a second section ENTITIES begins here; both are read";
     the_handle_is_taken_by_an_entity_before_this_one(asked, given) => "the handle {asked} is taken by an earlier entity: this one is called {given} here";
+    measurement_speaks_for_inches => "the drawing does not state its unit ($INSUNITS is missing), but its $MEASUREMENT of 0 stands for inches: the unit of the settings applies; set `units` to say which it is";
     the_drawing_does_not_say_its_unit => "the drawing does not state its unit ($INSUNITS is missing): the unit of the settings applies";
     the_drawing_says_that_it_has_no_unit => "the drawing says that it has no unit ($INSUNITS is 0): the unit of the settings applies";
     insunits_is_no_unit_that_is_known(value) => "$INSUNITS is {value}, which is not a unit of length known here: the unit of the settings applies";
@@ -126,7 +127,8 @@ declare! {
     has_the_wrong_number_of_knots(knots, expected, points, degree) => "has {knots} knots, expected {expected} for {points} control points of degree {degree}";
     has_knots_that_do_not_rise => "has knots that do not increase";
     has_weights_for_control_points(weights, points) => "has {weights} weights for {points} control points";
-    has_a_weight_that_is_not_above_0 => "has a weight that is not above 0";
+    has_weights_of_both_signs_or_0 => "has weights of both signs, or of 0";
+    breaks_in_two_at_a_knot(times) => "breaks in two at a knot that occurs {times} times";
     end_x => " (end x)";
     end_y => " (end y)";
     end_z => " (end z)";

@@ -84,8 +84,8 @@ declare! {
     it_is_held_against_the_first(drawing, more) => "it was compared with {drawing}; {more} has the same name, and one of the two is meant";
     is_not_cut(kind, why) => "{kind} is not cut: {why}";
     of_them_is_not_cut(kind, count, why) => "{kind} ({count} of them) is not cut: {why}";
-    corner_of_degrees_is_left_with_r_mm(turn, radius, uncut) => "corner of {turn:.1}° is left with R {radius} mm: {uncut} mm of it stay uncut";
-    a_sharp_corner_that_the_wire_runs_inside(turn, radius, tool) => "sharp corner of {turn:.1}°: where {tool} runs inside of it, it is left with R {radius} mm";
+    an_inside_corner_is_left_rounded(angle, radius, uncut) => "inside corner of {angle:.1}° is left with R {radius} mm: {uncut} mm of it stay uncut";
+    a_sharp_corner_that_the_wire_runs_inside(angle, radius, tool) => "sharp corner of {angle:.1}°: where {tool} runs inside of it, it is left with R {radius} mm";
     sharp_corners_that_the_wire_runs_inside(count, radius, tool) => "{count} sharp corners: those that {tool} runs inside of are left with R {radius} mm";
     the_slot_is_too_narrow(width, required, tool) => "slot is {width} mm wide, {tool} needs {required} mm: it cannot pass without cutting the walls";
     the_middle_of_a_slot_is_too_near_a_wall(width, required, tool) => "middle of the slot is {width} mm from a wall, {tool} needs {required} mm: it cuts into the wall";
@@ -97,7 +97,7 @@ declare! {
     no_path_of_the_wire_along_this_contour_holds(tool) => "no path of {tool} along this contour passes its proof here: the contour is drawn finer than a path can follow";
     an_arc_that_4b_cannot_have(radius, x, y, correction) => "4B cannot have the arc R {radius:.3} mm at ({x:.3}, {y:.3}): the wire runs inside of it, expected more than the correction {correction:.3} mm";
     n4b_needs_a_transition_arc_where_the_cut_begins(x, y) => "4B needs a transition arc at the corner ({x:.3}, {y:.3}), where the cut begins: give an entry on a line or an arc";
-    n4b_needs_a_transition_arc_of_r_at_the_corner(radius, x, y, turn) => "4B needs a transition arc of R {radius:.3} mm at the corner ({x:.3}, {y:.3}) of {turn:.1}°: none that is tangent to both sides fits in there";
+    n4b_needs_a_transition_arc_of_r_at_the_corner(radius, x, y, angle) => "4B needs a transition arc of R {radius:.3} mm at the corner ({x:.3}, {y:.3}) of {angle:.1}°: none that is tangent to both sides fits in there";
     the_wire_that_cuts => "the wire";
     the_electrode_that_mills => "the electrode";
     nothing_is_left_of_the_outline(required, tool) => "nothing is left of the outline at a correction of {required} mm: {tool} does not fit in";

@@ -16,7 +16,7 @@ declare! {
     a_line => "a line";
     arc_of_degrees(degrees, turn) => "arc of {degrees}°, {turn}";
     a_line_since_the_arc_hardly_rises(arc) => "a line: {arc}, which rises less than a millionth of a millimetre above its chord";
-    radius_and_centre(radius, x, y) => "radius {radius}, centre ({x}, {y})";
+    radius_and_centre(radius, x, y) => "radius {radius}, centre ({x}, {y}) mm";
     the_arc_sweeps(degrees, radius) => "the arc sweeps {degrees}°, radius {radius}";
     names_an_entity_on_layer(kind, layer) => "names {kind} on layer {layer}";
     names_nothing => "names nothing";

@@ -72,6 +72,7 @@ declare! {
     a_mass_needs_a_height(key) => "{key} is the mass of a slug: expected job.thickness as well";
     a_rate_needs_minutes(key, missing) => "{key} has no effect: a cost needs the minutes of the cuts; expected {missing} as well";
     a_limit_needs_a_tab(key) => "{key} has no effect without program.tab: expected the length, mm, that an opening with a heavier slug leaves standing";
+    roles_of_no_layer(key, names, layers) => "{key} gives a role to {names}, and no layer of the drawing has that name: its layers are {layers}";
     a_contour_of_two_roles(name, role, by, other, other_by) => "contour {name} is given two roles: {role} by {by}, which decides, and {other} by {other_by}";
     its_color => "its colour";
     the_entity_itself => "the entity itself";

@@ -35,6 +35,7 @@ declare! {
     the_lead_in_does(x, y, x1, y1, does) => "the lead-in from the thread hole ({x:.3}, {y:.3}) to ({x1:.3}, {y1:.3}) {does}";
     the_way_back_does(x, y, x1, y1, does) => "the straight way back from the end of the contour at ({x:.3}, {y:.3}) to the thread hole ({x1:.3}, {y1:.3}) {does}";
     no_lead_in_fits_at(length, correction, x, y, why) => "no lead-in from {length:.3} mm down to the correction {correction:.3} mm fits at ({x:.3}, {y:.3}){why}: give a thread hole or another entry";
+    the_lead_is_longer_than_the_part(contour, length, size) => "the lead of contour {contour} is {length:.3} mm long, and the part only {size:.3} mm: the thread hole belongs to another part, or is given in another unit";
     the_lead_is_shortened(handle, wanted, length) => "the lead of contour {handle} is {length:.3} mm long: there is no room for the {wanted:.3} mm of lead-in";
     because_it(does) => " (it {does})";
     the_entry_lies_from_contour(x, y, distance, handle) => "the entry ({x}, {y}) lies {distance:.3} mm from contour {handle}, expected a point on it";

@@ -206,7 +206,7 @@ translate! {
     all_of_them_can_be_cut => "全部可以切割";
     see_wedm_check => "并非全部可以判断，见 wedm check";
     not_ok(count) => "{count} 段有问题";
-    units_of_the_drawing_and_of_the_radius(unit) => "图形单位 {unit} mm，半径 mm";
+    in_mm_whatever_the_drawing_s_unit(unit) => "mm（图形单位为 {unit} mm）";
     and_not_cut => "，不切割";
     on_layer(entity, handle, layer, closed, cut) => "图层 {layer} 上的 {entity} {handle}，{closed}{cut}";
     expected_a_length_in_mm_above_0 => "应为大于 0 的长度，mm";

@@ -93,6 +93,7 @@ translate! {
     a_block_of_this_name_stands_before_this_one => "前面已有同名的块：画前面那个";
     a_second_section_entities_begins_here => "第二个 ENTITIES 段由此开始；两个都读";
     the_handle_is_taken_by_an_entity_before_this_one(asked, given) => "句柄 {asked} 已被前面的图元占用，本图元在此称为 {given}";
+    measurement_speaks_for_inches => "图形没有说明单位（缺 $INSUNITS），而 $MEASUREMENT 为 0，表示英寸：按设置中的单位；请用 `units` 说明是哪一种";
     the_drawing_does_not_say_its_unit => "图形没有说明单位（缺 $INSUNITS）：按设置中的单位";
     the_drawing_says_that_it_has_no_unit => "图形说明无单位（$INSUNITS 为 0）：按设置中的单位";
     insunits_is_no_unit_that_is_known(value) => "$INSUNITS 是 {value}，不是已知的长度单位：按设置中的单位";
@@ -126,7 +127,8 @@ translate! {
     has_the_wrong_number_of_knots(knots, expected, points, degree) => "有 {knots} 个节点，{degree} 次、{points} 个控制点应有 {expected} 个";
     has_knots_that_do_not_rise => "的节点不递增";
     has_weights_for_control_points(weights, points) => "有 {weights} 个权，对应 {points} 个控制点";
-    has_a_weight_that_is_not_above_0 => "的权不大于 0";
+    has_weights_of_both_signs_or_0 => "的权有正有负，或为 0";
+    breaks_in_two_at_a_knot(times) => "在重复 {times} 次的节点处断成两段";
     end_x => "（端点 X）";
     end_y => "（端点 Y）";
     end_z => "（端点 Z）";

@@ -84,8 +84,8 @@ translate! {
     it_is_held_against_the_first(drawing, more) => "已与 {drawing} 比较；{more} 同名，应为其中之一";
     is_not_cut(kind, why) => "{kind} 不切割：{why}";
     of_them_is_not_cut(kind, count, why) => "{kind}（共 {count} 个）不切割：{why}";
-    corner_of_degrees_is_left_with_r_mm(turn, radius, uncut) => "{turn:.1}° 的拐角会留下 R {radius} mm 的圆角：{uncut} mm 切不到";
-    a_sharp_corner_that_the_wire_runs_inside(turn, radius, tool) => "{turn:.1}° 的尖角：{tool}在内侧走时，会留下 R {radius} mm 的圆角";
+    an_inside_corner_is_left_rounded(angle, radius, uncut) => "{angle:.1}° 的内角会留下 R {radius} mm 的圆角：{uncut} mm 切不到";
+    a_sharp_corner_that_the_wire_runs_inside(angle, radius, tool) => "{angle:.1}° 的尖角：{tool}在内侧走时，会留下 R {radius} mm 的圆角";
     sharp_corners_that_the_wire_runs_inside(count, radius, tool) => "{count} 处尖角：{tool}在内侧走的会留下 R {radius} mm 的圆角";
     the_slot_is_too_narrow(width, required, tool) => "槽宽 {width} mm，{tool}需要 {required} mm：通过时必然切到槽壁";
     the_middle_of_a_slot_is_too_near_a_wall(width, required, tool) => "槽的中线距槽壁 {width} mm，{tool}需要 {required} mm：会切入该壁";
@@ -97,7 +97,7 @@ translate! {
     no_path_of_the_wire_along_this_contour_holds(tool) => "{tool}沿此轮廓的路线在这里通不过校核：轮廓画得比路线的精度还细";
     an_arc_that_4b_cannot_have(radius, x, y, correction) => "4B 不能有 ({x:.3}, {y:.3}) 处的圆弧 R {radius:.3} mm：丝在内侧走，半径应大于补偿量 {correction:.3} mm";
     n4b_needs_a_transition_arc_where_the_cut_begins(x, y) => "切割从拐角 ({x:.3}, {y:.3}) 开始，4B 在这里要过渡圆弧：请把切入点放在直线或圆弧上";
-    n4b_needs_a_transition_arc_of_r_at_the_corner(radius, x, y, turn) => "4B 在 {turn:.1}° 的拐角 ({x:.3}, {y:.3}) 要 R {radius:.3} mm 的过渡圆弧：放不下与两边相切的圆弧";
+    n4b_needs_a_transition_arc_of_r_at_the_corner(radius, x, y, angle) => "4B 在 {angle:.1}° 的拐角 ({x:.3}, {y:.3}) 要 R {radius:.3} mm 的过渡圆弧：放不下与两边相切的圆弧";
     the_wire_that_cuts => "电极丝";
     the_electrode_that_mills => "电极";
     nothing_is_left_of_the_outline(required, tool) => "按补偿量 {required} mm，轮廓全部消失：{tool}放不进去";

@@ -16,7 +16,7 @@ translate! {
     a_line => "直线";
     arc_of_degrees(degrees, turn) => "{degrees}° 圆弧，{turn}";
     a_line_since_the_arc_hardly_rises(arc) => "直线：{arc}，拱高不到百万分之一毫米";
-    radius_and_centre(radius, x, y) => "半径 {radius}，圆心 ({x}, {y})";
+    radius_and_centre(radius, x, y) => "半径 {radius}，圆心 ({x}, {y}) mm";
     the_arc_sweeps(degrees, radius) => "圆弧转过 {degrees}°，半径 {radius}";
     names_an_entity_on_layer(kind, layer) => "指图层 {layer} 上的 {kind}";
     names_nothing => "所指的不存在";

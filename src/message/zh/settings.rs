@@ -76,6 +76,7 @@ translate! {
     a_mass_needs_a_height(key) => "{key} 是废料的质量：应同时设置 job.thickness";
     a_rate_needs_minutes(key, missing) => "{key} 不起作用：算费用需要切割的分钟数；还应设置 {missing}";
     a_limit_needs_a_tab(key) => "没有 program.tab，{key} 不起作用：应设废料更重的型孔暂留段的长度，mm";
+    roles_of_no_layer(key, names, layers) => "{key} 给 {names} 定了角色，而图形中没有这个图层：图形的图层有 {layers}";
     a_contour_of_two_roles(name, role, by, other, other_by) => "轮廓 {name} 有两个角色：{by} 定为 {role}，以它为准；{other_by} 定为 {other}";
     its_color => "其颜色";
     the_entity_itself => "图元本身";

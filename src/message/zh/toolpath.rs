@@ -35,6 +35,7 @@ translate! {
     the_lead_in_does(x, y, x1, y1, does) => "从穿丝孔 ({x:.3}, {y:.3}) 到 ({x1:.3}, {y1:.3}) 的引入线{does}";
     the_way_back_does(x, y, x1, y1, does) => "从轮廓终点 ({x:.3}, {y:.3}) 到穿丝孔 ({x1:.3}, {y1:.3}) 的直线返回段{does}";
     no_lead_in_fits_at(length, correction, x, y, why) => "({x:.3}, {y:.3}) 处放不下长 {length:.3} mm 直至等于补偿量 {correction:.3} mm 的引入线{why}：请给出穿丝孔，或换一个切入点";
+    the_lead_is_longer_than_the_part(contour, length, size) => "轮廓 {contour} 的引线长 {length:.3} mm，而工件只有 {size:.3} mm：穿丝孔是别的工件的，或用了别的单位";
     the_lead_is_shortened(handle, wanted, length) => "轮廓 {handle} 的引入线长 {length:.3} mm：放不下 lead-in 所定的 {wanted:.3} mm";
     because_it(does) => "（它{does}）";
     the_entry_lies_from_contour(x, y, distance, handle) => "切入点 ({x}, {y}) 离轮廓 {handle} 有 {distance:.3} mm，应在轮廓上";

@@ -158,14 +158,14 @@ int nearestContour(const QJsonArray &contours, const QPointF &point)
     return nearest;
 }
 
-QString nameOfContour(const QJsonObject &contour, const QStringList &kept)
+QString nameOfContour(const QJsonObject &contour, double unit, const QStringList &kept)
 {
     for (const QString &name : kept) {
         const QStringList pair = name.split(QLatin1Char(','));
         bool isX = false;
         bool isY = false;
         const QPointF point(pair.value(0).toDouble(&isX), pair.value(1).toDouble(&isY));
-        if (pair.size() == 2 && isX && isY && distanceOf(contour, point) <= ON_CONTOUR)
+        if (pair.size() == 2 && isX && isY && distanceOf(contour, point / unit) * unit <= ON_CONTOUR)
             return name;
     }
     QJsonObject longest;
@@ -174,7 +174,7 @@ QString nameOfContour(const QJsonObject &contour, const QStringList &kept)
         if (longest.isEmpty() || each.toObject().value("length").toDouble() > longest.value("length").toDouble())
             longest = each.toObject();
     }
-    return pointText(middleOf(longest), ",");
+    return pointText(middleOf(longest) * unit, ",");
 }
 
 QString pointText(const QPointF &point, const char *between)

@@ -38,8 +38,8 @@ Toolpath toolpathFromJson(const QJsonObject &result);
 int nearestContour(const QJsonArray &contours, const QPointF &point);
 
 /// The name by which a contour is kept: the one among `kept`, names from the settings, that lies on it, else the middle of its
-/// longest segment, which stays on it when corners beside it are repaired.
-QString nameOfContour(const QJsonObject &contour, const QStringList &kept);
+/// longest segment, which stays on it when corners beside it are repaired. Names are points in mm; `unit` is the drawing's, mm.
+QString nameOfContour(const QJsonObject &contour, double unit, const QStringList &kept);
 
 /// A point as two numbers with `between` between them, without digits beyond a nanometre.
 QString pointText(const QPointF &point, const char *between);

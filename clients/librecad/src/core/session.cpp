@@ -213,6 +213,7 @@ void Session::requestContour(const QString &uri, const QPointF &hole)
     const auto ask = [=] {
         m_server.connection().request("wedm/contours", uriOnly(uri), [=](const Answer &answer) {
             const QJsonArray contours = answer.result.toObject().value("contours").toArray();
+            const double unit = answer.result.toObject().value("unitsToMm").toDouble(1);
             const int nearest = nearestContour(contours, hole);
             if (nearest < 0 || !m_server.isReady()) {
                 none();
@@ -220,7 +221,7 @@ void Session::requestContour(const QString &uri, const QPointF &hole)
             }
             const QJsonObject contour = contours.at(nearest).toObject();
             m_server.connection().request("wedm/settings", uriOnly(uri), [=](const Answer &answer) {
-                emit contourFound(uri, nameOfContour(contour, answer.result.toObject().value("contours").toObject().keys()), hole);
+                emit contourFound(uri, nameOfContour(contour, unit, answer.result.toObject().value("contours").toObject().keys()), hole * unit);
             });
         });
     };

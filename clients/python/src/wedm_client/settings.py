@@ -11,7 +11,7 @@ Side = Literal["both", "auto", "opening", "punch", "left", "right"]
 Units = Literal["mm", "inch"]
 RuleSeverity = Literal["error", "warning", "information", "hint", "off"]
 Place = Union[Sequence[float], Mapping[str, Sequence[float]]]
-"""A point (x, y) in drawing units, or a table of points by the handle of an entity of each contour."""
+"""A point (x, y) in mm, whatever unit the drawing is in, or a table of points by the handle of an entity of each contour."""
 
 
 class Passes(TypedDict, total=False):

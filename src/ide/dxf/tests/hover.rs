@@ -76,7 +76,7 @@ fn hover_on_an_arc_gives_its_sweep_radius_and_centre() {
 
         arc of 180°, counter-clockwise
 
-        radius 1 (25.4 mm), centre (1, 0)"#]],
+        radius 1 (25.4 mm), centre (25.4, 0) mm"#]],
     );
     check(
         "0|LWPOLYLINE|90|3|70|1|10|0|20|0|10|2|20|0|10|0|20|2|42|$0-1",
@@ -86,7 +86,7 @@ fn hover_on_an_arc_gives_its_sweep_radius_and_centre() {
 
         arc of 180°, clockwise
 
-        radius 1 mm, centre (0, 1)"#]],
+        radius 1 mm, centre (0, 1) mm"#]],
     );
     check(
         "0|POLYLINE|66|1|0|VERTEX|10|0|20|0|$042|1|0|VERTEX|10|2|20|0|0|SEQEND",
@@ -96,7 +96,7 @@ fn hover_on_an_arc_gives_its_sweep_radius_and_centre() {
 
         arc of 180°, counter-clockwise
 
-        radius 1 mm, centre (1, 0)"#]],
+        radius 1 mm, centre (1, 0) mm"#]],
     );
     check(
         "0|ARC|10|0|20|0|40|2|50|350|51|$020",
