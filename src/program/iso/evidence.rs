@@ -24,9 +24,8 @@ const SLIPS: u32 = 2;
 /// No machine travels this far, mm.
 const LONG: i64 = 1_000;
 
-/// A way of fewer steps under G91 leads round nothing larger than a wire is thick, µm: with numbers that are all shorter
-/// than [`LONG`], a square of 1 mm.
-const SMALL: u64 = 4_000;
+/// In µm all of a part that is smaller is hardly larger than a wire is thick; in mm few machines travel as far.
+const SMALL: i64 = 500;
 
 /// Beyond this many numbers without a point among others, the first stands for all.
 pub(crate) const FEW_BARE: u32 = 20;
@@ -40,6 +39,8 @@ pub(crate) struct Evidence {
     /// Numbers that are not 0 without a point, and those of them that no machine travels in mm.
     pub(crate) bare: u32,
     pub(crate) long: u32,
+    /// Those of them that are at least [`SMALL`].
+    pub(crate) at_least_small: u32,
     /// How far those under G91 lead, added up.
     pub(crate) travel: u64,
     /// How many numbers with a point have each number of decimals.
@@ -226,6 +227,7 @@ impl Evidence {
             (&mut self.with_point, other.with_point),
             (&mut self.bare, other.bare),
             (&mut self.long, other.long),
+            (&mut self.at_least_small, other.at_least_small),
             (&mut self.fine, other.fine),
             (&mut self.inches, other.inches),
             (&mut self.units, other.units),
@@ -268,6 +270,7 @@ impl Evidence {
                 self.ending_in_zero[places] += u32::from(places > 0 && number.mantissa % 10 == 0);
             }
             self.bare += u32::from(!number.point && number.mantissa != 0);
+            self.at_least_small += u32::from(!number.point && number.mantissa.abs() >= SMALL);
             self.long += u32::from(!number.point && number.mantissa.abs() >= LONG);
         }
         self.units += u32::from(block.inch.is_some());
@@ -371,8 +374,10 @@ impl Evidence {
     /// Whole numbers are the finest steps where no number has a point, unless all would be too small for a part, or where
     /// each that has one stands among at least four without that are too long for anything else.
     fn whole_numbers_are_fine(&self) -> bool {
+        // Under G91 numbers are steps: those of a way round the part add up to twice its length and width.
+        let is_small = self.at_least_small == 0 && self.travel < 4 * SMALL.unsigned_abs();
         match self.with_point {
-            0 => !self.may_be_whole_units() || self.travel >= SMALL,
+            0 => !self.may_be_whole_units() || !is_small,
             with_point => with_point.saturating_mul(4) <= self.long,
         }
     }
