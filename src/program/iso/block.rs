@@ -200,6 +200,8 @@ impl Code {
 
     /// M98.
     const SUBPROGRAM: Code = Code((b'M' as u32) << 16 | 980);
+    /// P with no word beside it, by which some controls call.
+    const SUBPROGRAM_BY_P: Code = Code((b'P' as u32) << 16 | 1);
 
     pub(super) fn of(letter: u8, number: Number) -> Code {
         let tenths = match (letter, number.decimals) {
@@ -247,7 +249,7 @@ impl Code {
         match (self.letter(), self.0 & 0xffff) {
             (b'M', tenths) => matches!(tenths, 960 | 970 | 980),
             (b'G', tenths) => matches!(tenths, 220 | 250 | 650..=679),
-            (b'P', _) => true,
+            _ if self == Code::SUBPROGRAM_BY_P => true,
             _ => self == Code::of_name(b"CALL") || self == Code::of_name(b"GOSUB"),
         }
     }
@@ -300,12 +302,18 @@ pub(super) fn read_under(
         },
         call: None,
         p: None,
+        is_alone: true,
     };
     words_under(variables, line, offset, |token, range| {
         let at = range.start - offset;
         reader.take(token, range, line.get(at..).unwrap_or_default(), &mut note)
     });
-    let Reader { block, call, p } = reader;
+    let Reader {
+        block,
+        call,
+        p,
+        is_alone,
+    } = reader;
     let mut foreign = |code, range| note(Note::Foreign { code, range });
     match (call, p) {
         (Some(_), Some((Some(subprogram), _))) => {
@@ -317,7 +325,11 @@ pub(super) fn read_under(
         // `M98 H100`: who is called is not known.
         (Some(range), _) => foreign(Code::SUBPROGRAM, range),
         (None, Some((_, range))) if !block.takes_coordinates => {
-            foreign(Code(u32::from(b'P') << 16), range);
+            let code = match is_alone {
+                true => Code::SUBPROGRAM_BY_P,
+                false => Code(u32::from(b'P') << 16),
+            };
+            foreign(code, range);
         }
         (None, _) => {}
     }
@@ -331,6 +343,8 @@ struct Reader {
     call: Option<Range<usize>>,
     /// The number after P, which M98 or a word that takes the coordinates explains.
     p: Option<(Option<u32>, Range<usize>)>,
+    /// No word stands beside it but the block's number.
+    is_alone: bool,
 }
 
 impl Reader {
@@ -342,7 +356,16 @@ impl Reader {
         text: &[u8],
         note: &mut impl FnMut(Note),
     ) {
-        self.block.empty &= matches!(token, Token::Skip | Token::Comment | Token::Tape);
+        let says_nothing = matches!(token, Token::Skip | Token::Comment | Token::Tape);
+        let is_number = matches!(
+            token,
+            Token::Word {
+                letter: b'N' | b'P',
+                ..
+            }
+        );
+        self.block.empty &= says_nothing;
+        self.is_alone &= says_nothing || is_number;
         match token {
             Token::Word { letter, number } => self.word(letter, number, range, note),
             Token::Definition {

@@ -4,6 +4,7 @@
 //! Nothing is assumed: each reading is tested on the arcs, and the one that fits the most of them wins.
 
 use super::block::{Block, Motion};
+use super::limits::Limits;
 use super::moves::{Bend, CenterRule, MICROMETRE, Move, Place, Reading, apart, distance};
 use super::word::Number;
 use crate::settings::NumberUnit;
@@ -328,12 +329,15 @@ impl Evidence {
         true
     }
 
-    /// How the program is to be read. `preferred` holds where its arcs fit under several rules, `whole` is what the
-    /// settings say of whole numbers.
-    pub(crate) fn reading(&self, preferred: CenterRule, whole: Option<NumberUnit>) -> Reading {
-        let whole_numbers_are_fine = match whole {
+    /// How the program is to be read. The settings say what its arcs and its whole numbers leave open.
+    pub(crate) fn reading(&self, limits: &Limits) -> Reading {
+        let preferred = limits.center;
+        let whole_numbers_are_fine = match limits.whole {
             Some(unit) => unit == NumberUnit::Um,
-            None => self.whole_numbers_are_fine(),
+            None => {
+                let is_open = limits.writes_micrometres && self.may_be_whole_units();
+                is_open || self.whole_numbers_are_fine()
+            }
         };
         let absolute = self.absolute.rule(preferred, &RULES);
         // The arcs under G90 give evidence for those under G91 of the same program.

@@ -23,8 +23,10 @@ pub(crate) struct Limits {
     pub(crate) inch: bool,
     /// The user has set the unit of programs.
     pub(crate) has_unit: bool,
-    /// What whole numbers are, where the settings say that: themselves, or by a profile that writes micrometres.
+    /// What whole numbers are, where the settings say it.
     pub(crate) whole: Option<NumberUnit>,
+    /// The profile of the settings writes whole micrometres.
+    pub(crate) writes_micrometres: bool,
     /// The meaning of I and J where full circles alone leave it open.
     pub(crate) center: CenterRule,
     pub(crate) profile: Option<Arc<Profile>>,
@@ -41,10 +43,11 @@ impl Limits {
             known: known_words(settings),
             inch: settings.program_units == Some(UnitSetting::Inch),
             has_unit: settings.program_units.is_some(),
-            whole: settings.whole_numbers.or_else(|| {
-                let unit = settings.profile.as_ref().ok().map(|profile| profile.unit);
-                unit.filter(|unit| *unit == NumberUnit::Um)
-            }),
+            whole: settings.whole_numbers,
+            writes_micrometres: settings
+                .profile
+                .as_ref()
+                .is_ok_and(|profile| profile.unit == NumberUnit::Um),
             center: settings
                 .profile
                 .as_ref()

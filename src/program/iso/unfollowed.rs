@@ -98,11 +98,6 @@ impl Line<'_> {
         self.words.iter().any(is_wanted)
     }
 
-    fn calls(&self) -> bool {
-        let is_call = |(token, _): &(Token, String)| matches!(token, Token::Word { letter: b'M', number } if number.whole() == Some(98));
-        self.words.iter().any(is_call)
-    }
-
     /// The words of the line that belong to a call.
     fn call(&self) -> String {
         let of_call = |(token, _): &&(Token, String)| match token {
@@ -160,7 +155,7 @@ impl Line<'_> {
     /// Of a word that neither prepares nor switches.
     fn adds(&self, letter: u8, number: Number) -> Option<Unfollowed> {
         let block = self.block;
-        let is_of_call = self.calls() || block.takes_coordinates || self.explains(&EXPLAINING);
+        let is_of_call = self.has(b"M") || block.takes_coordinates || self.explains(&EXPLAINING);
         match letter {
             b'C' | b'E' | b'F' | b'I' | b'J' | b'N' | b'O' | b'R' | b'S' | b'T' | b'U' | b'V'
             | b'W' | b'X' | b'Y' | b'Z' => None,

@@ -292,7 +292,8 @@ impl Report<'_> {
 
     /// What whole numbers are taken for, where neither the text nor the settings say it; the program is so large, mm.
     fn whole_numbers(&mut self, size: f64) {
-        if self.limits.whole.is_some() || !self.document.evidence().may_be_whole_units() {
+        let is_said = self.limits.whole.is_some() || self.limits.writes_micrometres;
+        if is_said || !self.document.evidence().may_be_whole_units() {
             return;
         }
         let sentence = match self.reading.whole_numbers_are_fine {
