@@ -178,13 +178,10 @@ fn summarise(arguments: &Arguments, target: Target, made: &Converted) {
         .chain(corrections)
         .chain(cuts.losses(format));
     losses.for_each(|loss| output::say(&loss));
-    // A drawing has none of it.
-    if target != Target::Drawing {
-        made.dropped
-            .sentences()
-            .iter()
-            .for_each(|loss| output::say(loss));
-    }
+    made.dropped
+        .sentences()
+        .iter()
+        .for_each(|loss| output::say(loss));
     if cuts.closure >= 0.005 {
         output::say(&say!(
             the_machine_misses_the_begin_of_a_contour_by_up_to_um,

@@ -83,6 +83,7 @@ const MEANINGS: &[(&str, &str)] = &[
     ("program.units", "没有说明单位（G20、G21）的 ISO 程序的数值单位。未设置时为 mm，大小像英寸的给出提示（[`units`](rules/units.md)）。"),
     ("program.units = mm", "毫米。"),
     ("program.units = inch", "英寸。"),
+    ("program.whole-numbers", "ISO 程序中没有小数点的数是整毫米还是微米（G20 下为英寸或万分之一英寸）。未设置时[由程序本身判断](programs.md#how-long-a-number-is)，数值本身说明不了时会提示。"),
     ("program.drawing", "程序所依据的图形文件，路径从程序所在文件夹算起，用来与图形对照：[`not-the-drawing`](rules/not-the-drawing.md)。未设置时，取程序注释中写明的，否则取同名的 DXF。"),
     ("program.profile", "ISO 程序的写法：{profiles}，或 `profiles` 中的一个。"),
     ("program.end", "结束 3B 或 4B 程序的代码，由字母和数字组成；ISO 程序的结束在 profile 中。"),

@@ -3,7 +3,7 @@
 use super::by_name::ByName;
 use super::{
     Budget, Compensation, ContourSettings, Corner, Direction, JobSettings, Jumps, Layout, Lead,
-    LengthSetting, MillingSettings, Order, PairSettings, Passes, PointSetting, Profile,
+    LengthSetting, MillingSettings, NumberUnit, Order, PairSettings, Passes, PointSetting, Profile,
     RuleSeverity, Sequence, Settings, SideSetting, SkimCorner, UnitSetting, Workpieces,
 };
 use crate::drawing::{Color, Role, Unit};
@@ -95,6 +95,8 @@ pub struct Effective {
     pub digits: u32,
     /// The unit of an ISO program that states none, where set; else mm.
     pub program_units: Option<UnitSetting>,
+    /// What whole numbers of ISO programs are, where somebody has said that.
+    pub whole_numbers: Option<NumberUnit>,
     /// The drawing of programs, relative to their folder.
     pub drawing: Option<String>,
     /// How ISO programs are written; for an unknown profile the sentence that lists the known ones.
@@ -248,6 +250,7 @@ impl Effective {
             compensation: program.compensation(),
             digits: program.digits().into(),
             program_units: program.units,
+            whole_numbers: program.whole_numbers,
             drawing: program.drawing.clone(),
             profile: Profile::of(&program.profile(), settings.profiles.as_ref()),
             profile_name: program.profile(),

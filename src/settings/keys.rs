@@ -200,6 +200,10 @@ tables! {
         /// Unit of the numbers of an ISO program that does not state it (G20, G21). Not set: mm, and a hint ([`units`](rules/units.md))
         /// where its size suggests inches.
         units: UnitSetting => name;
+        /// What a number without a decimal point is in an ISO program: whole millimetres, or micrometres (inches and ten-thousandths of
+        /// one under G20). Not set: [found from the program](programs.md#how-long-a-number-is), and said where its numbers do not tell.
+        #[serde(alias = "whole-numbers")]
+        whole_numbers: NumberUnit => name;
         /// The drawing that programs belong to, from their own folder on, which they are compared with:
         /// [`not-the-drawing`](rules/not-the-drawing.md). Not set: the one that a comment of the program names, else the DXF of the same name.
         drawing: String => path;

@@ -6,7 +6,7 @@ use super::*;
 type Told = Option<(&'static str, usize)>;
 
 /// Programs by name. A and B stand for the two parts of a contour.
-const PROGRAMS: [(&str, &str, Told); 48] = [
+const PROGRAMS: [(&str, &str, Told); 65] = [
     (
         "a call of nothing",
         "A\nM98 P7777\nB",
@@ -127,6 +127,39 @@ const PROGRAMS: [(&str, &str, Told); 48] = [
     ("a shift", "A\nG93 X5. Y0.\nB", Some(("G93", 7))),
     ("feed in minutes", "A\nG93 G01 X5. Y5.\nB", None),
     ("canceled cycles", "G40 G80\nA\nB", None),
+    (
+        "a call by G22",
+        "A\nG22 L100\nB\nM02\nL100\nG01 X3.\nG23",
+        Some(("G22", 7)),
+    ),
+    ("P by itself", "A\nP20001\nB", Some(("P20001", 7))),
+    ("L by itself", "A\nL100\nB", Some(("L100", 7))),
+    ("a macro of M", "A\nM198 P5\nB", Some(("M198", 7))),
+    ("corners", "A\nG48 R0.5\nB", Some(("G48", 7))),
+    ("G of nobody", "A\nG117\nB", Some(("G117", 7))),
+    ("a zero without a point", "A\nG92.1\nB", Some(("G92.1", 7))),
+    (
+        "a mirror of another control",
+        "A\nMIRX\nB",
+        Some(("MIRX", 7)),
+    ),
+    ("a move by name", "A\nMOV X1.\nB", Some(("MOV", 7))),
+    ("a turn by name", "A\nRA90.\nB", Some(("RA90.", 7))),
+    ("an axis that turns", "A\nB90.\nB", Some(("B90.", 7))),
+    ("an upright wire", "G50 A0\nA\nB", None),
+    (
+        "a zero of the system",
+        "A\n#5221=1.\nB",
+        Some(("#5221=1.", 7)),
+    ),
+    ("a constant", "#1=1.\nA\nB", None),
+    ("a variable of the operator", "S#500 F#9\nA\nB", None),
+    (
+        "a condition of the generator",
+        "E0012 C007\nA\nSTOP\nB",
+        None,
+    ),
+    ("a word of the profiles", "A\nG38\nB", None),
 ];
 
 #[test]

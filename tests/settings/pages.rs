@@ -112,6 +112,7 @@ fn the_page_of_settings_shows_every_key_with_its_default() {
         "program.thread" => "[115.0, -10.0]",
         "program.entry" => "[105.0, -10.0]",
         "program.units" => "\"inch\"",
+        "program.whole-numbers" => "\"mm\"",
         "program.drawing" => "\"plate.dxf\"",
         _ => panic!("{key} has no default and no example"),
     };

@@ -82,6 +82,10 @@ export type Jumps = "blocks" | "none";
  */
 export type Compensation = "path" | "controller" | "none";
 /**
+ * Millimetres with a decimal point, or whole micrometres without one.
+ */
+export type NumberUnit = "mm" | "um";
+/**
  * Which part of a pair is drawn.
  */
 export type DrawnAs = "punch" | "plate";
@@ -97,10 +101,6 @@ export type Coordinates = "absolute" | "incremental";
  * Where absolute coordinates count from.
  */
 export type Zero = "drawing" | "start";
-/**
- * Millimetres with a decimal point, or whole micrometres without one.
- */
-export type NumberUnit = "mm" | "um";
 /**
  * How I and J lead to an arc's centre.
  */
@@ -646,6 +646,10 @@ export interface ProgramSettings {
    * Unit of the numbers of an ISO program that does not state it (G20, G21). Not set: mm, and a hint (`units`) where its size suggests inches.
    */
   units?: UnitSetting;
+  /**
+   * What a number without a decimal point is in an ISO program: whole millimetres, or micrometres (inches and ten-thousandths of one under G20). Not set: found from the program, and said where its numbers do not tell.
+   */
+  wholeNumbers?: NumberUnit;
   /**
    * The drawing that programs belong to, from their own folder on, which they are compared with: `not-the-drawing`. Not set: the one that a comment of the program names, else the DXF of the same name.
    */

@@ -219,7 +219,10 @@ declare! {
     a_number_has_more_digits_than_the_controller_takes(field, value, digits) => "{field} {value} has more than the {digits} digits that the controller takes: it cuts digits off, or stops";
     // words of ISO that cannot be read
     word_without_number(column, letter) => "column {column}: {letter} has no number";
-    expression_for_a_number(column, letter, shown) => "column {column}: {letter} is `{shown}`, an expression: only the control knows where the wire goes from here";
+    r_is_not_the_radius_of_i_and_j(stated, radius) => "R says a radius of {stated:.3} mm, I and J one of {radius:.3} mm or another turn: some controls take R, some the centre";
+    whole_numbers_are_read_as_millimetres(size, other) => "no length has a decimal point, and nothing says what whole numbers are: they are read as mm, the program is {size:.3} mm large (as µm it would be {other:.3} mm); `program.whole-numbers` says which";
+    whole_numbers_are_read_as_micrometres(size, other) => "no length has a decimal point, and nothing says what whole numbers are: they are read as µm, the program is {size:.3} mm large (as mm it would be {other:.0} mm); `program.whole-numbers` says which";
+    expression_for_a_number(column, letter, shown) => "column {column}: {letter} is `{shown}`, an expression: only the control knows what it is here";
     word_is_no_number(column, letter, shown) => "column {column}: {letter} is `{shown}`, expected a number with one decimal point";
     coordinate_beyond_any_machine(letter, most) => "{letter} is more than {most} mm, farther than any machine travels: the line is not followed, and where the wire is after it is not known";
     word_beyond_any_machine(word, most) => "{word} is more than {most} mm, farther than any machine travels: it is not followed";

@@ -19,6 +19,7 @@ declare! {
     a_word_calls_what_is_not_followed(word) => "{word} calls other blocks, and is not followed";
     a_word_repeats_unfollowed(word) => "{word} may run more than once, and how often is not followed";
     a_word_goes_on_in_another_block(word) => "{word} goes on in another block, and is not followed";
+    a_word_may_move_the_wire(word) => "{word} may move the wire, and is not followed";
     a_word_says_an_unknown_correction(word) => "{word} says which correction holds by a value that only the control knows";
     written_as_if_words_were_not_there(words, more) => "the way is written as if these words were not there: {words}{more}";
     another_correction_within_a_contour(first, other) => "{other} takes the place of {first} within a contour, and a new program has one correction for it";

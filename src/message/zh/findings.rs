@@ -214,7 +214,10 @@ translate! {
     a_number_has_more_digits_than_the_controller_takes(field, value, digits) => "{field} {value} 超过控制器允许的 {digits} 位：控制器会截去几位，或停机";
     // words of ISO that cannot be read
     word_without_number(column, letter) => "第 {column} 列：{letter} 后没有数字";
-    expression_for_a_number(column, letter, shown) => "第 {column} 列：{letter} 是表达式 `{shown}`：电极丝由此走向何处只有控制器知道";
+    r_is_not_the_radius_of_i_and_j(stated, radius) => "R 给出的半径为 {stated:.3} mm，I、J 给出的为 {radius:.3} mm，或转角不同：有的控制器按 R 走，有的按圆心走";
+    whole_numbers_are_read_as_millimetres(size, other) => "所有尺寸都没有小数点，也没有说明整数的单位：按 mm 读取，程序大小为 {size:.3} mm（按 µm 则为 {other:.3} mm）；由 `program.whole-numbers` 指定";
+    whole_numbers_are_read_as_micrometres(size, other) => "所有尺寸都没有小数点，也没有说明整数的单位：按 µm 读取，程序大小为 {size:.3} mm（按 mm 则为 {other:.0} mm）；由 `program.whole-numbers` 指定";
+    expression_for_a_number(column, letter, shown) => "第 {column} 列：{letter} 是表达式 `{shown}`：此处的值只有控制器知道";
     word_is_no_number(column, letter, shown) => "第 {column} 列：{letter} 是 `{shown}`，应为最多带一个小数点的数";
     coordinate_beyond_any_machine(letter, most) => "{letter} 超过 {most} mm，没有机床能走这么远：不跟随本行，其后电极丝位置不明";
     word_beyond_any_machine(word, most) => "{word} 超过 {most} mm，没有机床能走这么远：不跟随它";

@@ -19,6 +19,7 @@ translate! {
     a_word_calls_what_is_not_followed(word) => "{word} 调用其他程序段，未被执行";
     a_word_repeats_unfollowed(word) => "{word} 可能执行多次，次数不明";
     a_word_goes_on_in_another_block(word) => "{word} 跳到另一程序段，未被执行";
+    a_word_may_move_the_wire(word) => "{word} 可能移动电极丝，未被执行";
     a_word_says_an_unknown_correction(word) => "{word} 指定的补偿由变量给出，只有控制器知道";
     written_as_if_words_were_not_there(words, more) => "写出的轨迹不含这些字的作用：{words}{more}";
     another_correction_within_a_contour(first, other) => "轮廓中途由 {first} 换为 {other}，新程序的一个轮廓只有一个补偿";

@@ -35,6 +35,7 @@ impl Dropped {
             Unfollowed::Repeat => say!(a_word_repeats_unfollowed, word),
             Unfollowed::Jump => say!(a_word_goes_on_in_another_block, word),
             Unfollowed::Correction => say!(a_word_says_an_unknown_correction, word),
+            Unfollowed::Unknown => say!(a_word_may_move_the_wire, word),
         };
         Some(say!(line_by_number, line + 1, reason))
     }

@@ -3,8 +3,10 @@
 
 #![warn(clippy::indexing_slicing)]
 
-use super::plain::words;
+use super::plain::words_under;
+use super::variables::Variables;
 use super::word::{Number, Term, Token, Value, WordFault};
+use crate::settings::CenterRule;
 use rustc_hash::FxHasher;
 use std::hash::{Hash, Hasher};
 use std::ops::Range;
@@ -94,6 +96,8 @@ pub struct Block {
     /// True for G91, false for G90.
     pub(crate) incremental: Option<bool>,
     pub(crate) compensation: Option<Compensation>,
+    /// G90.1: I and J are the centre's coordinates; G91.1: they lead from the start to the centre.
+    pub(crate) center: Option<CenterRule>,
     /// True for inches (G20, G70), false for millimetres (G21, G71).
     pub(crate) inch: Option<bool>,
     /// G92: the coordinates are the wire's present position.
@@ -194,7 +198,12 @@ impl Code {
     /// TP and TN.
     const PLANE: Code = Code(3);
 
-    fn of(letter: u8, number: Number) -> Code {
+    /// M98.
+    const SUBPROGRAM: Code = Code((b'M' as u32) << 16 | 980);
+    /// P with no word beside it, by which some controls call.
+    const SUBPROGRAM_BY_P: Code = Code((b'P' as u32) << 16 | 1);
+
+    pub(super) fn of(letter: u8, number: Number) -> Code {
         let tenths = match (letter, number.decimals) {
             (b'G' | b'M', 0) => number.mantissa.saturating_mul(10),
             (b'G' | b'M', 1) => number.mantissa,
@@ -204,7 +213,7 @@ impl Code {
     }
 
     /// The code of `STOP`, which is that of `Stop` too, and of `GOTO10` that of `GOTO20`.
-    fn of_name(text: &[u8]) -> Code {
+    pub(super) fn of_name(text: &[u8]) -> Code {
         let letters = text.iter().take_while(|byte| byte.is_ascii_alphabetic());
         let name: Vec<u8> = letters.map(u8::to_ascii_uppercase).collect();
         if name.is_empty() {
@@ -233,6 +242,16 @@ impl Code {
     /// 0 for a name.
     fn letter(self) -> u8 {
         u8::try_from(self.0 >> 16).unwrap_or_default()
+    }
+
+    /// It calls other blocks in a way that is not followed: M96 to M98, G22, G25, G65 to G67, P by itself, a name.
+    pub(super) fn calls(self) -> bool {
+        match (self.letter(), self.0 & 0xffff) {
+            (b'M', tenths) => matches!(tenths, 960 | 970 | 980),
+            (b'G', tenths) => matches!(tenths, 220 | 250 | 650..=679),
+            _ if self == Code::SUBPROGRAM_BY_P => true,
+            _ => self == Code::of_name(b"CALL") || self == Code::of_name(b"GOSUB"),
+        }
     }
 
     /// It says where the upper end of the wire goes, or between which planes it leans.
@@ -265,41 +284,67 @@ impl Code {
 }
 
 /// Reads one line, without its line end. Ranges are counted from `offset`.
-pub fn read_line(line: &[u8], offset: usize, mut note: impl FnMut(Note)) -> Block {
+pub fn read_line(line: &[u8], offset: usize, note: impl FnMut(Note)) -> Block {
+    read_under(&mut Variables::default(), line, offset, note)
+}
+
+/// The same where the lines before have given values to variables, as this one may.
+pub(super) fn read_under(
+    variables: &mut Variables,
+    line: &[u8],
+    offset: usize,
+    mut note: impl FnMut(Note),
+) -> Block {
     let mut reader = Reader {
         block: Block {
             empty: true,
             ..Block::default()
         },
-        calls: false,
+        call: None,
         p: None,
+        is_alone: true,
     };
-    words(line, offset, |token, range| {
+    words_under(variables, line, offset, |token, range| {
         let at = range.start - offset;
         reader.take(token, range, line.get(at..).unwrap_or_default(), &mut note)
     });
-    let Reader { block, calls, p } = reader;
-    match p {
-        Some((Some(subprogram), _)) if calls => Block {
-            call: Some(subprogram),
-            ..block
-        },
-        Some((_, range)) if !block.takes_coordinates => {
-            let code = Code(u32::from(b'P') << 16);
-            note(Note::Foreign { code, range });
-            block
+    let Reader {
+        block,
+        call,
+        p,
+        is_alone,
+    } = reader;
+    let mut foreign = |code, range| note(Note::Foreign { code, range });
+    match (call, p) {
+        (Some(_), Some((Some(subprogram), _))) => {
+            return Block {
+                call: Some(subprogram),
+                ..block
+            };
         }
-        _ => block,
+        // `M98 H100`: who is called is not known.
+        (Some(range), _) => foreign(Code::SUBPROGRAM, range),
+        (None, Some((_, range))) if !block.takes_coordinates => {
+            let code = match is_alone {
+                true => Code::SUBPROGRAM_BY_P,
+                false => Code(u32::from(b'P') << 16),
+            };
+            foreign(code, range);
+        }
+        (None, _) => {}
     }
+    block
 }
 
 /// A line as far as it has been read.
 struct Reader {
     block: Block,
-    /// M98 stands in it.
-    calls: bool,
+    /// M98.
+    call: Option<Range<usize>>,
     /// The number after P, which M98 or a word that takes the coordinates explains.
     p: Option<(Option<u32>, Range<usize>)>,
+    /// No word stands beside it but the block's number.
+    is_alone: bool,
 }
 
 impl Reader {
@@ -311,7 +356,16 @@ impl Reader {
         text: &[u8],
         note: &mut impl FnMut(Note),
     ) {
-        self.block.empty &= matches!(token, Token::Skip | Token::Comment | Token::Tape);
+        let says_nothing = matches!(token, Token::Skip | Token::Comment | Token::Tape);
+        let is_number = matches!(
+            token,
+            Token::Word {
+                letter: b'N' | b'P',
+                ..
+            }
+        );
+        self.block.empty &= says_nothing;
+        self.is_alone &= says_nothing || is_number;
         match token {
             Token::Word { letter, number } => self.word(letter, number, range, note),
             Token::Definition {
@@ -393,7 +447,7 @@ impl Reader {
             b'M' => match number.whole() {
                 Some(0 | 1) => block.stop = Some(Stop::Pause),
                 Some(2 | 30) => block.stop = Some(Stop::End),
-                Some(98) => self.calls = true,
+                Some(98) => self.call = Some(range),
                 Some(99) => block.returns = true,
                 _ => note(Note::foreign(letter, number, range)),
             },
@@ -435,8 +489,13 @@ impl Block {
         if number.decimals > 0 {
             // The axes of a mirror, with G51.1 and G50.1.
             self.takes_coordinates |= matches!((number.mantissa, number.decimals), (501 | 511, 1));
-            // G90.1 and G91.1 tell the meaning of I and J, which the arcs themselves show.
-            return matches!((number.mantissa, number.decimals), (901 | 911, 1));
+            let stated = match (number.mantissa, number.decimals) {
+                (901, 1) => CenterRule::Absolute,
+                (911, 1) => CenterRule::StartToCenter,
+                _ => return false,
+            };
+            self.center = Some(stated);
+            return true;
         }
         match number.mantissa {
             0..=3 => self.motion = Motion::of(number),

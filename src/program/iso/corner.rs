@@ -1,7 +1,7 @@
 //! Corners that the control makes: R on a straight cut, `,R` and `,C` after any. The move ends early, the corner's own
 //! follows, and the next one begins where that ends.
 
-use super::block::{Block, Corner, Motion};
+use super::block::{Corner, Motion, read_under};
 use super::machine::Machine;
 use super::moves::{Bend, Move, Reading, added, apart, bend_about};
 use crate::geometry::{Locus, Point, Segment, cross, turn};
@@ -78,7 +78,7 @@ pub(crate) fn next_move<'a>(
     };
     for line in behind.take(REACH) {
         next.looked_at += 1;
-        let block = Block::of(line);
+        let block = read_under(&mut machine.variables, line, 1, |_| {});
         if block.sets_position || block.call.is_some() || block.returns || block.stop.is_some() {
             return next;
         }
@@ -86,7 +86,7 @@ pub(crate) fn next_move<'a>(
             continue;
         }
         if let Some(made) = machine.run(&block, reading) {
-            next.is_fixed |= !made.incremental;
+            next.is_fixed |= !made.incremental || machine.center.is_some();
             if !made.is_cut() {
                 return next;
             }

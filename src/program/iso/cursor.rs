@@ -1,8 +1,10 @@
 //! Reads a line word by word.
 
+mod expression;
 mod names;
 mod semicolon;
 
+use super::variables::Variables;
 use super::word::{Number, Term, Token, Value, WordFault};
 use semicolon::{Behind, behind};
 use std::ops::Range;
@@ -11,11 +13,13 @@ use std::ops::Range;
 /// takes.
 const MOST_DIGITS: u32 = 9;
 
-/// Hands out the tokens of a line in plain characters, each with its place. A byte order mark may begin the first line.
+/// Hands out the tokens of a line in plain characters, each with its place; what it says of `variables` holds from there
+/// on. A byte order mark may begin the first line.
 pub(super) fn scan(
     line: &[u8],
     offset: usize,
     is_first: bool,
+    variables: &mut Variables,
     mut each: impl FnMut(Token, Range<usize>),
 ) {
     let mut cursor = Cursor {
@@ -23,6 +27,7 @@ pub(super) fn scan(
         at: 0,
         offset,
         fault: None,
+        variables,
     };
     if is_first && line.starts_with(b"\xef\xbb\xbf") {
         cursor.at = 3;
@@ -35,17 +40,13 @@ pub(super) fn scan(
     }
 }
 
-/// The way of the wire depends on a word with this letter.
-fn leads(letter: u8) -> bool {
-    matches!(letter, b'G' | b'X' | b'Y' | b'I' | b'J' | b'R')
-}
-
 struct Cursor<'a> {
     line: &'a [u8],
     at: usize,
     offset: usize,
     /// A fault in the token that was read all the same.
     fault: Option<(WordFault, Range<usize>)>,
+    variables: &'a mut Variables,
 }
 
 impl Cursor<'_> {
@@ -99,7 +100,11 @@ impl Cursor<'_> {
                 self.at = self.line.len();
                 Token::Comment
             }
-            b'%' => Token::Tape,
+            // `%00001`: with the program's number.
+            b'%' => {
+                self.skip(|byte| byte.is_ascii_digit());
+                Token::Tape
+            }
             b'/' => {
                 if self.peek().is_some_and(|byte| byte.is_ascii_digit()) {
                     self.at += 1;
@@ -120,7 +125,7 @@ impl Cursor<'_> {
                 return None;
             }
             b'#' => {
-                self.skip_to_space();
+                self.assignment();
                 Token::Foreign
             }
             _ => self.stray(),
@@ -204,8 +209,16 @@ impl Cursor<'_> {
         }
         self.at += 1;
         self.skip_space();
+        if self.begins_expression() {
+            return self.computed(letter);
+        }
+        let begun = self.at;
         match self.number(letter) {
             Ok(Some(number)) => {
+                if self.goes_on_as_expression(letter) {
+                    self.at = begun;
+                    return self.computed(letter);
+                }
                 if matches!(letter, b'C' | b'D' | b'E' | b'H' | b'T' | b'S' | b'F')
                     && self.is_definition()
                 {
@@ -291,6 +304,7 @@ impl Cursor<'_> {
                     })
                 }
                 Some(b'+' | b'-') => None,
+                Some(b'#' | b'[') => self.expression(0).map(Value::Number),
                 _ => self.number(letter).ok().flatten().map(Value::Number),
             };
             let Some(value) = value else {

@@ -80,7 +80,7 @@ impl Document {
             leader: 0,
             text: SourceText::new(bytes),
             stretches: Chunks::default(),
-            reading: Evidence::default().reading(limits.center),
+            reading: Evidence::default().reading(&limits),
             evidence: Evidence::default(),
             order: None,
             contours: Contours::default(),
@@ -128,7 +128,8 @@ impl Document {
             return;
         }
         let center = limits.center != self.limits.center;
-        let is_other_unit = limits.inch != self.limits.inch;
+        let numbers = |limits: &Limits| (limits.inch, limits.whole, limits.writes_micrometres);
+        let is_other_unit = numbers(&limits) != numbers(&self.limits);
         *self.limits = limits;
         self.repairs = OnceLock::new();
         if is_other_unit {
@@ -297,10 +298,10 @@ impl Document {
     /// A first guess of the meaning of numbers, from the beginning of the text: it saves running everything twice.
     fn guess_reading(&mut self) {
         let head = 0..self.text.line_count().min(16 * Control::LINES);
-        self.reading = Evidence::default().reading(self.limits.center);
+        self.reading = Evidence::default().reading(&self.limits);
         for _ in 0..2 {
             let head = Chunks::read(&self.control(), &self.text, head.clone());
-            self.reading = self.summed(&head).reading(self.limits.center);
+            self.reading = self.summed(&head).reading(&self.limits);
         }
     }
 
@@ -429,7 +430,7 @@ impl Document {
         // The evidence of an arc depends on the unit and the step, but not the other way round:
         // after two runs the evidence leads to no other reading.
         for _ in 0..2 {
-            let reading = self.evidence.reading(self.limits.center);
+            let reading = self.evidence.reading(&self.limits);
             if reading == self.reading {
                 break;
             }

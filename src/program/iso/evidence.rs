@@ -4,8 +4,10 @@
 //! Nothing is assumed: each reading is tested on the arcs, and the one that fits the most of them wins.
 
 use super::block::{Block, Motion};
-use super::moves::{CenterRule, MICROMETRE, Move, Place, Reading, apart, distance};
+use super::limits::Limits;
+use super::moves::{Bend, CenterRule, MICROMETRE, Move, Place, Reading, apart, distance};
 use super::word::Number;
+use crate::settings::NumberUnit;
 
 /// The distances of an arc's ends from its centre differ by at most this many steps of the finest number: each of the
 /// three points may be off by half a step on both axes.
@@ -23,6 +25,9 @@ const SLIPS: u32 = 2;
 /// No machine travels this far, mm.
 const LONG: i64 = 1_000;
 
+/// In µm all of a part that is smaller is hardly larger than a wire is thick; in mm few machines travel as far.
+const SMALL: i64 = 500;
+
 /// Beyond this many numbers without a point among others, the first stands for all.
 pub(crate) const FEW_BARE: u32 = 20;
 
@@ -35,6 +40,10 @@ pub(crate) struct Evidence {
     /// Numbers that are not 0 without a point, and those of them that no machine travels in mm.
     pub(crate) bare: u32,
     pub(crate) long: u32,
+    /// Those of them that are at least [`SMALL`].
+    pub(crate) at_least_small: u32,
+    /// How far those under G91 lead, added up.
+    pub(crate) travel: u64,
     /// How many numbers with a point have each number of decimals.
     pub(crate) places: [u32; 8],
     /// How many numbers with each number of decimals end in a 0 behind the point.
@@ -60,6 +69,8 @@ pub(crate) struct Arcs {
     /// How many end beside where they began, far from each of their centres, and what of these speaks against each rule.
     beside: u32,
     of_beside: AgainstRules,
+    /// How many G90.1 and G91.1 say the rule of, in the order of [`RULES`]: they tell nothing of the others.
+    stated: [u32; 3],
 }
 
 /// What speaks against each rule, in numbers of arcs.
@@ -131,6 +142,7 @@ impl Arcs {
             change(count, more);
         }
         each_of(&mut self.unclear, other.unclear, change);
+        each_of(&mut self.stated, other.stated, change);
         self.of_all.change(&other.of_all, change);
         self.of_beside.change(&other.of_beside, change);
     }
@@ -173,6 +185,13 @@ impl Arcs {
     /// tie `preferred`, then the first. Between the centre's own coordinates and the way from the centre to the start
     /// turns decide nothing: the latter is rare.
     fn rule(&self, preferred: CenterRule, rules: &[CenterRule]) -> CenterRule {
+        let stated = |rule: &&CenterRule| self.stated.get(**rule as usize).copied();
+        if self.all == 0
+            && let Some(most) = rules.iter().max_by_key(stated)
+            && stated(&most) > Some(0)
+        {
+            return *most;
+        }
         let against = |rule: CenterRule| self.against(rule as usize);
         // An arc that ends in the zero fits both of these: one about the mirrored centre, the rest of a whole turn.
         let fit = |rule: CenterRule| self.fit(rule as usize);
@@ -193,11 +212,13 @@ impl Arcs {
 
 impl Evidence {
     pub(crate) fn add(&mut self, other: &Evidence) {
+        self.travel = self.travel.wrapping_add(other.travel);
         self.change(other, |count, more| *count += more);
     }
 
     /// Takes out what has been added.
     pub(crate) fn take(&mut self, other: &Evidence) {
+        self.travel = self.travel.wrapping_sub(other.travel);
         self.change(other, |count, less| *count -= less);
     }
 
@@ -207,6 +228,7 @@ impl Evidence {
             (&mut self.with_point, other.with_point),
             (&mut self.bare, other.bare),
             (&mut self.long, other.long),
+            (&mut self.at_least_small, other.at_least_small),
             (&mut self.fine, other.fine),
             (&mut self.inches, other.inches),
             (&mut self.units, other.units),
@@ -229,7 +251,13 @@ impl Evidence {
     }
 
     /// Counts a line's numbers.
-    pub(crate) fn numbers(&mut self, block: &Block) {
+    pub(crate) fn numbers(&mut self, block: &Block, incremental: bool) {
+        if incremental && !block.sets_position && !block.takes_coordinates {
+            let steps = [block.x, block.y].into_iter().flatten();
+            let bare = steps.filter(|number| !number.point);
+            let lengths = bare.map(|number| number.mantissa.unsigned_abs());
+            self.travel = lengths.fold(self.travel, u64::wrapping_add);
+        }
         for number in [block.x, block.y, block.i, block.j, block.r]
             .into_iter()
             .flatten()
@@ -243,10 +271,22 @@ impl Evidence {
                 self.ending_in_zero[places] += u32::from(places > 0 && number.mantissa % 10 == 0);
             }
             self.bare += u32::from(!number.point && number.mantissa != 0);
+            self.at_least_small += u32::from(!number.point && number.mantissa.abs() >= SMALL);
             self.long += u32::from(!number.point && number.mantissa.abs() >= LONG);
         }
         self.units += u32::from(block.inch.is_some());
         self.inches += u32::from(block.inch == Some(true));
+    }
+
+    /// Counts an arc about a centre whose rule is stated.
+    pub(crate) fn states(&mut self, arc: &Move, rule: CenterRule) {
+        let arcs = match arc.incremental {
+            true => &mut self.incremental,
+            false => &mut self.absolute,
+        };
+        if let (Some(count), Bend::Center { .. }) = (arcs.stated.get_mut(rule as usize), arc.bend) {
+            *count += 1;
+        }
     }
 
     /// Counts an arc; false where it has no centre in words, so that it tells nothing.
@@ -289,9 +329,16 @@ impl Evidence {
         true
     }
 
-    /// How the program is to be read. `preferred` holds where its arcs fit under several rules.
-    pub(crate) fn reading(&self, preferred: CenterRule) -> Reading {
-        let whole_numbers_are_fine = self.whole_numbers_are_fine();
+    /// How the program is to be read. The settings say what its arcs and its whole numbers leave open.
+    pub(crate) fn reading(&self, limits: &Limits) -> Reading {
+        let preferred = limits.center;
+        let whole_numbers_are_fine = match limits.whole {
+            Some(unit) => unit == NumberUnit::Um,
+            None => {
+                let is_open = limits.writes_micrometres && self.may_be_whole_units();
+                is_open || self.whole_numbers_are_fine()
+            }
+        };
         let absolute = self.absolute.rule(preferred, &RULES);
         // The arcs under G90 give evidence for those under G91 of the same program.
         let shown = if self.absolute.tells(3) {
@@ -328,10 +375,20 @@ impl Evidence {
             .map_or(self.decimals(), |decimals| decimals.usual)
     }
 
-    /// Whole numbers are the finest steps where no number has a point, or where each that has one stands among at least
-    /// four without that are too long for anything else.
+    /// Whole numbers are the finest steps where no number has a point, unless all would be too small for a part, or where
+    /// each that has one stands among at least four without that are too long for anything else.
     fn whole_numbers_are_fine(&self) -> bool {
-        self.with_point == 0 || self.with_point.saturating_mul(4) <= self.long
+        // Under G91 numbers are steps: those of a way round the part add up to twice its length and width.
+        let is_small = self.at_least_small == 0 && self.travel < 4 * SMALL.unsigned_abs();
+        match self.with_point {
+            0 => !self.may_be_whole_units() || !is_small,
+            with_point => with_point.saturating_mul(4) <= self.long,
+        }
+    }
+
+    /// No number has a point, and none is too long for whole mm: nothing in the text says what they are.
+    pub(crate) fn may_be_whole_units(&self) -> bool {
+        self.with_point == 0 && self.bare > 0 && self.long == 0 && self.inches == 0
     }
 
     /// The decimals of the numbers, where all but one or two have as many.

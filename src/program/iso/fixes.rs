@@ -2,13 +2,14 @@
 
 mod centers;
 
-use super::block::{Block, Compensation, Motion, Stop};
+use super::block::{Block, Compensation, Motion, Note, Stop, read_line};
 use super::document::Document;
 use super::line::words_of_move;
 use super::machine::Machine;
 use super::moves::{Place, distance, meet};
 use super::plain::{plain, word_at};
 use super::repair::{is_trouble, line_of};
+use super::steps::BegunCut;
 use super::style::Style;
 use crate::finding::{Detail, Fault, Finding, FixKind, Rule, TextFix};
 use crate::program::numbering::{self, Numbers, Renumbering};
@@ -122,6 +123,7 @@ fn plain_fix(document: &Document, fault: &Fault, range: &Range<usize>) -> Option
             let block = "M99".into();
             (FixKind::InsertLine { block }, true, behind("M99"))
         }
+        Fault::MissingEnd { .. } if breaks_off(document, line) => return None,
         Fault::MissingEnd { word } => {
             let edit = match document.block(line).returns {
                 true => end_before_subprograms(document, line, word)?,
@@ -144,6 +146,22 @@ fn plain_fix(document: &Document, fault: &Fault, range: &Range<usize>) -> Option
         _ => return None,
     };
     Some(TextFix::text(kind, is_safe, edit))
+}
+
+/// Whether a program whose last words stand in a line was cut short there: that line cannot be read, or the wire stands
+/// within a contour, or beside one. The rest is missing, not the end.
+fn breaks_off(document: &Document, line: usize) -> bool {
+    let mut is_unread = false;
+    read_line(document.line_bytes(line), 1, |note| {
+        is_unread |= matches!(note, Note::Fault { .. });
+    });
+    let is_within = |begun: BegunCut| {
+        let ends = [begun.from, begun.to];
+        begun.moves > 1 && !ends.iter().any(|end| have_met(*end, begun.last.to))
+    };
+    let machine = document.machine_behind(line);
+    let is_amid = |machine: Machine| machine.lost != [false, false] || machine.side.is_some();
+    is_unread || machine.is_none_or(is_amid) || document.begun_cut_with(line).is_some_and(is_within)
 }
 
 /// The end of a program that runs on into its subprograms, up to the return in `last`: before the first of them that is called.

@@ -2,7 +2,7 @@
 
 use super::block::{Block, Code, Note, Stop, read_line};
 use super::moves::CenterRule;
-use crate::settings::{Effective, Profile, UnitSetting, shipped_profiles};
+use crate::settings::{Effective, NumberUnit, Profile, UnitSetting, shipped_profiles};
 use std::collections::BTreeSet;
 use std::sync::{Arc, LazyLock};
 
@@ -23,6 +23,10 @@ pub(crate) struct Limits {
     pub(crate) inch: bool,
     /// The user has set the unit of programs.
     pub(crate) has_unit: bool,
+    /// What whole numbers are, where the settings say it.
+    pub(crate) whole: Option<NumberUnit>,
+    /// The profile of the settings writes whole micrometres.
+    pub(crate) writes_micrometres: bool,
     /// The meaning of I and J where full circles alone leave it open.
     pub(crate) center: CenterRule,
     pub(crate) profile: Option<Arc<Profile>>,
@@ -39,6 +43,11 @@ impl Limits {
             known: known_words(settings),
             inch: settings.program_units == Some(UnitSetting::Inch),
             has_unit: settings.program_units.is_some(),
+            whole: settings.whole_numbers,
+            writes_micrometres: settings
+                .profile
+                .as_ref()
+                .is_ok_and(|profile| profile.unit == NumberUnit::Um),
             center: settings
                 .profile
                 .as_ref()

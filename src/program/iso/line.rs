@@ -174,7 +174,8 @@ impl Line<'_> {
             Bent::Line => {}
             Bent::Radius(radius) => cluster.push(format!("R{}", number(radius))),
             Bent::Center(center) => {
-                let rule = self.reading.rule(incremental);
+                let stated = block.center.or(before.center);
+                let rule = stated.unwrap_or(self.reading.rule(incremental));
                 let [i, j] = to_center(rule, center, before.at, before.zero).map(number);
                 cluster.extend([format!("I{i}"), format!("J{j}")]);
             }

@@ -1,11 +1,12 @@
 //! The control, as far as geometry goes: the modal state, the wire's position, and the move of each line.
 
 use super::block::{Block, Compensation, Corner, Motion, Offset, Stop};
+use super::variables::Variables;
 use super::word::Number;
 use crate::finding::Side;
 use crate::program::path::mixed;
 
-use super::moves::{Bend, Course, Move, Place, Reading, added, apart, bend_about};
+use super::moves::{Bend, CenterRule, Course, Move, Place, Reading, added, apart, bend_about};
 
 /// The modal state, and the wire's position.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -20,6 +21,8 @@ pub(crate) struct Machine {
     pub(crate) torn: bool,
     pub(crate) motion: Motion,
     pub(crate) incremental: bool,
+    /// G90.1 or G91.1 is in force.
+    pub(crate) center: Option<CenterRule>,
     pub(crate) inch: bool,
     pub(crate) side: Option<Side>,
     pub(crate) offset: Option<Offset>,
@@ -36,6 +39,8 @@ pub(crate) struct Machine {
     pub(crate) mills: bool,
     /// The corner after the last move was cut off: the distance of the next move's start from its sharp point.
     pub(crate) cut_short: Option<Place>,
+    /// What the lines so far say of the control's variables.
+    pub(crate) variables: Variables,
     pub(crate) trail: Trail,
 }
 
@@ -122,6 +127,7 @@ impl Machine {
         if let Some(incremental) = block.incremental {
             self.incremental = incremental;
         }
+        self.center = block.center.or(self.center);
         if let Some(motion) = block.motion {
             self.motion = motion;
         }
@@ -215,6 +221,30 @@ impl Machine {
         }
     }
 
+    /// How an arc from a place runs about the centre of its I and J: as G90.1 or G91.1 has them, else as those of the
+    /// program are read.
+    fn bend(&self, from: Place, words: [Option<i64>; 2], reading: &Reading) -> Bend {
+        let along = words.map(|word| word.unwrap_or(0));
+        // An omitted coordinate of an absolute centre is that of the start.
+        let absolute: Place = std::array::from_fn(|axis| match words[axis] {
+            Some(at) => self.zero[axis].wrapping_add(at),
+            None => from[axis],
+        });
+        let center = match self.center {
+            Some(stated) if stated != reading.rule(self.incremental) => match stated {
+                CenterRule::StartToCenter => added(from, along),
+                CenterRule::CenterToStart => apart(from, along),
+                CenterRule::Absolute => absolute,
+            },
+            _ => {
+                let [i, j] = along;
+                let absolute = if self.incremental { [0, 0] } else { absolute };
+                return Bend::Center { i, j, absolute };
+            }
+        };
+        bend_about(center, from, self.incremental, reading)
+    }
+
     fn travel(&mut self, block: &Block, reading: &Reading, is_unread: bool) -> Option<Steered> {
         if block.takes_coordinates {
             return None;
@@ -259,17 +289,7 @@ impl Machine {
             (None, None, Some(radius)) => Bend::Radius(radius),
             (None, None, None) => Bend::Nothing,
             // An omitted coordinate of an absolute centre is that of the start.
-            (i, j, _) => Bend::Center {
-                i: i.unwrap_or(0),
-                j: j.unwrap_or(0),
-                absolute: match self.incremental {
-                    true => [0, 0],
-                    false => [
-                        i.map_or(from[0], |i| self.zero[0].wrapping_add(i)),
-                        j.map_or(from[1], |j| self.zero[1].wrapping_add(j)),
-                    ],
-                },
-            },
+            (i, j, _) => self.bend(from, [i, j], reading),
         };
         let bend = if is_arc { bend } else { Bend::Nothing };
         let corner = match self.motion {

@@ -43,6 +43,7 @@ pub(in crate::program) mod taper;
 mod tests;
 mod tilt;
 mod unfollowed;
+mod variables;
 pub(crate) mod word;
 mod write;
 

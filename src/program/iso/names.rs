@@ -20,6 +20,8 @@ pub(crate) enum Unfollowed {
     Jump,
     /// It says which correction holds, by a value that only the control knows.
     Correction,
+    /// Nobody knows that it does nothing of the kind.
+    Unknown,
 }
 
 /// Each with what it does; `None` for the end of what another one begins. `DO1` is `D01` with a letter for a zero: of a
@@ -45,6 +47,15 @@ const NAMES: [(&str, Option<Unfollowed>); 19] = [
     ("TRANS", Some(Unfollowed::Frame)),
     ("WHILE", Some(Unfollowed::Jump)),
 ];
+
+/// Names that move nothing: the machine stops, or says something; planes of a wire that leans are read elsewhere.
+const HARMLESS: [&str; 5] = ["MSG", "PRINT", "STOP", "TN", "TP"];
+
+/// Whether a name, in letters of either case, is known to leave the way of the wire as it is.
+pub(super) fn is_harmless(name: &[u8]) -> bool {
+    let is_own = |own: &&str| name.eq_ignore_ascii_case(own.as_bytes());
+    HARMLESS.iter().any(|own| is_own(&own))
+}
 
 /// What a name does, in letters of either case; `None` for one that is not of the list.
 pub(super) fn meaning(name: &[u8]) -> Option<Option<Unfollowed>> {

@@ -3,6 +3,7 @@
 #![warn(clippy::indexing_slicing)]
 
 use super::cursor::scan;
+use super::variables::Variables;
 use super::word::{Number, Token, WordFault};
 use crate::program::lookalikes::{Alike, alike};
 use crate::text::{SourceText, shown};
@@ -10,12 +11,22 @@ use std::ops::Range;
 
 /// Hands each token of a line, without its line end, to `each`, with its range counted from `offset`.
 pub(crate) fn words(line: &[u8], offset: usize, each: impl FnMut(Token, Range<usize>)) {
-    tokens(line, offset, offset == 0, each);
+    words_under(&mut Variables::default(), line, offset, each);
+}
+
+/// The same where the lines before have given values to variables, as this one may.
+pub(super) fn words_under(
+    variables: &mut Variables,
+    line: &[u8],
+    offset: usize,
+    each: impl FnMut(Token, Range<usize>),
+) {
+    tokens(line, offset, offset == 0, variables, each);
 }
 
 /// The same for a line that may not begin with a byte order mark; ranges are counted from its start.
 pub(crate) fn words_in(line: &[u8], each: impl FnMut(Token, Range<usize>)) {
-    tokens(line, 0, false, each);
+    tokens(line, 0, false, &mut Variables::default(), each);
 }
 
 /// The text of a word of a line, in upper case.
@@ -31,11 +42,18 @@ pub(super) fn words_at(
     mut each: impl FnMut(u8, Number, Range<usize>),
 ) {
     let start = text.line_start(line);
-    tokens(text.line(line), start, false, |token, range| {
-        if let Token::Word { letter, number } = token {
-            each(letter, number, range);
-        }
-    });
+    let mut variables = Variables::default();
+    tokens(
+        text.line(line),
+        start,
+        false,
+        &mut variables,
+        |token, range| {
+            if let Token::Word { letter, number } = token {
+                each(letter, number, range);
+            }
+        },
+    );
 }
 
 /// The last of the words of a line that are wanted.
@@ -62,6 +80,7 @@ fn tokens(
     line: &[u8],
     offset: usize,
     may_have_mark: bool,
+    variables: &mut Variables,
     mut each: impl FnMut(Token, Range<usize>),
 ) {
     if !line.is_ascii()
@@ -69,12 +88,12 @@ fn tokens(
     {
         let first = offset + plain.first.start..offset + plain.first.end;
         each(Token::Fault(WordFault::Lookalike), first);
-        scan(&plain.bytes, 0, may_have_mark, |token, range| {
+        scan(&plain.bytes, 0, may_have_mark, variables, |token, range| {
             each(token, plain.placed(range, offset))
         });
         return;
     }
-    scan(line, offset, may_have_mark, each);
+    scan(line, offset, may_have_mark, variables, each);
 }
 
 /// A line with its look-alikes replaced, and the place of each character in the text.

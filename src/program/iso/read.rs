@@ -2,7 +2,7 @@
 
 #![warn(clippy::indexing_slicing)]
 
-use super::block::{Block, Note, Stop, read_line};
+use super::block::{Block, Note, Stop, read_under};
 use super::corner::{self, Turned, turned};
 use super::evidence::FEW_BARE;
 use super::machine::{Behind, Machine, Trail, mark_of};
@@ -13,6 +13,7 @@ use super::stretch::{Definition, Foreign, Pathless, Stretch};
 use crate::finding::{Fault, Finding, Rule};
 use crate::geometry::Side;
 use crate::program::path::joint;
+use std::f64::consts::PI;
 use std::ops::Range;
 
 /// Arcs with a larger radius are not kept: no correction comes near, nm.
@@ -98,7 +99,7 @@ impl Stretch {
         } = &mut *self;
         let (inch, known_faults) = (after.inch, faults.len());
         let (mut leans, mut measures, mut is_unread) = (false, false, false);
-        let block = read_line(line, offset, |note| match note {
+        let block = read_under(&mut after.variables, line, offset, |note| match note {
             Note::Fault { fault, range } => {
                 // One of a kind is enough for a line: the others may follow from it.
                 let is_new = match fault.is_read() {
@@ -172,7 +173,8 @@ impl Stretch {
             self.behind_end.get_or_insert(range);
             return;
         }
-        self.evidence.numbers(&block);
+        let incremental = block.incremental.unwrap_or(self.after.incremental);
+        self.evidence.numbers(&block, incremental);
         self.fixed |= block.sets_position;
         let (torn, behind) = (self.after.torn, self.after.behind);
         self.faults.extend(self.too_far(&block, range));
@@ -194,8 +196,16 @@ impl Stretch {
                 // The move as its words say it: whether there is a corner before it depends on the
                 // meaning of I and J.
                 let said = steered.said;
-                if said.is_arc() && self.evidence.arc(&said, self.reading.tolerance) {
-                    self.first_center.get_or_insert(range);
+                match self.after.center {
+                    _ if !said.is_arc() => {}
+                    Some(stated) => self.evidence.states(&said, stated),
+                    None if self.evidence.arc(&said, self.reading.tolerance) => {
+                        self.first_center.get_or_insert(range);
+                    }
+                    None => {}
+                }
+                if is_free && let Some(fault) = self.contradicts(&block, &said) {
+                    self.fault(fault, range);
                 }
                 let made = steered.made(&self.reading);
                 self.moves += 1;
@@ -265,6 +275,26 @@ impl Stretch {
         self.faults.push(Finding::of(fault, range));
     }
 
+    /// An arc whose I and J lead along another arc than its R: some controls take the one, some the other.
+    fn contradicts(&self, block: &Block, said: &Move) -> Option<Fault> {
+        let stated = block.r.filter(|_| block.has_center())?;
+        let Course::Arc(arc) = said.at_origin().course(&self.reading) else {
+            return None;
+        };
+        let stated = self.reading.length(stated, self.after.inch) as f64 / 1e3;
+        let (radius, tolerance) = (arc.radius, self.reading.tolerance as f64 / 1e3);
+        let half = (arc.end - arc.start).norm() / 2.0;
+        // How far the centre is from the chord: nothing at a half turn, where R tells it only roughly.
+        let aside = (radius * radius - half * half).max(0.0).sqrt();
+        let is_plain = aside > (2.0 * radius * tolerance).sqrt() + tolerance && half > 0.0;
+        let is_other_turn = is_plain && (arc.sweep.abs() > PI) != (stated < 0.0);
+        let differs = (stated.abs() - radius).abs() > tolerance || is_other_turn;
+        differs.then(|| {
+            let sentence = say!(r_is_not_the_radius_of_i_and_j, stated / 1e3, radius / 1e3);
+            Fault::said(Rule::ArcOffRadius, sentence)
+        })
+    }
+
     /// Makes the corner at the end of a move.
     fn turned<'a>(
         &mut self,
@@ -330,7 +360,7 @@ impl Stretch {
         ahead: &Ahead<'_, impl Lines<'a>>,
         each: &mut Hears<'_>,
     ) {
-        self.fixed |= !made.incremental;
+        self.fixed |= !made.incremental || self.after.center.is_some();
         self.sum.moves += 1;
         self.sum.arcs += usize::from(made.is_arc());
         self.sum.rapids += usize::from(!made.is_cut());

@@ -56,6 +56,7 @@ impl Document {
         let mut report = Report::new(self);
         let mut last_words = None;
         let mut is_ended = false;
+        let mut behind_end = None;
         for placed in self.placed() {
             let (stretch, offset) = (placed.stretch, placed.offset);
             report.line_faults(stretch, offset);
@@ -64,12 +65,16 @@ impl Document {
             if let Some(words) = stretch.last_words {
                 last_words = Some(at(offset, words));
             }
-            if let Some(behind) = stretch.behind_end
-                && !std::mem::replace(&mut report.is_behind_end_said, true)
-            {
-                let word = report.end_before(at(offset, behind).start);
-                report.add(at(offset, behind), Fault::TextAfterEnd { word });
+            if let Some(behind) = stretch.behind_end {
+                behind_end.get_or_insert(at(offset, behind));
             }
+        }
+        // Subprograms stand behind the end, and of some calls nobody knows which.
+        if let Some(behind) = behind_end
+            && !report.foreign.keys().any(|code| code.calls())
+        {
+            let word = report.end_before(behind.start);
+            report.add(behind, Fault::TextAfterEnd { word });
         }
         for cut in self.doubtful.untold() {
             report.judge(cut, Some(&self.doubtful));
@@ -197,7 +202,6 @@ pub(super) struct Report<'a> {
     /// µm; an arc of at least this radius suits every correction.
     largest_correction: f64,
     moves: u32,
-    is_behind_end_said: bool,
 }
 
 fn at(offset: usize, range: (u32, u32)) -> Range<usize> {
@@ -216,7 +220,6 @@ impl<'a> Report<'a> {
             definitions: &document.table,
             largest_correction: 0.0,
             moves: 0,
-            is_behind_end_said: false,
         };
         report.largest_correction = report.largest_correction();
         report

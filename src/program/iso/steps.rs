@@ -1,6 +1,6 @@
 //! A running ISO program: the moves of its lines, the state at a line, and the cut in progress there.
 
-use super::block::{Block, Stop, read_line};
+use super::block::{Block, Stop, read_under};
 use super::control::lines_from;
 use super::corner::turned;
 use super::document::Document;
@@ -9,6 +9,7 @@ use super::moves::{Move, Place, micrometres};
 use super::part::Part;
 use super::read::words_of;
 use super::stretch::{Placed, Stretch};
+use super::variables::Variables;
 use crate::finding::{Rule, Severity};
 use crate::geometry::Point;
 use crate::program::chunks::ChunkReader;
@@ -34,6 +35,8 @@ pub(super) struct Ran<'a> {
     /// Its words, bytes of the text.
     words: Range<usize>,
     pub(super) block: &'a Block,
+    /// What the lines before it say of the control's variables.
+    pub(super) variables: Variables,
     /// Its move, and the corner that the control makes at its end.
     made: [Option<Move>; 2],
     /// The state after it.
@@ -69,7 +72,8 @@ impl Document {
             }
             let range = self.text().line_range(line);
             let bytes = self.line_bytes(line);
-            let block = read_line(bytes, range.start, |_| {});
+            let variables = machine.variables;
+            let block = read_under(&mut machine.variables, bytes, range.start, |_| {});
             if block.empty {
                 continue;
             }
@@ -85,6 +89,7 @@ impl Document {
                 line,
                 words: words.0 as usize..words.1 as usize,
                 block: &block,
+                variables,
                 made: [made, corner],
                 machine: &machine,
             });

@@ -4,6 +4,7 @@ mod corners;
 mod edits;
 mod numbers;
 mod repairs;
+mod variables;
 mod writing;
 
 use super::document::Document;

@@ -12,7 +12,7 @@ use super::block::{Block, PartArc};
 use super::fault::SyntaxFault;
 use super::fields::found_in;
 use super::scan::Scan;
-use super::words::{Word, Words, word_of};
+use super::words::{Word, Words, switch, word_of};
 use crate::program::lookalikes::with_plain_marks;
 use crate::text::head;
 use std::borrow::Cow;
@@ -106,6 +106,9 @@ impl<'a> Tokens<'a> {
         let start = self.at;
         let byte = self.peek()?;
         let rest = self.from(start);
+        if let Some(length) = switch(rest) {
+            return Some(self.taken(length, Token::Comment { holds_block: false }));
+        }
         // A column of names before the blocks: `AB`, `1-2`, a word in another script.
         if !self.behind_block && !matches!(byte, b'B' | b'b' | b'N' | b'n') {
             self.at += label(rest, words).unwrap_or(0);

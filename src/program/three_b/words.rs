@@ -39,10 +39,11 @@ impl Words<'_> {
         if is(self.pause) {
             return Some(Word::Pause);
         }
-        if ENDS.into_iter().any(is) {
+        if ENDS.into_iter().chain(ISO_ENDS).any(is) {
             return Some(Word::End);
         }
-        PAUSES.into_iter().any(is).then_some(Word::Pause)
+        let mut pauses = PAUSES.into_iter().chain(ISO_PAUSES);
+        pauses.any(is).then_some(Word::Pause)
     }
 
     /// True for the two words that the settings name.
@@ -51,6 +52,20 @@ impl Words<'_> {
             .iter()
             .any(|own| word.eq_ignore_ascii_case(own.as_bytes()))
     }
+}
+
+/// Words of ISO that some controllers take between blocks of 3B.
+const ISO_ENDS: [&str; 3] = ["M02", "M2", "M30"];
+const ISO_PAUSES: [&str; 2] = ["M00", "M0"];
+
+/// The switches of pump and wire, which stand beside blocks and move nothing.
+const SWITCHES: [&str; 4] = ["T84", "T85", "T86", "T87"];
+
+/// Whether a text begins with a switch of the machine; its length.
+pub(super) fn switch(text: &[u8]) -> Option<usize> {
+    let word = word_of(text);
+    let is_it = |known: &str| word.eq_ignore_ascii_case(known.as_bytes());
+    SWITCHES.into_iter().any(is_it).then_some(word.len())
 }
 
 /// The letters and digits that a text begins with.

@@ -75,6 +75,7 @@ class ProgramSettings(TypedDict, total=False):
     compensation: Literal["path", "controller", "none"]
     digits: int
     units: Literal["mm", "inch"]
+    whole_numbers: Literal["mm", "um"]
     drawing: str
     profile: str
     end: str

@@ -1,8 +1,8 @@
 //! What has no number: names, and conditions of macros.
 
-use super::super::names::meaning;
+use super::super::names::{Unfollowed, meaning};
 use super::super::word::{Token, WordFault};
-use super::{Cursor, leads};
+use super::Cursor;
 
 impl Cursor<'_> {
     /// Whether `<` at `start` begins the name of a program, `<PLATE-1>`, alone in its line.
@@ -32,9 +32,9 @@ impl Cursor<'_> {
     /// A letter without a number: the name of something, an expression, or a fault.
     pub(super) fn without_number(&mut self, letter: u8, start: usize) -> Token {
         match self.peek() {
-            Some(b'#' | b'[' | b'=') => {
+            Some(b'=') => {
                 self.skip_to_space();
-                return match leads(letter) {
+                return match b"GXYIJR".contains(&letter) {
                     true => Token::Fault(WordFault::Expression { letter }),
                     false => Token::Foreign,
                 };
@@ -43,7 +43,13 @@ impl Cursor<'_> {
         }
         let name = self.letters_at(start);
         let letters = name.len();
-        if meaning(name).is_some() {
+        if let Some(what) = meaning(name) {
+            if matches!(
+                what,
+                Some(Unfollowed::Jump | Unfollowed::Repeat | Unfollowed::Call)
+            ) {
+                self.variables.forget();
+            }
             self.at = start + letters;
             self.skip(|byte| !matches!(byte, b'(' | b';' | b'%'));
             self.leave_space(start);

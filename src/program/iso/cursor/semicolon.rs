@@ -1,6 +1,7 @@
 //! A semicolon within a line: a comment follows, or, where a semicolon also ends the line, another block.
 
-use super::super::word::Token;
+use super::super::variables::Variables;
+use super::super::word::{Token, WordFault};
 use super::scan;
 
 /// What follows a semicolon.
@@ -32,7 +33,8 @@ struct Held {
 impl Held {
     /// Adds what a block holds.
     fn add(&mut self, block: &[u8]) {
-        scan(block, 0, false, |token, _| match token {
+        let mut variables = Variables::default();
+        scan(block, 0, false, &mut variables, |token, _| match token {
             Token::Word { letter, number } => match letter {
                 b'X' | b'Y' | b'I' | b'J' | b'R' => self.lengths = true,
                 b'G' if number.whole() == Some(4) => self.dwells = true,
@@ -41,6 +43,7 @@ impl Held {
                 b'N' | b'O' => self.number = true,
                 _ => {}
             },
+            Token::Fault(WordFault::Expression { .. }) => self.lengths = true,
             Token::Definition { .. } | Token::Sum { .. } | Token::Comment => {}
             _ => self.others = true,
         });

@@ -84,7 +84,7 @@ pub(super) fn begins_astray(document: &Document, lines: &Range<usize>) -> bool {
 }
 
 /// True where the lines of a cut hold all of it. The search makes no corners of the control, and an arc begins where
-/// such a corner ends; and with subprograms a cut may have begun before its lines.
+/// such a corner ends; it knows no variables; and with subprograms a cut may have begun before its lines.
 pub(super) fn stands_alone(document: &Document, lines: &Range<usize>) -> bool {
     let (mut has_corner, mut has_arc) = (false, false);
     for block in lines.clone().map(|line| document.block(line)) {
@@ -96,7 +96,10 @@ pub(super) fn stands_alone(document: &Document, lines: &Range<usize>) -> bool {
             .begun_cut(lines.start)
             .is_some_and(|begun| begun.moves > 0)
     };
-    !(has_corner && has_arc) && (document.order().is_none() || !is_begun())
+    let has_variable = lines
+        .clone()
+        .any(|line| memchr::memchr(b'#', document.line_bytes(line)).is_some());
+    !(has_corner && has_arc) && !has_variable && (document.order().is_none() || !is_begun())
 }
 
 /// True for a line of the way itself.

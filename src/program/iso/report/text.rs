@@ -280,10 +280,29 @@ impl Report<'_> {
         } else {
             None
         };
-        if let Some(fault) = fault
-            && let Some(range) = self.first_length()
-        {
-            self.add(range, fault);
+        match fault {
+            Some(fault) => {
+                if let Some(range) = self.first_length() {
+                    self.add(range, fault);
+                }
+            }
+            None => self.whole_numbers(size),
+        }
+    }
+
+    /// What whole numbers are taken for, where neither the text nor the settings say it; the program is so large, mm.
+    fn whole_numbers(&mut self, size: f64) {
+        let is_said = self.limits.whole.is_some() || self.limits.writes_micrometres;
+        if is_said || !self.document.evidence().may_be_whole_units() {
+            return;
+        }
+        let sentence = match self.reading.whole_numbers_are_fine {
+            true => say!(whole_numbers_are_read_as_micrometres, size, size * 1e3),
+            false => say!(whole_numbers_are_read_as_millimetres, size, size / 1e3),
+        };
+        if let Some(range) = self.first_length() {
+            let fault = Fault::said(Rule::Units, sentence);
+            self.add_as(Severity::Information, range, fault);
         }
     }
 

@@ -41,7 +41,12 @@ impl Document {
             _ => return None,
         };
         match &**fault {
-            Fault::MissingEnd { word } => Some(missing_end::fixes(&self.text, range.end, word)),
+            Fault::MissingEnd { word } => {
+                // Of a contour that is not whole the rest is missing, not the end.
+                let (at, _) = self.block_at(range)?;
+                let is_whole = self.closes(&self.cut_of(at)?);
+                is_whole.then(|| missing_end::fixes(&self.text, range.end, word))
+            }
             Fault::TextAfterEnd { .. } => {
                 let end = self.range_of(self.view.end?);
                 Some(text_after_end::fixes(&self.text, end.start))

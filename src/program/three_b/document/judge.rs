@@ -2,6 +2,7 @@
 
 use super::super::entry::{Move, What};
 use super::super::parse::unexpected;
+use super::super::words::Word;
 use super::Document;
 use super::sequence::OffPosition;
 use crate::finding::{Detail, Fault, Finding, Rule, Severity};
@@ -65,7 +66,12 @@ impl Document {
             findings.push(finding.with(severity));
             return;
         };
-        let is_text = |what: &What| !matches!(what, What::CommentedBlock { .. });
+        // `DD`, and behind it `M02` of another controller: both end the program.
+        let is_text = |what: &What| match what {
+            What::Word { word, is_own } => *is_own || *word != Word::End,
+            What::CommentedBlock { .. } => false,
+            _ => true,
+        };
         let behind = self.entries(end.stretch..self.stretches.len());
         let mut texts = behind.filter(|(at, entry)| *at > end && is_text(&entry.what));
         if let Some((first, _)) = texts.next() {
