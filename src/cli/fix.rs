@@ -25,6 +25,8 @@ pub(crate) struct Arguments {
     path: PathBuf,
     #[command(flatten)]
     target: Target,
+    #[arg(long, requires = "output")]
+    overwrite: bool,
     #[command(flatten)]
     common: Common,
 }
@@ -237,7 +239,7 @@ fn deliver(
     }
     let bytes = writing.written(repair.bytes());
     match &target.output {
-        Some(path) => output::write(Some(path), &bytes),
+        Some(path) => output::write(Some(path), &bytes, arguments.overwrite),
         None if repair.is_changed() => output::write_over(&arguments.path, seen, &bytes),
         None => Ok(()),
     }

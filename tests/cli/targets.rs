@@ -135,7 +135,7 @@ fn files_of_others_are_not_overwritten() {
             &desk,
             command,
             2,
-            &[&format!("!{name}: it already exists"), "!--force"],
+            &[&format!("!{name}: it already exists"), "!--overwrite"],
         );
         assert_eq!(desk.read(name), b"correction = 0.2\n", "{command}");
         assert_eq!(
@@ -143,8 +143,12 @@ fn files_of_others_are_not_overwritten() {
             1,
             "{command}"
         );
-        check(&desk, &format!("{command} --force"), 0, &[]);
-        assert_ne!(desk.read(name), b"correction = 0.2\n", "{command} --force");
+        check(&desk, &format!("{command} --overwrite"), 0, &[]);
+        assert_ne!(
+            desk.read(name),
+            b"correction = 0.2\n",
+            "{command} --overwrite"
+        );
         // What an earlier run has written may be written again; `init` is asked each time.
         if !command.starts_with("init") {
             check(&desk, command, 0, &[]);
