@@ -352,7 +352,7 @@ impl Document {
     /// Whether [`Document::fix_all`] would change anything, without working it out completely. `found` are all
     /// findings, if the caller has them.
     pub(crate) fn can_be_fixed(&mut self, found: Option<&[Finding]>) -> bool {
-        let settings = &**self.analysis.settings();
+        let settings = &self.settings().clone();
         match &self.source {
             Source::Dxf(text) => {
                 let can = |edit: &DrawingEdit| text.text_edits(edit).is_ok();

@@ -167,6 +167,10 @@ fn refused(path: &Path, document: &Document) -> Vec<(Row, String)> {
         return Vec::new();
     };
     let findings = document.all_findings();
+    // Nothing is repaired where not all is judged, and the finding of that says why.
+    if findings.iter().any(|it| it.rule == Rule::NotJudged) {
+        return Vec::new();
+    }
     let repaired = findings.iter().filter(|finding| {
         repaired_rules()
             .iter()

@@ -66,16 +66,15 @@ impl Moved<'_> {
 
     /// The range with all that is put in at its ends.
     pub(super) fn range(&self, range: &Range<usize>) -> Range<usize> {
-        let before = self
-            .edits
-            .partition_point(|edit| edit.range.end <= range.start && !edit.range.is_empty())
-            .min(
-                self.edits
-                    .partition_point(|edit| edit.range.start < range.start),
-            );
-        let through = self
-            .edits
-            .partition_point(|edit| edit.range.start <= range.end);
+        // What is put in at its very beginning or end counts to it, what is replaced beside it does not.
+        let before = self.edits.partition_point(|edit| {
+            let own = &edit.range;
+            own.end < range.start || (own.end == range.start && !own.is_empty())
+        });
+        let through = self.edits.partition_point(|edit| {
+            let own = &edit.range;
+            own.start < range.end || (own.start == range.end && own.is_empty())
+        });
         let sum = |count: usize| match count {
             0 => 0,
             count => self.by.get(count - 1).copied().unwrap_or_default(),
@@ -136,7 +135,7 @@ mod tests {
         let moved = Moved::by(&edits);
         for (range, expected) in [
             (0..1, 0..1),
-            (0..2, 0..6),
+            (0..2, 0..2),
             (3..5, 2..7),
             (4..6, 6..8),
             (10..12, 12..16),

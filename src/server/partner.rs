@@ -15,7 +15,7 @@ use rustc_hash::FxHashMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, PoisonError, Weak};
-use std::time::{Duration, SystemTime};
+use std::time::Duration;
 
 /// A larger file is not read beside another one, bytes.
 const LARGEST: u64 = 256 * 1024 * 1024;
@@ -90,14 +90,18 @@ impl Look {
         let lock = || self.files.lock().unwrap_or_else(PoisonError::into_inner);
         let stamp = stamp_of(path);
         let known = lock().get(path).and_then(Weak::upgrade);
-        if let Some(known) = known.filter(|known| stamp.is_some() && known.stamp == stamp) {
-            return known;
+        let is_same = |known: &&Arc<Kept>| stamp.is_some() && known.stamp == stamp;
+        if let Some(known) = known.as_ref().filter(is_same) {
+            return known.clone();
         }
         let uri = config::uri_of(path).unwrap_or_default();
         let opened = |file: &Path| self.settings_texts.get(file).cloned();
         let project = self.config.file_for(&uri, search, &opened);
         let settings = self.config.effective_for(&uri, project.as_deref());
         let form = form_of_file(path, &settings);
+        if let Some(known) = known.filter(|known| stamp.is_none() && known.form == form) {
+            return known;
+        }
         let kept = Arc::new(Kept { stamp, form });
         lock().insert(path.to_path_buf(), Arc::downgrade(&kept));
         kept

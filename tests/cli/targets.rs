@@ -157,6 +157,35 @@ fn files_of_others_are_not_overwritten() {
     }
 }
 
+#[test]
+fn a_file_that_holds_something_else_is_not_overwritten() {
+    let desk = Desk::new();
+    for (command, name) in [
+        ("generate clean.dxf --side opening -o x.3b", "x.3b"),
+        ("fix tight.dxf -o x.dxf", "x.dxf"),
+        ("format hole.3b -o x.3b", "x.3b"),
+        ("convert hole.3b -o x.dxf", "x.dxf"),
+        ("draw clean.dxf -o x.svg", "x.svg"),
+        ("holes clean.dxf --side opening -o x.csv", "x.csv"),
+    ] {
+        desk.write(name, "of somebody else\n");
+        check(
+            &desk,
+            command,
+            2,
+            &[&format!("!{name}: it already exists"), "!--overwrite"],
+        );
+        assert_eq!(desk.read(name), b"of somebody else\n", "{command}");
+        check(&desk, &format!("{command} --overwrite"), 0, &[]);
+        let made = desk.read(name);
+        assert_ne!(made, b"of somebody else\n", "{command}");
+        // The same again overwrites nothing.
+        check(&desk, command, 0, &[]);
+        assert_eq!(desk.read(name), made, "{command}");
+        std::fs::remove_file(desk.path(name)).unwrap();
+    }
+}
+
 /// An input that is read from stdin is a file like any other, of the kind that its content has.
 #[test]
 fn stdin_is_an_input_of_every_command_that_takes_one_text() {

@@ -38,6 +38,8 @@ pub(in crate::server) struct Frames<R> {
     out_of_step: bool,
     /// The change of a document in what was passed over.
     lost: Option<LostChange>,
+    /// Bytes ahead that are the end of a broken body, which its reader has looked through.
+    looked_through: usize,
 }
 
 impl<R: Read> Frames<R> {
@@ -50,6 +52,7 @@ impl<R: Read> Frames<R> {
             ended: false,
             out_of_step: false,
             lost: None,
+            looked_through: 0,
         }
     }
 
@@ -60,7 +63,9 @@ impl<R: Read> Frames<R> {
 
     /// Passes over bytes that are no part of a sound message.
     fn pass_over(&mut self, count: usize) {
-        if let Some(lost) = lost_change(self.ahead(0..count)) {
+        let known = self.looked_through.min(count);
+        self.looked_through -= known;
+        if let Some(lost) = lost_change(self.ahead(known..count)) {
             self.lost = Some(lost);
         }
         self.start += count;
@@ -76,6 +81,7 @@ impl<R: Read> Frames<R> {
     pub(crate) fn next(&mut self) -> Frame {
         if std::mem::take(&mut self.out_of_step) {
             self.skip_to_header(0);
+            self.looked_through = 0;
         }
         match self.header() {
             Ok(None) => Frame::End,
@@ -95,6 +101,7 @@ impl<R: Read> Frames<R> {
             .unwrap_or_default();
         self.dropped += self.start as i64 - tail.len() as i64;
         self.buffer.splice(..self.start, tail.iter().copied());
+        self.looked_through = tail.len();
         self.start = 0;
         self.out_of_step = true;
     }

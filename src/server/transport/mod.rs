@@ -88,7 +88,9 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
             if !self.wait_for_reader() {
                 return false;
             }
-            match frames.next() {
+            let frame = frames.next();
+            self.lose(frames.take_lost());
+            match frame {
                 Frame::End => return false,
                 Frame::Broken(reason) => {
                     let error = Error {
@@ -97,7 +99,6 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
                         data: None,
                     };
                     self.answer_broken(error, frames.position());
-                    self.lose(frames.take_lost());
                 }
                 Frame::Body(body) => match message::parse(&body) {
                     Err(error) => {
