@@ -1,5 +1,7 @@
 //! Reads and writes files: never more than fits in memory, and never over a file that has changed since it was read.
 
+mod temporary;
+
 use rustc_hash::FxHasher;
 use std::fs::{File, Metadata};
 use std::hash::Hasher;
@@ -8,6 +10,7 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 use std::time::SystemTime;
+use temporary::Temporary;
 
 /// The identity of a file when it was read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,9 +62,38 @@ pub(crate) fn ending_of(path: &Path) -> String {
     ending.to_string_lossy().to_ascii_lowercase()
 }
 
-/// [`read_at_most`] for a path.
+/// Opens a file that nobody has named on the command line: a pipe or a device may have no end, or wait for ever for the other
+/// side, and is an error.
+pub(crate) fn open_regular(path: &Path) -> Result<File, String> {
+    let mut options = File::options();
+    options.read(true);
+    #[cfg(unix)]
+    {
+        // Not even opening a pipe that has taken the file's place meanwhile waits.
+        use std::os::unix::fs::OpenOptionsExt;
+        options.custom_flags(libc::O_NONBLOCK | libc::O_NOCTTY);
+    }
+    let is_regular = std::fs::metadata(path).map(|metadata| metadata.is_file());
+    if !is_regular.map_err(|error| plain(&error))? {
+        return Err(say!(it_is_no_regular_file).into());
+    }
+    let file = options.open(path).map_err(|error| plain(&error))?;
+    match file.metadata().map(|metadata| metadata.is_file()) {
+        Ok(true) => Ok(file),
+        Ok(false) => Err(say!(it_is_no_regular_file).into()),
+        Err(error) => Err(plain(&error)),
+    }
+}
+
+/// [`read_at_most`] for a regular file.
 pub(crate) fn read_path_at_most(path: &Path, cap: u64) -> Result<Vec<u8>, String> {
-    read_at_most(&File::open(path).map_err(|error| plain(&error))?, cap)
+    read_at_most(&open_regular(path)?, cap)
+}
+
+/// True for a name that leads to another computer: a share of the network, or an address.
+pub(crate) fn leads_to_the_network(name: &str) -> bool {
+    let slashes = name.replace('\\', "/");
+    slashes.starts_with("//") || slashes.contains("://")
 }
 
 /// A file of which parts are read again, as long as it has not been written to.
@@ -171,13 +203,15 @@ fn replaced(path: &Path, read: Option<&Seen>, bytes: &[u8]) -> io::Result<u64> {
         .parent()
         .filter(|folder| !folder.as_os_str().is_empty())
         .unwrap_or(Path::new("."));
-    let mut beside = beside(folder, old.is_some())?;
-    beside.write_all(bytes)?;
+    // What stands for an old file is private until it has the old permissions.
+    let mut beside = Temporary::in_folder(folder, old.is_some())?;
+    let file = beside.file();
+    file.write_all(bytes)?;
     if let Some(old) = &old {
-        give_owner(beside.as_file(), old)?;
-        beside.as_file().set_permissions(old.permissions())?;
+        give_owner(file, old)?;
+        file.set_permissions(old.permissions())?;
     }
-    beside.as_file().sync_all()?;
+    file.sync_all()?;
     // As late as possible, so as not to lose what somebody else wrote meanwhile.
     if let Some(read) = read
         && !is_still(&path, read)?
@@ -192,6 +226,17 @@ fn replaced(path: &Path, read: Option<&Seen>, bytes: &[u8]) -> io::Result<u64> {
     Ok(old.as_ref().map_or(0, other_names))
 }
 
+/// True for a regular file with other bytes than these.
+pub(crate) fn holds_else(path: &Path, bytes: &[u8]) -> bool {
+    match std::fs::metadata(path) {
+        Ok(metadata) if metadata.is_file() => {
+            metadata.len() != bytes.len() as u64
+                || read_path_at_most(path, metadata.len()).as_deref() != Ok(bytes)
+        }
+        _ => false,
+    }
+}
+
 fn is_still(path: &Path, read: &Seen) -> io::Result<bool> {
     let file = File::open(path)?;
     // One byte more tells a longer file from this one.
@@ -200,25 +245,6 @@ fn is_still(path: &Path, read: &Seen) -> io::Result<bool> {
         Err(_) => return Ok(false),
     };
     Ok(Seen::of(&file, &bytes).map_err(io::Error::other)? == *read)
-}
-
-/// A temporary file. The replacement of an old file is private until it has the old permissions; a
-/// new file gets the usual ones.
-fn beside(folder: &Path, stands_for_old: bool) -> io::Result<tempfile::NamedTempFile> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".wedm-");
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        builder.permissions(std::fs::Permissions::from_mode(if stands_for_old {
-            0o600
-        } else {
-            0o666
-        }));
-    }
-    #[cfg(not(unix))]
-    let _ = stands_for_old;
-    builder.tempfile_in(folder)
 }
 
 #[cfg(unix)]
@@ -323,15 +349,29 @@ mod tests {
     #[cfg(unix)]
     #[test]
     fn what_has_no_end_is_read_up_to_the_cap() {
+        let read = |path: &str| read_at_most(&File::open(path).unwrap(), 1000);
         let sentence = "it has more than 1000 bytes, expected at most that many";
-        assert_eq!(
-            read_path_at_most(Path::new("/dev/zero"), 1000),
-            Err(sentence.into())
-        );
-        assert_eq!(
-            read_path_at_most(Path::new("/dev/null"), 1000),
-            Ok(Vec::new())
-        );
+        assert_eq!(read("/dev/zero"), Err(sentence.into()));
+        assert_eq!(read("/dev/null"), Ok(Vec::new()));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn what_is_no_regular_file_is_not_opened() {
+        let folder = tempfile::tempdir().unwrap();
+        let pipe = folder.path().join("a.dxf");
+        let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+        assert!(made.unwrap().success());
+        let link = folder.path().join("b.dxf");
+        std::os::unix::fs::symlink(&pipe, &link).unwrap();
+        for path in [&*pipe, &*link, Path::new("/dev/zero"), folder.path()] {
+            assert_eq!(
+                read_path_at_most(path, 1000),
+                Err(say!(it_is_no_regular_file).into()),
+                "{}",
+                path.display()
+            );
+        }
     }
 
     #[test]
@@ -419,13 +459,8 @@ mod tests {
         use std::os::unix::fs::MetadataExt;
         let folder = tempfile::tempdir().unwrap();
         let mode = |stands_for_old| {
-            beside(folder.path(), stands_for_old)
-                .unwrap()
-                .as_file()
-                .metadata()
-                .unwrap()
-                .mode()
-                & 0o777
+            let mut beside = Temporary::in_folder(folder.path(), stands_for_old).unwrap();
+            beside.file().metadata().unwrap().mode() & 0o777
         };
         assert_eq!(mode(true), 0o600);
         assert_ne!(mode(false), 0o600);

@@ -19,7 +19,7 @@ use crate::finding::{self, Detail, Edit, Finding, Fix, FixKind, Keep, Place, Rul
 use crate::fit::Laid;
 use crate::program;
 use crate::settings::{self, Effective};
-use crate::text::{Again, SourceText, TextEdit};
+use crate::text::{Again, SourceText, TextEdit, edited};
 use crate::{dxf, finding::Severity};
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
@@ -352,6 +352,7 @@ impl Document {
     /// Whether [`Document::fix_all`] would change anything, without working it out completely. `found` are all
     /// findings, if the caller has them.
     pub(crate) fn can_be_fixed(&mut self, found: Option<&[Finding]>) -> bool {
+        let settings = &self.settings().clone();
         match &self.source {
             Source::Dxf(text) => {
                 let can = |edit: &DrawingEdit| text.text_edits(edit).is_ok();
@@ -359,8 +360,11 @@ impl Document {
             }
             Source::Cad(drawing) => self.analysis.has_fix_that(drawing, found, &|_| true),
             Source::Program(program) => match found {
-                Some(found) => program.can_be_fixed(found),
-                None => program.can_be_fixed(&program.findings(self.settings(), usize::MAX).0),
+                Some(found) => program.can_be_fixed(found, settings),
+                None => {
+                    let found = program.findings(settings, usize::MAX).0;
+                    program.can_be_fixed(&found, settings)
+                }
             },
         }
     }
@@ -379,14 +383,40 @@ impl Document {
         Document::new(source, settings)
     }
 
-    /// One round of [`Document::fix_all`] as edits of the text; `None` where there is none, or the text cannot take it.
-    pub fn fix_all_in_text(&self) -> Option<Vec<TextEdit>> {
-        let edits = match (self.fix_all()?, &self.source) {
-            (Edit::Drawing(edit), Source::Dxf(text)) => text.text_edits(&edit).ok()?,
-            (Edit::Text(edits), _) => edits,
-            (Edit::Drawing(_) | Edit::Settings(_), _) => return None,
+    /// One round of [`Document::fix_all`] as edits of the text, and the document after it; `None` where there is none, or it would
+    /// leave as much to repair as before.
+    pub fn round(&self) -> Option<(Vec<TextEdit>, Document)> {
+        let settings = self.settings();
+        if let Source::Program(program) = &self.source {
+            let (edits, mended) = program.fixed(settings)?;
+            let mended = Document::new(Source::Program(mended), settings.clone());
+            return Some((edits, mended));
+        }
+        let (Edit::Drawing(edit), Source::Dxf(text)) = (self.fix_all()?, &self.source) else {
+            return None;
         };
-        Some(edits).filter(|edits| !edits.is_empty())
+        let edits = text.text_edits(&edit).ok()?;
+        let mended = self.reread(edited(text.text().bytes(), &edits)?);
+        (mended.left_to_repair() < self.left_to_repair()).then_some((edits, mended))
+    }
+
+    /// What each round of repairs of a drawing makes less: its findings, the heaviest ones first, else its segments.
+    pub(crate) fn left_to_repair(&self) -> [usize; 5] {
+        let findings = self.all_findings();
+        let count = |severity| {
+            let own = findings.iter().filter(|it| it.severity == severity);
+            own.filter(|it| it.rule != Rule::NotTheDrawing).count()
+        };
+        let entities = self.drawing().into_iter().flat_map(|it| it.entities());
+        let segments = entities.map(|(_, entity)| entity.geometry.segment_count());
+        let [error, warning, information, hint] = [
+            Severity::Error,
+            Severity::Warning,
+            Severity::Information,
+            Severity::Hint,
+        ]
+        .map(count);
+        [error, warning, information, hint, segments.sum()]
     }
 
     /// The bytes of a place; `None` where there is no text.

@@ -5,6 +5,7 @@
 mod refactorings;
 
 use expect_test::expect_file;
+use proptest::prelude::*;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use wedm::document::{Document, Source};
@@ -78,6 +79,48 @@ fn repaired(language: Language, mut document: Document) -> Document {
         document = read(language, bytes);
     }
     document
+}
+
+proptest! {
+    /// Whatever has been damaged, a repair repairs: after some rounds there is none left that would be made again and again.
+    #[test]
+    fn repairs_come_to_an_end(
+        file in any::<prop::sample::Index>(),
+        damage in prop::collection::vec((any::<prop::sample::Index>(), prop::sample::select(&b"0159BGXYLNMD.- \n"[..])), 0..4),
+    ) {
+        let files = folder("wrong");
+        let path = file.get(&files);
+        let mut bytes = std::fs::read(path).unwrap();
+        for (at, byte) in damage {
+            let at = at.index(bytes.len());
+            bytes[at] = byte;
+        }
+        let language = language_of(path).unwrap();
+        let left = repaired(language, read(language, bytes.clone()));
+        prop_assert!(
+            left.fix_all().is_none(),
+            "{}: {}",
+            path.display(),
+            String::from_utf8_lossy(&bytes)
+        );
+    }
+}
+
+#[test]
+fn a_repair_whose_finding_survives_is_not_made() {
+    for (language, text) in [
+        (
+            Language::ThreeB,
+            "N1 B1000B0B1000GXL1\nN2 B0B1000B1000GYL2\nT84 N3 B1000B0B1000GXL3\nN4 B0B1000B1000GYL4\nDD\n",
+        ),
+        (
+            Language::Iso,
+            "%\nO1\nG21\nG90\nG92 X0 Y0\nG01 X10\nM98 P1\n",
+        ),
+    ] {
+        let document = read(language, text.into());
+        assert_eq!(document.fix_all(), None, "{text}");
+    }
 }
 
 #[test]

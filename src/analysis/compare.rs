@@ -74,7 +74,7 @@ pub(super) fn shifted(index: usize, first: usize, by: isize) -> usize {
 }
 
 /// What the rules on two segments that come near each other cost, in looks.
-pub(crate) const LOOKS_OF_A_PAIR: u64 = 16;
+pub(crate) const LOOKS_OF_A_PAIR: u64 = 32;
 
 /// The number of segments of a run that share a box.
 const GROUP: usize = 8;

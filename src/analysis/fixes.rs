@@ -147,6 +147,10 @@ impl Analysis {
     }
 
     fn fix_all_of(&self, drawing: &Drawing, wanted: Wanted) -> Option<DrawingEdit> {
+        // Where not all has been compared, no repair can be shown to make nothing worse, and each try costs as much again.
+        if self.pairs.uncompared() > 0 {
+            return None;
+        }
         let doubles = self.fix_all_else(drawing, &repair::FIRST, wanted);
         doubles
             .or_else(|| self.fix_all_arcs(drawing, wanted))

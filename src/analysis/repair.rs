@@ -15,10 +15,8 @@ pub(super) const FIRST: [Rule; 2] = [Rule::DuplicateEntity, Rule::Overlap];
 pub(super) const THEN: [Rule; 3] = [Rule::ShortSegment, Rule::Gap, Rule::ArcAsChords];
 
 /// Edits that are tried before a rule is given up: each costs a look at the drawing. In a large
-/// drawing, as many as read about this many segments, but at least two; few where not even the
-/// present drawing has been compared completely.
+/// drawing, as many as read about this many segments, but at least two.
 const TRIES: usize = 24;
-const FEW_TRIES: usize = 6;
 const SEGMENTS: usize = 4_000_000;
 
 /// The number of edits rejected by the contours alone that together cost as much as one look.
@@ -130,12 +128,7 @@ impl Analysis {
 
     /// The number of edits that are tried.
     pub(super) fn tries(&self) -> usize {
-        let most = if self.pairs.uncompared() > 0 {
-            FEW_TRIES
-        } else {
-            TRIES
-        };
-        (SEGMENTS / self.segments.max(1)).clamp(2, most)
+        (SEGMENTS / self.segments.max(1)).clamp(2, TRIES)
     }
 
     /// The findings of the present drawing.

@@ -52,8 +52,8 @@ pub use comparison::{Comparison, Difference, DifferenceKind};
 pub use drawn::Drawn;
 pub use findings::{Beside, Partner, of_drawing};
 pub(crate) use findings::{Form, of_program};
+pub(crate) use names::{Folders, HEAD, is_program, name_of};
 pub use names::{Named, plain};
-pub(crate) use names::{drawing_named, head_of, is_program, name_of, programs_beside};
 pub use traced::Traced;
 
 /// The largest distance of a block from its place in the drawing, µm.

@@ -1,13 +1,14 @@
 //! Finds the drawing of a program: the one that a comment of it names, the one in the settings, else the one of its own
-//! name.
+//! name. A comment never leads out of the program's folder: programs come from strangers.
 
-use crate::disk::ending_of;
+use crate::disk::{self, ending_of};
 use crate::dxf;
 use crate::program::Language;
 use crate::text::Writing;
+use rustc_hash::FxHashMap;
 use std::io::Read as _;
-use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::path::{Component, Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// The drawing of a program.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -18,96 +19,192 @@ pub struct Named {
 }
 
 /// Bytes of a program that are searched for the name of its drawing.
-const HEAD: usize = 4096;
+pub(crate) const HEAD: usize = 4096;
 
-/// The most programs in a folder that are read to find their drawings.
+/// The most programs in a folder that are read to find their drawings; those of a drawing's own name come on top.
 const MOST: usize = 200;
 
-/// The drawing of a program whose text begins like this; `setting` is `program.drawing`, relative to the program's
-/// folder.
-pub(crate) fn drawing_named(
-    program: &Path,
-    head: &[u8],
-    setting: Option<&str>,
-    exists: &dyn Fn(&Path) -> bool,
-) -> Option<Named> {
-    let folder = program.parent()?;
-    let alone = |path: PathBuf| Named {
-        path,
-        others: Vec::new(),
-    };
-    // Where nothing else is the drawing of the program, that is told.
-    let mut gone = None;
-    if let Some(name) = in_comment(head) {
-        // Only the file name of a path on another machine is used.
-        let file = name.rsplit(['/', '\\']).next().unwrap_or(&name);
-        let places = [folder.join(name.replace('\\', "/")), folder.join(file)];
-        let there = places.iter().find(|path| exists(path)).cloned();
-        if let Some(path) = there.or_else(|| whatever_case(&places, exists)) {
-            return Some(alone(plain(&path)));
+/// The folders of drawings and programs at one moment: each is listed once, and the head of each program read once, however many
+/// documents are asked about.
+pub(crate) struct Folders {
+    /// Whether an editor holds a file open: that one is there, on disk or not.
+    is_open: Box<dyn Fn(&Path) -> bool + Send + Sync>,
+    listed: Mutex<FxHashMap<PathBuf, Arc<Listing>>>,
+    /// Programs and the drawing of each, where it has one.
+    drawings: Mutex<FxHashMap<PathBuf, Option<PathBuf>>>,
+}
+
+/// The files of a folder.
+#[derive(Default)]
+struct Listing {
+    programs: Vec<PathBuf>,
+    /// All of them, by their names in lower case.
+    by_name: FxHashMap<String, Vec<PathBuf>>,
+}
+
+impl Default for Folders {
+    fn default() -> Folders {
+        Folders::new(|_| false)
+    }
+}
+
+impl Folders {
+    pub(crate) fn new(is_open: impl Fn(&Path) -> bool + Send + Sync + 'static) -> Folders {
+        Folders {
+            is_open: Box::new(is_open),
+            listed: Mutex::default(),
+            drawings: Mutex::default(),
         }
-        gone = Some(alone(plain(&folder.join(file))));
     }
-    if let Some(setting) = setting {
-        return Some(alone(plain(&folder.join(setting))));
+
+    pub(crate) fn is_open(&self, path: &Path) -> bool {
+        (self.is_open)(path)
     }
-    let mut found: Vec<PathBuf> = Vec::new();
-    let endings = dxf::ENDINGS.map(|ending| [ending.to_owned(), ending.to_ascii_uppercase()]);
-    for ending in endings.into_iter().flatten() {
-        let path = program.with_extension(ending);
-        // Where letter case does not matter, both names are of one file.
-        let is_same = |other: &PathBuf| {
-            let real = |path: &Path| path.canonicalize().ok();
-            real(other).is_some() && real(other) == real(&path)
+
+    fn exists(&self, path: &Path) -> bool {
+        self.is_open(path) || path.is_file()
+    }
+
+    fn listing(&self, folder: &Path) -> Arc<Listing> {
+        let lock = || self.listed.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(known) = lock().get(folder) {
+            return known.clone();
+        }
+        let here = match folder == Path::new("") {
+            true => Path::new("."),
+            false => folder,
         };
-        if exists(&path) && !found.iter().any(is_same) {
-            found.push(path);
+        let mut listing = Listing::default();
+        for entry in std::fs::read_dir(here).into_iter().flatten().flatten() {
+            let path = plain(&entry.path());
+            let lower = name_of(&path).to_lowercase();
+            if is_program(&path) {
+                listing.programs.push(path.clone());
+            }
+            listing.by_name.entry(lower).or_default().push(path);
+        }
+        listing.programs.sort();
+        listing.by_name.values_mut().for_each(|alike| alike.sort());
+        let listing = Arc::new(listing);
+        lock().insert(folder.to_path_buf(), listing.clone());
+        listing
+    }
+
+    /// The drawing of a program whose text begins like this; `setting` is `program.drawing`, relative to the program's
+    /// folder.
+    pub(crate) fn drawing_of(
+        &self,
+        program: &Path,
+        head: &[u8],
+        setting: Option<&str>,
+    ) -> Option<Named> {
+        let folder = program.parent()?;
+        let alone = |path: PathBuf| Named {
+            path,
+            others: Vec::new(),
+        };
+        // Where nothing else is the drawing of the program, that is told.
+        let mut gone = None;
+        if let Some(name) = in_comment(head) {
+            let places = places(folder, &name);
+            let there = places.iter().find(|path| self.exists(path)).cloned();
+            if let Some(path) = there.or_else(|| self.whatever_case(&places)) {
+                return Some(alone(path));
+            }
+            gone = places.last().cloned().map(alone);
+        }
+        if let Some(setting) = setting {
+            return Some(alone(plain(&folder.join(setting))));
+        }
+        let mut found: Vec<PathBuf> = Vec::new();
+        let endings = dxf::ENDINGS.map(|ending| [ending.to_owned(), ending.to_ascii_uppercase()]);
+        for ending in endings.into_iter().flatten() {
+            let path = program.with_extension(ending);
+            // Where letter case does not matter, both names are of one file.
+            let is_same = |other: &PathBuf| {
+                let real = |path: &Path| path.canonicalize().ok();
+                real(other).is_some() && real(other) == real(&path)
+            };
+            if self.exists(&path) && !found.iter().any(is_same) {
+                found.push(path);
+            }
+        }
+        let others = found.split_off(found.len().min(1));
+        match found.pop() {
+            Some(path) => Some(Named { path, others }),
+            None => gone,
         }
     }
-    let others = found.split_off(found.len().min(1));
-    match found.pop() {
-        Some(path) => Some(Named { path, others }),
-        None => gone,
+
+    /// The file whose name is that of one of these, whatever the case of its letters.
+    fn whatever_case(&self, places: &[PathBuf]) -> Option<PathBuf> {
+        let cased = |place: &PathBuf| {
+            let name = place.file_name()?.to_str()?;
+            let known =
+                [name.to_lowercase(), name.to_uppercase()].map(|name| place.with_file_name(name));
+            if let Some(path) = known.into_iter().find(|path| self.exists(path)) {
+                return Some(path);
+            }
+            let listing = self.listing(place.parent()?);
+            let mut alike = listing.by_name.get(&name.to_lowercase())?.iter();
+            alike.find(|path| self.exists(path)).cloned()
+        };
+        places.iter().find_map(cased)
+    }
+
+    /// The programs on disk in the folder of a drawing that belong to it, sorted by name; not those that are open.
+    pub(crate) fn programs_of(&self, drawing: &Path, setting: Option<&str>) -> Vec<PathBuf> {
+        let listing = self.listing(drawing.parent().unwrap_or(Path::new("")));
+        let (own, stem) = (real(drawing), drawing.file_stem());
+        let may_be =
+            |(number, path): &(usize, &PathBuf)| *number < MOST || path.file_stem() == stem;
+        let programs = listing.programs.iter().enumerate().filter(may_be);
+        let is_own = |(_, path): &(usize, &PathBuf)| {
+            !self.is_open(path) && self.drawing_of_file(path, setting).as_ref() == Some(&own)
+        };
+        programs
+            .filter(is_own)
+            .map(|(_, path)| path.clone())
+            .collect()
+    }
+
+    /// The drawing of a program on disk.
+    fn drawing_of_file(&self, program: &Path, setting: Option<&str>) -> Option<PathBuf> {
+        let lock = || self.drawings.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(known) = lock().get(program) {
+            return known.clone();
+        }
+        let named = self.drawing_of(program, &head_of(program), setting);
+        let drawing = named.map(|named| real(&named.path));
+        lock().insert(program.to_path_buf(), drawing.clone());
+        drawing
     }
 }
 
-/// The file whose name is that of one of these, whatever the case of its letters.
-fn whatever_case(places: &[PathBuf], exists: &dyn Fn(&Path) -> bool) -> Option<PathBuf> {
-    let cased = |place: &PathBuf| {
-        let name = place.file_name()?.to_str()?;
-        let known =
-            [name.to_lowercase(), name.to_uppercase()].map(|name| place.with_file_name(name));
-        if let Some(path) = known.into_iter().find(|path| exists(path)) {
-            return Some(path);
-        }
-        let folder = place.parent().filter(|folder| *folder != Path::new(""));
-        let files = std::fs::read_dir(folder.unwrap_or(Path::new("."))).ok()?;
-        let names = files.filter_map(|file| file.ok()?.file_name().into_string().ok());
-        let lower = name.to_lowercase();
-        let mut alike: Vec<String> = names.filter(|own| own.to_lowercase() == lower).collect();
-        alike.sort();
-        let mut paths = alike.into_iter().map(|own| place.with_file_name(own));
-        paths.find(|path| exists(path))
+/// Where a file is, whatever links lead there.
+fn real(path: &Path) -> PathBuf {
+    path.canonicalize().unwrap_or_else(|_| plain(path))
+}
+
+/// The places of a drawing that a comment names, none of them outside of the program's folder: of a path that leads elsewhere, to
+/// another folder, computer or network, only the name of the file counts.
+fn places(folder: &Path, name: &str) -> Vec<PathBuf> {
+    let name = name.replace('\\', "/");
+    let path = plain(Path::new(&name));
+    let path = path.strip_prefix(folder).unwrap_or(&path);
+    let file = Path::new(name.rsplit('/').next().unwrap_or(&name));
+    let is_inside = |path: &&Path| {
+        let mut parts = path.components();
+        path.file_name().is_some() && parts.all(|part| matches!(part, Component::Normal(_)))
     };
-    places.iter().find_map(cased)
-}
-
-/// The programs among the files of a folder that belong to a drawing, sorted by name. `named` decides for one.
-pub(crate) fn programs_beside(
-    files: impl IntoIterator<Item = PathBuf>,
-    named: &dyn Fn(&Path) -> bool,
-) -> Vec<PathBuf> {
-    let mut programs: Vec<PathBuf> = files.into_iter().filter(|path| is_program(path)).collect();
-    programs.sort();
-    programs.truncate(MOST);
-    programs.retain(|path| named(path));
-    programs
+    let inside = [path, file].into_iter().filter(is_inside);
+    inside.map(|path| folder.join(path)).collect()
 }
 
 /// The first lines of a program's file, in UTF-8 where it is in GB 18030; empty where it cannot be read.
 pub(crate) fn head_of(path: &Path) -> Vec<u8> {
     let mut head = Vec::new();
-    if let Ok(file) = std::fs::File::open(path) {
+    if let Ok(file) = disk::open_regular(path) {
         let _ = file.take(HEAD as u64).read_to_end(&mut head);
     }
     // A letter that is cut in two would hide the encoding.
@@ -195,13 +292,9 @@ mod tests {
 
     #[track_caller]
     fn check(head: &str, setting: Option<&str>, files: &[&str], expected: Option<&str>) {
-        let exists = |path: &Path| files.iter().any(|file| path == Path::new(file));
-        let named = drawing_named(
-            Path::new("/job/plate.3b"),
-            head.as_bytes(),
-            setting,
-            &exists,
-        );
+        let files: Vec<PathBuf> = files.iter().map(PathBuf::from).collect();
+        let folders = Folders::new(move |path| files.iter().any(|file| path == file));
+        let named = folders.drawing_of(Path::new("/job/plate.3b"), head.as_bytes(), setting);
         let path = named.map(|named| named.path);
         assert_eq!(path.as_deref(), expected.map(Path::new), "{head}");
     }
@@ -257,7 +350,7 @@ mod tests {
         let head = b"; \xcd\xb9\xc4\xa3.dxf\n; \xcd\xb9\xc4\xa3\n";
         std::fs::write(&program, [head, blocks.as_bytes()].concat()).unwrap();
         std::fs::write(&drawing, "").unwrap();
-        let named = drawing_named(&program, &head_of(&program), None, &Path::is_file);
+        let named = Folders::default().drawing_of(&program, &head_of(&program), None);
         assert_eq!(named.map(|named| named.path), Some(drawing));
     }
 
@@ -270,7 +363,7 @@ mod tests {
         );
         std::fs::write(&drawing, "").unwrap();
         for head in ["(DXF: PART 7.DXF)", "; drawing=Part 7.Dxf"] {
-            let named = drawing_named(&program, head.as_bytes(), None, &Path::is_file);
+            let named = Folders::default().drawing_of(&program, head.as_bytes(), None);
             assert_eq!(
                 named.map(|named| named.path),
                 Some(drawing.clone()),
@@ -281,9 +374,36 @@ mod tests {
 
     #[test]
     fn two_drawings_of_one_name_are_told() {
-        let exists = |path: &Path| path.extension().is_some_and(|ending| ending != "DXF");
-        let named = drawing_named(Path::new("/job/plate.3b"), b"", None, &exists).unwrap();
+        let folders = Folders::new(|path| path.extension().is_some_and(|ending| ending != "DXF"));
+        let named = folders
+            .drawing_of(Path::new("/job/plate.3b"), b"", None)
+            .unwrap();
         assert_eq!(named.path, Path::new("/job/plate.dxf"));
         assert_eq!(named.others[0], Path::new("/job/plate.dxb"));
+    }
+
+    #[test]
+    fn a_comment_leads_nowhere_out_of_the_folder_of_its_program() {
+        let check = |name: &str, expected: &[&str]| {
+            let expected: Vec<PathBuf> = expected.iter().map(PathBuf::from).collect();
+            assert_eq!(places(Path::new("/job"), name), expected, "{name}");
+        };
+        check("a.dxf", &["/job/a.dxf", "/job/a.dxf"]);
+        check(r"sub\a.dxf", &["/job/sub/a.dxf", "/job/a.dxf"]);
+        check("/job/sub/a.dxf", &["/job/sub/a.dxf", "/job/a.dxf"]);
+        for outside in [
+            r"\\10.0.0.9\share\a.dxf",
+            "//10.0.0.9/share/a.dxf",
+            "//host/a.dxf",
+            "../a.dxf",
+            "sub/../../a.dxf",
+            "/etc/a.dxf",
+            "/job/../etc/a.dxf",
+            "/a.dxf",
+        ] {
+            check(outside, &["/job/a.dxf"]);
+        }
+        check("..", &[]);
+        check("", &[]);
     }
 }

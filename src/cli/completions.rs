@@ -17,6 +17,6 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments, command: &mut clap::Command) -> Result<Verdict, Failure> {
     let mut script = Vec::new();
     clap_complete::generate(arguments.shell, command, "wedm", &mut script);
-    output::write(None, &script)?;
+    output::write(None, &script, false)?;
     Ok(Verdict::Clean)
 }

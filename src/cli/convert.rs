@@ -20,6 +20,8 @@ pub(crate) struct Arguments {
     path: PathBuf,
     #[arg(short, long, value_name = "OUT")]
     output: Option<PathBuf>,
+    #[arg(long, requires = "output")]
+    overwrite: bool,
     #[arg(long, value_parser = Target::of)]
     format: Option<Target>,
     #[arg(long)]
@@ -74,7 +76,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         Target::Drawing => made.bytes.as_slice().into(),
         _ => writing.written(&made.bytes),
     };
-    output::write(arguments.output.as_deref(), &bytes)?;
+    output::write(arguments.output.as_deref(), &bytes, arguments.overwrite)?;
     summarise(arguments, target, &made);
     let places_nothing = target == Target::Drawing && made.cuts.placed_by.is_none();
     let unplaced = (places_nothing && last.correction.is_some()).then_some(CORRECTION);

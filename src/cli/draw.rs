@@ -27,6 +27,8 @@ pub(crate) struct Arguments {
     path: PathBuf,
     #[arg(short, long, value_name = "OUT")]
     output: Option<PathBuf>,
+    #[arg(long, requires = "output")]
+    overwrite: bool,
     #[command(flatten)]
     program: Program,
     #[command(flatten)]
@@ -58,7 +60,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         }
         Some(form) => form.of_svg(&svg).map_err(Failure)?,
     };
-    output::write(arguments.output.as_deref(), &picture)?;
+    output::write(arguments.output.as_deref(), &picture, arguments.overwrite)?;
     Ok(Verdict::Clean)
 }
 
@@ -76,7 +78,7 @@ fn draw_program(arguments: &Arguments, document: &Document) -> Result<Verdict, F
         job::picture_of_program(document, program)
     });
     let picture = form.of_svg(&svg).map_err(Failure)?;
-    output::write(arguments.output.as_deref(), &picture)?;
+    output::write(arguments.output.as_deref(), &picture, arguments.overwrite)?;
     Ok(Verdict::Clean)
 }
 

@@ -23,6 +23,8 @@ pub(super) struct Arguments {
     path: PathBuf,
     #[arg(short, long, value_name = "OUT")]
     output: Option<PathBuf>,
+    #[arg(long, requires = "output")]
+    overwrite: bool,
     #[arg(long, value_enum, default_value_t = Form::Text)]
     format: Form,
     #[command(flatten)]
@@ -59,7 +61,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let svg = picture::fit_svg(&snapshot.drawing, &fit, unit_mm);
     if let Some(target) = &arguments.output {
         let form = form_of(target).unwrap_or(Image::Svg);
-        output::write(Some(target), &form.of_svg(&svg).map_err(Failure)?)?;
+        let picture = form.of_svg(&svg).map_err(Failure)?;
+        output::write(Some(target), &picture, arguments.overwrite)?;
     }
     let printed = Fit::new(&snapshot.drawing, &fit, svg, unit_mm);
     match arguments.format {

@@ -25,6 +25,8 @@ pub(crate) struct Arguments {
     path: PathBuf,
     #[command(flatten)]
     target: Target,
+    #[arg(long, requires = "output")]
+    overwrite: bool,
     #[command(flatten)]
     common: Common,
 }
@@ -165,6 +167,10 @@ fn refused(path: &Path, document: &Document) -> Vec<(Row, String)> {
         return Vec::new();
     };
     let findings = document.all_findings();
+    // Nothing is repaired where not all is judged, and the finding of that says why.
+    if findings.iter().any(|it| it.rule == Rule::NotJudged) {
+        return Vec::new();
+    }
     let repaired = findings.iter().filter(|finding| {
         repaired_rules()
             .iter()
@@ -237,7 +243,7 @@ fn deliver(
     }
     let bytes = writing.written(repair.bytes());
     match &target.output {
-        Some(path) => output::write(Some(path), &bytes),
+        Some(path) => output::write(Some(path), &bytes, arguments.overwrite),
         None if repair.is_changed() => output::write_over(&arguments.path, seen, &bytes),
         None => Ok(()),
     }

@@ -23,6 +23,8 @@ pub(crate) struct Arguments {
     paths: Vec<PathBuf>,
     #[command(flatten)]
     target: Target,
+    #[arg(long, requires = "output")]
+    overwrite: bool,
     #[arg(long, value_parser = parser(row("program.layout")))]
     layout: Option<Settings>,
     #[command(flatten)]
@@ -134,7 +136,8 @@ fn format(arguments: &Arguments, path: &Path) -> Result<bool, Failure> {
             ))?;
         }
     } else if !target.in_place {
-        output::write(target.output.as_deref(), &opened.writing.written(&after))?;
+        let bytes = opened.writing.written(&after);
+        output::write(target.output.as_deref(), &bytes, arguments.overwrite)?;
     } else if is_changed {
         output::write_over(path, opened.seen.as_ref(), &opened.writing.written(&after))?;
     }

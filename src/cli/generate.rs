@@ -29,6 +29,8 @@ pub(crate) struct Arguments {
     format: Option<Format>,
     #[arg(short, long, value_name = "OUT")]
     output: Option<PathBuf>,
+    #[arg(long, requires = "output")]
+    overwrite: bool,
     #[arg(long, value_name = "HANDLE")]
     handle: Vec<String>,
     #[arg(long, value_name = "LAYER")]
@@ -70,7 +72,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         Ok(made) => made,
         Err(refusal) => return report::refuse_programs(path, &mut opened.document, &refusal),
     };
-    output::write(arguments.output.as_deref(), made.program.text.as_bytes())?;
+    output::write(target, made.program.text.as_bytes(), arguments.overwrite)?;
     // `wedm check` reports the drawing's findings; these are the program's.
     let of_program = |finding: &&Finding| {
         !output::is_what_holds(finding)

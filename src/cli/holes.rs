@@ -21,6 +21,8 @@ pub(super) struct Arguments {
     paths: Vec<PathBuf>,
     #[arg(short, long, value_name = "OUT")]
     output: Option<PathBuf>,
+    #[arg(long, requires = "output")]
+    overwrite: bool,
     #[command(flatten)]
     program: Program,
     #[command(flatten)]
@@ -67,7 +69,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     }
     let is_new = drawn.as_ref().is_some_and(|drawn| drawn.is_new);
     let bytes = drawn.map_or_else(|| list.csv().into_bytes(), |drawn| drawn.bytes);
-    output::write(arguments.output.as_deref(), &bytes)?;
+    output::write(arguments.output.as_deref(), &bytes, arguments.overwrite)?;
     if let Some(target) = &arguments.output {
         output::say(&say!(
             the_holes_are_written,

@@ -29,7 +29,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_parser = machines())]
     machine: Option<String>,
     #[arg(long)]
-    force: bool,
+    overwrite: bool,
 }
 
 fn passes(text: &str) -> Result<u8, String> {
@@ -50,7 +50,7 @@ fn machines() -> clap::builder::PossibleValuesParser {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let path = arguments.folder.join(FILE_NAME);
-    if settings::is_there(&path) && !arguments.force {
+    if settings::is_there(&path) && !arguments.overwrite {
         return Err(Failure::of(&path, say!(it_is_there_already)));
     }
     let defaults = settings::Settings::default();
@@ -114,7 +114,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
             error.message
         )));
     }
-    output::write(Some(&path), text.as_bytes())?;
+    output::write(Some(&path), text.as_bytes(), true)?;
     output::say(&say!(written_file, output::name(&path)));
     Ok(Verdict::Clean)
 }

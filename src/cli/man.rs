@@ -33,7 +33,7 @@ pub(crate) fn run(arguments: &Arguments, command: clap::Command) -> Result<Verdi
         let mut text = Vec::new();
         man.render(&mut text)
             .map_err(|error| Failure::of(&path, error))?;
-        output::write(Some(&path), &text)?;
+        output::write(Some(&path), &text, true)?;
     }
     Ok(Verdict::Clean)
 }

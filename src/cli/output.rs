@@ -223,12 +223,14 @@ fn accepted(written: io::Result<()>, target: &str) -> Result<(), Failure> {
     }
 }
 
-/// Bytes to a file, or to stdout for none and for `-`. A regular file is [replaced](disk::replace), anything else (a
-/// device, a pipe) is written directly.
-pub(crate) fn write(target: Option<&Path>, bytes: &[u8]) -> Result<(), Failure> {
-    match target {
+/// Bytes to a file, or to stdout for none and for `-`. A regular file that holds something else is only
+/// [replaced](disk::replace) where `overwrites` says so; anything else (a device, a pipe) is written directly.
+pub(crate) fn write(target: Option<&Path>, bytes: &[u8], overwrites: bool) -> Result<(), Failure> {
+    match target.filter(|path| *path != Path::new("-")) {
         None => print_bytes(bytes),
-        Some(path) if path == Path::new("-") => print_bytes(bytes),
+        Some(path) if !overwrites && disk::holds_else(path, bytes) => {
+            Err(Failure::of(path, say!(it_is_there_already)))
+        }
         Some(path) => said_of(path, disk::write(path, bytes)),
     }
 }

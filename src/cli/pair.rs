@@ -3,6 +3,7 @@
 use super::options::{Common, Pairing, Program};
 use super::output::{self, styled};
 use super::{Failure, Verdict, ending, files, report};
+use crate::disk;
 use crate::finding::{Detail, Finding, Rule};
 use crate::job::{self, Wanted};
 use crate::message::lengths;
@@ -76,17 +77,21 @@ pub(super) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     refuse_one_file_for_two(&parts, &targets)?;
     for target in &targets {
         output::refuse_input(target, path)?;
-        if target.exists() && !arguments.overwrite {
-            return Err(Failure::of(target, say!(the_program_is_there_already)));
-        }
+    }
+    // All or none: a program of an earlier run beside new ones does not fit them.
+    let mut written = made.iter().zip(&targets);
+    let is_other =
+        written.find(|(part, target)| disk::holds_else(target, part.made.program.text.as_bytes()));
+    if let Some((_, target)) = is_other.filter(|_| !arguments.overwrite) {
+        return Err(Failure::of(target, say!(it_is_there_already)));
     }
     if !folder.as_os_str().is_empty() {
         std::fs::create_dir_all(&folder)
-            .map_err(|error| Failure::of(&folder, crate::disk::plain(&error)))?;
+            .map_err(|error| Failure::of(&folder, disk::plain(&error)))?;
     }
     for (part, target) in made.iter().zip(&targets) {
         let program = &part.made.program;
-        output::write(Some(target), program.text.as_bytes())?;
+        output::write(Some(target), program.text.as_bytes(), true)?;
         let corrections: Vec<String> = part
             .corrections
             .iter()

@@ -15,7 +15,7 @@ use std::cmp::{Ordering, Reverse};
 const DENSE: u8 = 64;
 
 /// More ends than these in one small cell are a crowd, where not all pairs are compared. A drawing to be cut has a few.
-pub(super) const CROWD: usize = 256;
+pub(super) const CROWD: usize = 64;
 
 /// Fewer ends than these are read on one thread.
 const FEW: usize = 16_384;

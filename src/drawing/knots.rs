@@ -339,6 +339,13 @@ impl Knots<'_> {
             far: tips.clone().map(|tip| tip ^ 1).collect(),
             is_whole: tips.map(|tip| !self.strands[tip / 2].is_crumb).collect(),
         };
+        // Each is asked about once for every end near it.
+        let mut headings = vec![0.0; 2 * self.strands.len()];
+        for &strand in &self.left {
+            for tip in [2 * strand, 2 * strand + 1] {
+                headings[tip] = self.heading(tip);
+            }
+        }
         let mut pairs: Vec<(f64, f64, Tip, Tip)> = Vec::new();
         for tip in self
             .left
@@ -350,7 +357,7 @@ impl Knots<'_> {
                 .into_iter()
                 .filter(|(other, _)| is_left[other / 2])
                 .collect();
-            let bend = |other: Tip| ((self.heading(other) - self.heading(tip)).abs() - PI).abs();
+            let bend = |other: Tip| ((headings[other] - headings[tip]).abs() - PI).abs();
             let later = near.iter().filter(|(other, _)| *other > tip);
             pairs.extend(later.map(|&(other, distance)| (distance, bend(other), tip, other)));
         }

@@ -86,8 +86,20 @@ pub fn write(drawing: &Drawing) -> Result<Vec<u8>, String> {
     let mut bytes = Vec::new();
     file.save(&mut bytes)
         .map_err(|error| say!(the_dxf_file_cannot_be_written, error))?;
-    Ok(with_table_handles(bytes))
+    Ok(as_written(bytes))
 }
+
+/// What the crate states of the time and of chance: the same drawing is to be the same file, and readers need none of it.
+const OF_THE_MOMENT: [&[u8]; 8] = [
+    b"$TDCREATE",
+    b"$TDUCREATE",
+    b"$TDUPDATE",
+    b"$TDUUPDATE",
+    b"$TDINDWG",
+    b"$TDUSRTIMER",
+    b"$FINGERPRINTGUID",
+    b"$VERSIONGUID",
+];
 
 /// Sets the extents of the drawing and a sheet of A4: the crate's own are those of a drawing in inches, and programs
 /// print that area.
@@ -111,10 +123,11 @@ fn set_extents(file: &mut crate_dxf::Drawing, drawing: &Drawing) {
     file.header.paperspace_maximum_drawing_limits = Point3::new(width, height, 0.0);
 }
 
-/// Adds a handle for each symbol table, which the crate leaves out: strict readers repair that.
+/// Leaves out [what another run would state otherwise](OF_THE_MOMENT), and adds a handle for each symbol table, which the crate
+/// leaves out: strict readers repair that.
 ///
 /// Lines come in pairs of group code and value. The handles continue from `$HANDSEED`.
-fn with_table_handles(bytes: Vec<u8>) -> Vec<u8> {
+fn as_written(bytes: Vec<u8>) -> Vec<u8> {
     let lines: Vec<&[u8]> = bytes.split_inclusive(|byte| *byte == b'\n').collect();
     let pairs: Vec<(&[u8], &[u8])> = lines
         .as_chunks()
@@ -136,10 +149,17 @@ fn with_table_handles(bytes: Vec<u8>) -> Vec<u8> {
         pairs.get(at).is_some_and(|(code, _)| *code == b"2")
             && before.is_some_and(|before| *before == (b"0", b"TABLE"))
     };
+    let names_a_moment = |at: usize| {
+        let pair = pairs.get(at);
+        pair.is_some_and(|(code, name)| *code == b"9" && OF_THE_MOMENT.contains(name))
+    };
     let tables = (0..pairs.len()).filter(|at| is_table(*at)).count() as u64;
     let mut next = seed;
     let mut whole = Vec::with_capacity(bytes.len() + 64 * tables as usize);
     for (at, pair) in lines.chunks(2).enumerate() {
+        if names_a_moment(at) || at.checked_sub(1).is_some_and(names_a_moment) {
+            continue;
+        }
         if at == seed_at {
             whole.extend_from_slice(format!("  5\r\n{:X}\r\n", seed + tables).as_bytes());
             continue;

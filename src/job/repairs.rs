@@ -3,7 +3,7 @@
 use crate::document::{Document, Source};
 use crate::drawing::{Drawing, DrawingEdit};
 use crate::finding::Edit;
-use crate::text::{Patch, TextEdit, edited};
+use crate::text::{Patch, TextEdit};
 use std::sync::Arc;
 
 /// Repairs in several rounds, since one may make room for another.
@@ -19,10 +19,10 @@ pub(crate) enum Repairs {
     OfDrawing(Vec<(Arc<Drawing>, DrawingEdit)>),
 }
 
-/// At most this many rounds: more change nothing.
-pub const ROUNDS: usize = 12;
+/// At most this many rounds. Each leaves less to repair than the one before, so that they end by themselves long before.
+pub const ROUNDS: usize = 100;
 
-/// Every safe fix, repeated until none is left.
+/// Every safe fix, repeated until none is left that repairs anything.
 pub(crate) fn fix_all(document: &Document) -> Option<Repairs> {
     if let Source::Cad(_) = document.source() {
         let mut present = document.clone();
@@ -30,8 +30,12 @@ pub(crate) fn fix_all(document: &Document) -> Option<Repairs> {
         while rounds.len() < ROUNDS
             && let Some(Edit::Drawing(edit)) = present.fix_all()
             && let Some(before) = present.drawing().cloned()
-            && let Some(Ok(())) = present.edit_drawing(|drawing| drawing.apply(&edit))
         {
+            let left = present.left_to_repair();
+            let made = present.edit_drawing(|drawing| drawing.apply(&edit));
+            if !matches!(made, Some(Ok(()))) || present.left_to_repair() >= left {
+                break;
+            }
             rounds.push((before, edit));
         }
         return (!rounds.is_empty()).then_some(Repairs::OfDrawing(rounds));
@@ -41,13 +45,12 @@ pub(crate) fn fix_all(document: &Document) -> Option<Repairs> {
     let mut rounds = 0;
     while rounds < ROUNDS
         && let present = repaired.as_ref().unwrap_or(document)
-        && let Some(edits) = present.fix_all_in_text()
+        && let Some((edits, after)) = present.round()
         && let Some(longer) = patch.then(&edits)
-        && let Some(bytes) = present.text().and_then(|text| edited(text.bytes(), &edits))
     {
         rounds += 1;
         patch = longer;
-        repaired = Some(present.reread(bytes));
+        repaired = Some(after);
     }
     Some(Repairs::OfText {
         edits: patch.edits(),

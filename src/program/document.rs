@@ -1,6 +1,7 @@
 //! A program as an open document, in any language. A new language adds its variant here and is complete when this
 //! compiles.
 
+use super::mended::{Moved, Ranges};
 use super::numbering::{Numbers, Renumbering};
 use super::path::{Cut, CutSteps, Step, Trace, cut_of};
 use super::repair::gate::Tried;
@@ -10,8 +11,9 @@ use super::whereabouts::Whereabouts;
 use super::{iso, three_b};
 use crate::finding::{Fault, Finding, Rule, Severity, TextFix};
 use crate::settings::Effective;
-use crate::text::{SourceText, TextEdit, is_binary, is_utf_16};
+use crate::text::{SourceText, TextEdit, edited, is_binary, is_utf_16};
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
+use rustc_hash::FxHashSet;
 use std::ops::Range;
 
 /// Bytes of a text that tell what it is.
@@ -174,25 +176,64 @@ impl Document {
     /// The safe fixes of all findings that are not switched off, as one sorted list of disjoint edits; `None` where
     /// there is none.
     pub(crate) fn fix_all(&self, settings: &Effective) -> Option<Vec<TextEdit>> {
+        Some(self.fixed(settings)?.0)
+    }
+
+    /// The same, and the program after them.
+    pub(crate) fn fixed(&self, settings: &Effective) -> Option<(Vec<TextEdit>, Document)> {
         let (findings, _) = self.findings(settings, usize::MAX);
-        let fixes = findings.par_iter().filter_map(|it| self.safe_fix(it));
-        self.together(fixes.collect())
+        let fixes = findings
+            .par_iter()
+            .filter_map(|finding| Some((finding, self.safe_fix(finding)?)));
+        self.mended(&findings, fixes.collect(), settings)
     }
 
     /// Whether [`Document::fix_all`] would change anything, by the first finding of all `found` for which it would. Where none of very many
     /// can be repaired the others are not looked at, and each try reads the program again: only a few are made alone.
-    pub(crate) fn can_be_fixed(&self, found: &[Finding]) -> bool {
+    pub(crate) fn can_be_fixed(&self, found: &[Finding], settings: &Effective) -> bool {
         const MOST_LOOKED_AT: usize = 1_000;
         const TRIED_ALONE: usize = 4;
+        let mends = |fixes| self.mended(found, fixes, settings).is_some();
         let mut fixes = Vec::new();
-        let some = found.iter().take(MOST_LOOKED_AT);
-        for fix in some.filter_map(|finding| self.safe_fix(finding)) {
-            if fixes.len() < TRIED_ALONE && self.together(vec![fix.clone()]).is_some() {
+        for finding in found.iter().take(MOST_LOOKED_AT) {
+            let Some(fix) = self.safe_fix(finding) else {
+                continue;
+            };
+            if fixes.len() < TRIED_ALONE && mends(vec![(finding, fix.clone())]) {
                 return true;
             }
-            fixes.push(fix);
+            fixes.push((finding, fix));
         }
-        fixes.len() > 1 && self.together(fixes).is_some()
+        fixes.len() > 1 && mends(fixes)
+    }
+
+    /// What of these fixes fits together and removes its finding, and the program after it; `found` are all findings. A fix whose
+    /// finding survives is left out, and the others are made without it.
+    fn mended<'a>(
+        &self,
+        found: &'a [Finding],
+        mut fixes: Vec<(&'a Finding, (Rule, TextFix))>,
+        settings: &Effective,
+    ) -> Option<(Vec<TextEdit>, Document)> {
+        loop {
+            let edits = self.together(fixes.iter().map(|(_, fix)| fix.clone()).collect())?;
+            let bytes = edited(self.text().bytes(), &edits)?;
+            let mended = Document::read(self.language(), bytes, settings);
+            let after = Ranges::of(&mended.findings(settings, usize::MAX).0);
+            let moved = Moved::by(&edits);
+            let is_made = |(_, (_, fix)): &(&Finding, (Rule, TextFix))| moved.makes(&fix.edit);
+            let made = fixes.iter().filter(|fix| is_made(fix));
+            let made: FxHashSet<*const Finding> = made
+                .map(|(finding, _)| std::ptr::from_ref(*finding))
+                .collect();
+            let is_left = |finding: &&Finding| !made.contains(&std::ptr::from_ref(*finding));
+            let unrepaired = moved.ranges(found.iter().filter(is_left));
+            let tried = fixes.len();
+            fixes.retain(|fix| !is_made(fix) || !moved.survives(fix.0, &after, &unrepaired));
+            if fixes.len() == tried {
+                return Some((edits, mended));
+            }
+        }
     }
 
     /// The fix of a finding that is safe to make with others.

@@ -18,6 +18,7 @@ pub(crate) mod grid;
 pub mod iso;
 mod layout;
 mod lookalikes;
+mod mended;
 pub(crate) mod notes;
 mod numbering;
 mod of_cut;

@@ -1,14 +1,20 @@
 //! Which documents lie beside each other: a program and its drawing. An open document takes precedence over the file on
 //! disk; a change to one has the other judged again.
+//!
+//! A worker looks on disk (`partner.rs`), at all documents that are asked about together. A document is asked about whenever it has
+//! been judged, all of them when settings or files have changed and when a drawing comes or anything goes.
 
 use super::config;
 use super::content::Content;
 use super::judge::Task;
-use super::partner::{From, Kept, Link, Wanted, stamp_of};
+use super::links::{Files, Link};
+use super::open::Open;
+use super::partner::{Look, Question};
 use super::state::State;
-use crate::beside::{self, Form, Named, head_of, name_of, plain};
+use crate::beside::{Beside, Form, HEAD, name_of, plain};
 use crate::finding::Rule;
-use std::collections::BTreeSet;
+use crate::text::head;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -17,261 +23,198 @@ fn file_of(uri: &str) -> Option<PathBuf> {
 }
 
 impl State {
-    /// Called when a document is opened: it may be the drawing of open programs.
-    pub(crate) fn note_path(&mut self, uri: &Arc<str>) {
+    /// Called when a document is opened, in place of one with this link if it was open already. It may be the drawing of open
+    /// programs.
+    pub(crate) fn opened_beside(&mut self, uri: &Arc<str>, old: &Link, is_program: bool) {
+        self.links.unlink(uri, old);
         let Some(path) = file_of(uri) else { return };
-        self.links.paths.insert(path, uri.clone());
-        let is_program = |uri: &&Arc<str>| {
-            let open = self.documents.get(*uri);
-            let document = open.and_then(|open| open.document());
-            document.is_some_and(|document| document.program().is_some())
-        };
-        let mut programs: Vec<Arc<str>> = self
-            .links
-            .paths
-            .values()
-            .filter(is_program)
-            .cloned()
-            .collect();
-        programs.sort_unstable();
-        for program in programs {
-            self.relink(&program, false);
+        self.links.paths_mut().insert(path.clone(), uri.clone());
+        self.poke_linked(&path);
+        if !is_program {
+            self.ask_all_beside();
         }
     }
 
-    /// The documents beside one that is to be judged.
-    pub(crate) fn wanted_beside(&mut self, uri: &Arc<str>) -> Option<Wanted> {
+    /// Called when a document is closed: the file takes its place.
+    pub(crate) fn closed_beside(&mut self, uri: &Arc<str>, link: &Link) {
+        self.links.unlink(uri, link);
+        let Some(path) = file_of(uri) else { return };
+        if self.links.open_at(&path).as_ref() == Some(uri) {
+            self.links.paths_mut().remove(&path);
+        }
+        self.poke_linked(&path);
+        for partner in link.paths() {
+            self.poke(partner);
+        }
+        self.ask_all_beside();
+    }
+
+    /// Has the partners of a document looked up.
+    pub(crate) fn ask_beside(&mut self, uri: &Arc<str>) {
+        self.links.asked.insert(uri.clone());
+    }
+
+    /// Has the partners of all documents looked up: files may have changed.
+    pub(crate) fn ask_all_beside(&mut self) {
+        self.links.asked.extend(self.documents.keys().cloned());
+    }
+
+    /// The same when settings have changed, by which files are read.
+    pub(crate) fn forget_files(&mut self) {
+        self.links.files = Files::default();
+        self.ask_all_beside();
+    }
+
+    /// Has a worker look up what has been asked; what is asked meanwhile waits for the next look.
+    pub(crate) fn look_beside(&mut self) {
+        if self.links.is_looking || self.links.asked.is_empty() {
+            return;
+        }
+        let mut questions = Vec::new();
+        for uri in std::mem::take(&mut self.links.asked) {
+            if self.documents.get(&uri).is_some_and(Open::is_away) {
+                // The next look is for what a worker has.
+                self.links.asked.insert(uri);
+                continue;
+            }
+            match self.question(&uri) {
+                Some(question) => questions.push(question),
+                // Its rule may have been switched off.
+                None => self.set_link(&uri, Link::Nothing),
+            }
+        }
+        if questions.is_empty() {
+            return;
+        }
+        let texts = self.settings_texts.iter().filter_map(|(path, uri)| {
+            let text = self.documents.get(uri)?.content.source_text()?;
+            Some((path.clone(), text.clone()))
+        });
+        let look = Look {
+            questions,
+            paths: self.links.paths.clone(),
+            files: self.links.files.clone(),
+            config: self.config.clone(),
+            settings_texts: texts.collect(),
+        };
+        self.links.is_looking = true;
+        self.on_a_worker(
+            "looking beside",
+            move || catch_unwind(AssertUnwindSafe(|| look.answered())),
+            |state, answers| {
+                state.links.is_looking = false;
+                for (uri, link) in answers.unwrap_or_default() {
+                    state.set_link(&uri, link);
+                }
+            },
+        );
+    }
+
+    /// What is to be looked up for a document; `None` for one that is compared with no other.
+    fn question(&self, uri: &Arc<str>) -> Option<Question> {
         let open = self.documents.get(uri)?;
-        let link = open.link.clone();
-        let mut wanted = Wanted {
-            others: Vec::new(),
-            partners: Vec::new(),
-            is_program: matches!(link, Link::Drawing(_)),
+        let path = file_of(uri)?;
+        let is_off = open.settings.severity(Rule::NotTheDrawing).is_none();
+        let (Content::Read(document), false) = (&open.content, is_off) else {
+            return None;
         };
-        let paths = match link {
-            Link::Drawing(Named { path, others }) => {
-                wanted.others = others.iter().map(|path| name_of(path)).collect();
-                vec![path]
-            }
-            Link::Programs(mut programs) => {
-                let path = file_of(uri)?;
-                let open = self.links.programs.get(&path).into_iter().flatten();
-                // An open document says itself whether it belongs here.
-                programs.retain(|path| !self.links.paths.contains_key(path));
-                programs.extend(open.filter_map(|uri| file_of(uri)));
-                programs.sort();
-                programs
-            }
-            Link::Nothing => return Some(wanted),
-        };
-        for path in paths {
-            let from = match self.links.paths.get(&path) {
-                Some(uri) => match self.documents.get(uri).and_then(|open| open.form.clone()) {
-                    Some(form) => From::Known(Ok(form)),
-                    // It is yet to be judged, and notifies its partners then.
-                    None => continue,
-                },
-                None => self.on_disk(&path),
-            };
-            wanted.partners.push((name_of(&path), from));
-        }
-        Some(wanted)
+        let program = document.program();
+        Some(Question {
+            uri: uri.clone(),
+            path,
+            head: program.map(|program| head(program.text().bytes(), HEAD).to_vec()),
+            setting: open.settings.drawing.clone(),
+        })
     }
 
-    fn on_disk(&mut self, path: &Path) -> From {
-        let stamp = stamp_of(path);
-        if let Some(kept) = self.links.files.get(path)
-            && kept.stamp == stamp
-        {
-            return From::Known(kept.form.clone());
-        }
-        let uri = config::uri_of(path).unwrap_or_default();
-        From::File {
-            path: path.to_path_buf(),
-            stamp,
-            settings: self.settings_for(&uri),
-        }
-    }
-
-    /// Stores the files read for a document, and notifies its partners of its new state.
-    pub(crate) fn judged_beside(
-        &mut self,
-        uri: &Arc<str>,
-        read: Vec<(PathBuf, Kept)>,
-        form: Option<Form>,
-    ) {
-        self.links.files.extend(read);
-        let mut is_new = false;
-        if let Some(open) = self.documents.get_mut(uri)
-            && form.is_some()
-        {
-            is_new = open.form != form;
-            open.form = form;
-        }
-        self.relink(uri, false);
-        if is_new {
-            self.poke_partners(uri);
-        }
-    }
-
-    /// Has the documents beside an open one judged again.
-    fn poke_partners(&mut self, uri: &Arc<str>) {
-        let Some(path) = file_of(uri) else { return };
-        let mut partners: BTreeSet<Arc<str>> =
-            self.links.programs.get(&path).cloned().unwrap_or_default();
-        let link = self.documents.get(uri).map(|open| &open.link);
-        if let Some(Link::Drawing(named)) = link {
-            partners.extend(self.links.paths.get(&named.path).cloned());
-        }
-        for partner in partners {
-            self.add_task(&partner, Task::Beside);
-        }
-    }
-
-    /// Finds the partners of a document; a drawing's partners are only searched for again when
-    /// files have changed.
-    fn relink(&mut self, uri: &Arc<str>, files_changed: bool) {
-        let Some(open) = self.documents.get(uri) else {
+    /// Sets the partners of a document; those before and those from now on are judged again.
+    fn set_link(&mut self, uri: &Arc<str>, link: Link) {
+        let Some(open) = self.documents.get_mut(uri) else {
             return;
-        };
-        let Content::Read(document) = &open.content else {
-            return;
-        };
-        let Some(path) = file_of(uri) else { return };
-        let settings = document.settings();
-        let is_asked = document.program().is_none()
-            && settings.severity(Rule::NotTheDrawing).is_some()
-            && (files_changed || open.link == Link::Nothing);
-        let folder = path.parent().filter(|_| is_asked);
-        let programs = folder.map(|folder| self.links.programs_in(folder));
-        let is_there = |path: &Path| self.links.paths.contains_key(path) || path.is_file();
-        let setting = settings.drawing.as_deref();
-        let link = match document.program() {
-            _ if settings.severity(Rule::NotTheDrawing).is_none() => Link::Nothing,
-            Some(program) => {
-                let head = program.text().bytes();
-                let named = beside::drawing_named(&path, head, setting, &is_there);
-                named.map_or(Link::Nothing, Link::Drawing)
-            }
-            None if is_asked => {
-                let is_own = |program: &Path| {
-                    let head = head_of(program);
-                    let named = beside::drawing_named(program, &head, setting, &is_there);
-                    named.is_some_and(|named| named.path == path)
-                };
-                Link::Programs(beside::programs_beside(
-                    programs.unwrap_or_default(),
-                    &is_own,
-                ))
-            }
-            None => return,
         };
         if open.link == link {
             return;
         }
-        let is_alone = match &link {
-            Link::Programs(programs) => {
-                programs.is_empty()
-                    && self
-                        .links
-                        .programs
-                        .get(&path)
-                        .is_none_or(BTreeSet::is_empty)
-            }
-            _ => false,
-        };
-        if is_alone && open.link == Link::Nothing {
-            return;
-        }
-        let drawing_of = |link: &Link| match link {
-            Link::Drawing(named) => Some(named.path.clone()),
-            _ => None,
-        };
-        let (old, new) = (drawing_of(&open.link), drawing_of(&link));
-        if let Some(open) = self.documents.get_mut(uri) {
-            open.link = link;
-            open.wants_form = true;
-        }
-        if old != new {
-            for drawing in old.into_iter() {
-                self.links
-                    .programs
-                    .entry(drawing.clone())
-                    .or_default()
-                    .remove(uri);
-                self.poke(&drawing);
-            }
-            for drawing in new.into_iter() {
-                self.links
-                    .programs
-                    .entry(drawing.clone())
-                    .or_default()
-                    .insert(uri.clone());
-                self.poke(&drawing);
-            }
+        let old = std::mem::replace(&mut open.link, link.clone());
+        self.links.unlink(uri, &old);
+        self.links.link(uri, &link);
+        for partner in old.paths().chain(link.paths()) {
+            self.poke(partner);
         }
         self.add_task(uri, Task::Beside);
     }
 
-    /// Has an open document compared again.
-    fn poke(&mut self, path: &Path) {
-        let Some(uri) = self.links.paths.get(path).cloned() else {
-            return;
+    /// What lies beside a document that is to be judged.
+    pub(crate) fn beside_of(&self, uri: &Arc<str>) -> Beside {
+        let Some(open) = self.documents.get(uri) else {
+            return Beside::Nothing;
         };
-        if let Some(open) = self.documents.get_mut(&uri) {
-            open.wants_form = true;
-            if open.link == Link::Nothing
-                && open.document().is_some_and(|own| own.program().is_none())
-            {
-                open.link = Link::Programs(Vec::new());
-            }
-        }
-        self.add_task(&uri, Task::Beside);
-    }
-
-    /// Called when a document is closed: its partners use the file.
-    pub(crate) fn closed_beside(&mut self, uri: &Arc<str>, link: &Link) {
-        let Some(path) = file_of(uri) else { return };
-        self.links.paths.remove(&path);
-        if let Link::Drawing(named) = link {
-            if let Some(programs) = self.links.programs.get_mut(&named.path) {
-                programs.remove(uri);
-            }
-            let drawing = self.links.paths.get(&named.path).cloned();
-            if let Some(drawing) = drawing {
-                self.relink(&drawing, true);
-                self.add_task(&drawing, Task::Beside);
-            }
-        }
-        for program in self.links.programs.get(&path).cloned().unwrap_or_default() {
-            self.relink(&program, true);
-            self.add_task(&program, Task::Beside);
-        }
-    }
-
-    /// Called when files have changed on disk: all partners are found again.
-    pub(crate) fn files_changed(&mut self) {
-        let mut uris: Vec<Arc<str>> = self.links.paths.values().cloned().collect();
-        uris.sort_unstable();
-        for uri in uris {
-            self.relink(&uri, true);
-            let has_partner = |link: &Link| match link {
-                Link::Nothing => false,
-                Link::Drawing(_) => true,
-                Link::Programs(programs) => !programs.is_empty(),
+        if let Link::Drawing(named, file) = &open.link {
+            let others = named.others.iter().map(|path| name_of(path));
+            let form = match self.links.open_at(&named.path) {
+                Some(drawing) => self.form_of(&drawing).map(Ok),
+                None => file.as_ref().map(|file| file.form.clone()),
             };
-            if self
-                .documents
-                .get(&uri)
-                .is_some_and(|open| has_partner(&open.link))
-            {
-                self.add_task(&uri, Task::Beside);
-            }
+            // What is not known yet is told when it has been judged.
+            return form.map_or(Beside::Nothing, |form| {
+                Beside::of_program((name_of(&named.path), form), others.collect())
+            });
+        }
+        let mut programs: Vec<(PathBuf, Result<Form, String>)> = Vec::new();
+        if let Link::Programs(on_disk) = &open.link {
+            // An open document says itself whether it belongs here.
+            let closed = on_disk
+                .iter()
+                .filter(|(path, _)| self.links.open_at(path).is_none());
+            programs.extend(closed.map(|(path, file)| (path.clone(), file.form.clone())));
+        }
+        if let Some(path) = file_of(uri) {
+            let linked = self.links.linked_to(&path).filter(|linked| {
+                let open = self.documents.get(*linked);
+                open.is_some_and(|open| matches!(open.link, Link::Drawing(..)))
+            });
+            let known = |uri: &Arc<str>| Some((file_of(uri)?, Ok(self.form_of(uri)?)));
+            programs.extend(linked.filter_map(known));
+        }
+        programs.sort_by(|(one, _), (other, _)| one.cmp(other));
+        let named = programs.into_iter();
+        Beside::of_drawing(named.map(|(path, form)| (name_of(&path), form)))
+    }
+
+    fn form_of(&self, uri: &str) -> Option<Form> {
+        self.documents.get(uri)?.form.clone()
+    }
+
+    /// True where other documents are compared with one.
+    pub(crate) fn is_compared(&self, uri: &Arc<str>) -> bool {
+        let is_linked = |open: &Open| open.link != Link::Nothing;
+        self.documents.get(uri).is_some_and(is_linked)
+            || file_of(uri).is_some_and(|path| self.links.linked_to(&path).next().is_some())
+    }
+
+    /// Has the documents beside an open one judged again.
+    pub(crate) fn poke_partners(&mut self, uri: &Arc<str>) {
+        if let Some(path) = file_of(uri) {
+            self.poke_linked(&path);
+        }
+        let link = self.documents.get(uri).map(|open| open.link.clone());
+        for partner in link.iter().flat_map(Link::paths) {
+            self.poke(partner);
         }
     }
 
-    /// Called when settings have changed, which files depend on.
-    pub(crate) fn forget_files(&mut self) {
-        self.links.files.clear();
+    /// Has the open documents judged again that are compared with a file.
+    fn poke_linked(&mut self, path: &Path) {
+        let linked: Vec<Arc<str>> = self.links.linked_to(path).cloned().collect();
+        for uri in linked {
+            self.add_task(&uri, Task::Beside);
+        }
+    }
+
+    /// Has the document of a file judged again, where it is open.
+    fn poke(&mut self, path: &Path) {
+        if let Some(uri) = self.links.open_at(path) {
+            self.add_task(&uri, Task::Beside);
+        }
     }
 }

@@ -24,7 +24,7 @@ pub(super) struct ProjectFile {
 /// The address of a rule's page, for clients that open such addresses by `wedm/rulePage`.
 const PAGE_OF_CLIENT: &str = "wedm-rule:/{rule}.md";
 
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct Config {
     /// The client opens pages of rules itself.
     pub(crate) rule_pages: bool,

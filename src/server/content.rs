@@ -23,6 +23,8 @@ pub(super) enum Content {
     Read(Arc<Document>),
     Settings(SourceText),
     Foreign,
+    /// A change of the text could not be read: what it is now only the client knows.
+    Lost(Kind),
     /// Not read yet, or reading or judging it panicked: the text or drawing is kept, and tried again with the next
     /// change.
     Unread(Remains),
@@ -57,14 +59,15 @@ impl Content {
             },
             Content::Unread(Remains::Text { kind, text }) => is_small_text(*kind, text.bytes()),
             Content::Unread(Remains::Drawing(drawing)) => is_small_drawing(drawing),
-            Content::Settings(_) | Content::Foreign | Content::Away => true,
+            Content::Settings(_) | Content::Foreign | Content::Lost(_) | Content::Away => true,
         }
     }
 
     pub(crate) fn kind(&self) -> Kind {
         match self {
             Content::Read(document) => kind_of(document),
-            Content::Unread(Remains::Text { kind, .. }) => *kind,
+            Content::Unread(Remains::Text { kind, .. }) | Content::Lost(kind) => *kind,
+            Content::Settings(_) => Kind::Settings,
             _ => Kind::Foreign,
         }
     }
@@ -73,7 +76,10 @@ impl Content {
         match self {
             Content::Read(document) => document.text(),
             Content::Settings(text) | Content::Unread(Remains::Text { text, .. }) => Some(text),
-            Content::Foreign | Content::Away | Content::Unread(Remains::Drawing(_)) => None,
+            Content::Foreign
+            | Content::Lost(_)
+            | Content::Away
+            | Content::Unread(Remains::Drawing(_)) => None,
         }
     }
 
@@ -83,7 +89,10 @@ impl Content {
             Content::Settings(text) | Content::Unread(Remains::Text { text, .. }) => {
                 text.replace(range, replacement)
             }
-            Content::Foreign | Content::Away | Content::Unread(Remains::Drawing(_)) => {}
+            Content::Foreign
+            | Content::Lost(_)
+            | Content::Away
+            | Content::Unread(Remains::Drawing(_)) => {}
             Content::Read(document) => {
                 let before = document.text().map_or(0, SourceText::len);
                 let edited = catch_unwind(AssertUnwindSafe(|| {
@@ -232,6 +241,7 @@ impl Content {
                 (convert::written(&told), 0)
             }
             Content::Foreign | Content::Away => (Written::default(), 0),
+            Content::Lost(_) => (convert::written(&[fault(say!(the_text_is_not_known))]), 1),
             Content::Unread(_) => (convert::written(&[internal_error()]), 1),
         }
     }
@@ -284,13 +294,18 @@ fn report(panic: &(dyn Any + Send)) {
 }
 
 fn internal_error() -> Diagnostic {
+    fault(say!(internal_error_the_document_could_not_be_judged))
+}
+
+/// A fault of the whole document.
+fn fault(message: &str) -> Diagnostic {
     Diagnostic {
         range: Range::default(),
         severity: 1,
         code: Rule::Syntax.name().into(),
         code_description: None,
         source: "wedm".into(),
-        message: say!(internal_error_the_document_could_not_be_judged).into(),
+        message: message.into(),
         related_information: None,
         data: None,
     }

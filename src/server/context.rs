@@ -2,6 +2,7 @@
 
 use super::client::Abilities;
 use super::config;
+use super::content::Content;
 use super::convert::{lsp_edits, lsp_range, range_of};
 use super::errors::{internal, moved_on, refused};
 use super::jobs::Progress;
@@ -185,6 +186,9 @@ impl RequestContext {
             None
         };
         let open = state.document(&about.uri)?;
+        if matches!(open.content, Content::Lost(_)) {
+            return Err(moved_on());
+        }
         let is_small =
             reach != Reach::Long && open.content.is_small() && open.findings <= FEW_FINDINGS;
         let context = RequestContext {

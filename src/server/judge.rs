@@ -4,16 +4,14 @@
 use super::changes;
 use super::content::{Content, Remains, is_small_drawing, is_small_text};
 use super::kind::Kind;
-use super::partner::{Kept, Wanted};
 use super::shown::Shown;
 use super::transport::Written;
-use crate::beside::Form;
+use crate::beside::{Beside, Form};
 use crate::drawing::Drawing;
 use crate::protocol::DrawingChange;
 use crate::settings::Effective;
 use crate::text::{Encoding, SourceText};
 use ls_types::TextDocumentContentChangeEvent;
-use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -57,7 +55,7 @@ pub(super) struct Job {
     pub(crate) is_slow: bool,
     /// The findings that the client has been shown.
     pub(crate) shown: Shown,
-    pub(crate) beside: Option<Wanted>,
+    pub(crate) beside: Beside,
     /// Other documents are compared with it.
     pub(crate) wants_form: bool,
     /// It has its form already.
@@ -74,9 +72,9 @@ pub(super) struct Judged {
     pub(crate) told: Option<(Written, usize)>,
     /// Judging took long.
     pub(crate) is_slow: bool,
-    /// Files that were read.
-    pub(crate) read: Vec<(PathBuf, Kept)>,
-    /// The data for comparing others with it, where that has changed.
+    /// It is another text or drawing than before, or under other settings.
+    pub(crate) is_other: bool,
+    /// The data for comparing others with it, where they are wanted and may have changed.
     pub(crate) form: Option<Form>,
     /// For the client's log.
     pub(crate) remarks: Vec<String>,
@@ -107,11 +105,7 @@ impl Job {
             Task::ChangeDrawing { changes, .. } => changes.len() <= FEW,
             Task::Settings | Task::Rebuild | Task::Beside | Task::Ready => true,
         };
-        let is_at_hand = self.beside.as_ref().is_none_or(Wanted::is_at_hand);
-        is_at_hand
-            && self.content.is_small()
-            && self.tasks.len() <= FEW
-            && self.tasks.iter().all(is_small_task)
+        self.content.is_small() && self.tasks.len() <= FEW && self.tasks.iter().all(is_small_task)
     }
 
     /// True where all of the document is read, which leaves memory behind.
@@ -192,25 +186,22 @@ impl Job {
                 },
                 Task::Settings => content.set_settings(&settings),
                 Task::Rebuild => content.forget(),
-                Task::Beside => {
-                    is_other |= wants_form && !has_form;
-                    continue;
-                }
+                Task::Beside => continue,
                 Task::Ready => {
                     content.make_ready();
                     continue;
                 }
             }
             is_changed |= refused.len() == refusals;
-            is_other |= wants_form;
+            is_other = true;
         }
         // A text or drawing that a panic has left unread is read again.
         is_changed |= matches!(content, Content::Unread(_));
-        is_other |= wants_form && matches!(content, Content::Unread(_));
+        is_other |= matches!(content, Content::Unread(_));
         content.read(&settings);
-        let (laid, read) = beside.map(Wanted::read).unwrap_or_default();
-        is_changed |= content.set_beside(laid);
-        let form = if is_other { content.form() } else { None };
+        is_changed |= content.set_beside(beside);
+        let is_asked = wants_form && (is_other || !has_form);
+        let form = if is_asked { content.form() } else { None };
         let related_of = shows_related.then_some(&*uri);
         let told =
             is_changed.then(|| content.diagnostics(encoding, related_of, &settings, &mut shown));
@@ -222,7 +213,7 @@ impl Job {
             is_slow: began.elapsed() > LONG,
             remarks,
             refused,
-            read,
+            is_other,
             form,
             uri,
         }

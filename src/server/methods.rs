@@ -162,7 +162,7 @@ impl LanguageServer for Backend {
             if of_settings {
                 state.settings_changed();
             }
-            state.files_changed();
+            state.ask_all_beside();
         });
     }
 
@@ -191,7 +191,7 @@ impl LanguageServer for Backend {
                 state.settings_changed();
             }
             if others {
-                state.files_changed();
+                state.ask_all_beside();
             }
         });
     }

@@ -16,6 +16,7 @@ mod handlers;
 mod jobs;
 mod judge;
 mod kind;
+mod links;
 mod methods;
 mod open;
 mod parent;
@@ -44,7 +45,7 @@ use std::time::Duration;
 use tracing_subscriber::filter::{LevelFilter, Targets};
 use tracing_subscriber::layer::SubscriberExt;
 use tracing_subscriber::util::SubscriberInitExt;
-use transport::{Inbox, Transport, Writer};
+use transport::{Inbox, LostChange, Transport, Writer};
 
 /// How the server is run.
 #[derive(Clone, Copy, Debug)]
@@ -148,6 +149,12 @@ impl Inbox for ToState {
     fn note(&self, text: String) {
         self.mailbox.tell("note", None, move |state| {
             state.client.log(client::Weight::Warning, text)
+        });
+    }
+
+    fn lost(&self, change: LostChange) {
+        self.mailbox.tell("lost", None, move |state| {
+            texts::lost(state, &change);
         });
     }
 

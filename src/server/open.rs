@@ -3,7 +3,7 @@
 use super::content::Content;
 use super::judge::Task;
 use super::kind::Kind;
-use super::partner::Link;
+use super::links::Link;
 use super::shown::Shown;
 use super::token_memory::TokenMemory;
 use crate::beside::Form;
@@ -42,7 +42,6 @@ pub(super) struct Open {
     pub(crate) link: Link,
     /// The data for comparing others with it, if there are any.
     pub(crate) form: Option<Form>,
-    pub(crate) wants_form: bool,
     /// The semantic tokens that the client holds.
     pub(crate) tokens: Arc<TokenMemory>,
 }
@@ -87,7 +86,6 @@ impl Open {
             shown: Shown::default(),
             link: Link::default(),
             form: None,
-            wants_form: false,
             tokens: Arc::default(),
         }
     }
@@ -107,6 +105,21 @@ impl Open {
             Content::Read(document) => Some(document),
             _ => None,
         }
+    }
+
+    /// True for a program, read or not.
+    pub(crate) fn is_program(&self) -> bool {
+        let is_read = self.document().is_some_and(|own| own.program().is_some());
+        let is_sent = |task: &Task| {
+            matches!(
+                task,
+                Task::Text {
+                    kind: Kind::Program(_),
+                    ..
+                }
+            )
+        };
+        is_read || self.tasks.iter().any(is_sent)
     }
 
     pub(crate) fn is_away(&self) -> bool {

@@ -1,137 +1,116 @@
-//! The partners of a document that is judged: the drawing of a program, the programs of a drawing.
+//! What lies beside open documents: the drawing of a program, the programs of a drawing. A worker looks it up on disk, so that no
+//! document waits for a slow or faulty disk.
+//!
+//! Nothing of the disk is kept but the data of files, each with the time stamp that it had: a later look asks for everything
+//! again.
 
-use crate::beside::{Beside, Form, Named, is_program, plain};
+use super::config::{self, Config, Search};
+use super::links::{Files, Kept, Link, Paths, Stamp};
+use crate::beside::{Folders, Form};
 use crate::disk;
 use crate::document::{Document, FileKind};
 use crate::settings::Effective;
+use crate::text::SourceText;
 use rustc_hash::FxHashMap;
-use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::time::{Duration, SystemTime};
+use std::sync::{Arc, PoisonError, Weak};
+use std::time::Duration;
 
-/// The partner or partners of an open document.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(super) enum Link {
-    #[default]
-    Nothing,
-    /// The drawing of a program.
-    Drawing(Named),
-    /// The programs of a drawing that lie in its folder.
-    Programs(Vec<PathBuf>),
-}
-
-/// The time of the last change of a file, and its length in bytes, when it was read.
-pub(super) type Stamp = Option<(SystemTime, u64)>;
-
-/// The partners of a document that is judged.
-pub(super) struct Wanted {
-    pub others: Vec<Arc<str>>,
-    pub partners: Vec<(Arc<str>, From)>,
-    pub(crate) is_program: bool,
-}
-
-pub(super) enum From {
-    Known(Result<Form, String>),
-    File {
-        path: PathBuf,
-        stamp: Stamp,
-        settings: Arc<Effective>,
-    },
-}
-
-/// A file that was read for another document.
-pub(super) struct Kept {
-    pub(crate) stamp: Stamp,
-    pub form: Result<Form, String>,
-}
-
-/// A larger drawing is not read beside a program, bytes.
+/// A larger file is not read beside another one, bytes.
 const LARGEST: u64 = 256 * 1024 * 1024;
 
-#[derive(Default)]
-pub(super) struct Links {
-    /// Open documents by their files.
-    pub paths: FxHashMap<PathBuf, Arc<str>>,
-    /// Open programs by their drawings.
-    pub programs: FxHashMap<PathBuf, BTreeSet<Arc<str>>>,
-    /// Files that are not open.
-    pub files: FxHashMap<PathBuf, Kept>,
-    /// Folders without a program, and when each had changed last.
-    without_programs: FxHashMap<PathBuf, SystemTime>,
-}
-
-/// A change to a folder this soon after another may leave its time stamp as it was.
+/// A change this soon after another may leave the time stamp as it was.
 const SOON: Duration = Duration::from_secs(2);
 
-impl Links {
-    /// The programs in a folder. This is needed after every edit of a drawing, so a folder without
-    /// programs is not read again until it has changed.
-    pub(super) fn programs_in(&mut self, folder: &Path) -> Vec<PathBuf> {
-        let changed = stamp_of(folder).map(|(changed, _)| changed);
-        if changed.is_some() && self.without_programs.get(folder) == changed.as_ref() {
-            return Vec::new();
-        }
-        let files = std::fs::read_dir(folder).into_iter().flatten();
-        let files = files.filter_map(|entry| Some(plain(&entry.ok()?.path())));
-        let programs: Vec<PathBuf> = files.filter(|path| is_program(path)).collect();
-        let is_old = |changed: &SystemTime| changed.elapsed().is_ok_and(|since| since > SOON);
-        match changed.filter(is_old) {
-            Some(changed) if programs.is_empty() => {
-                self.without_programs.insert(folder.into(), changed);
-            }
-            _ => drop(self.without_programs.remove(folder)),
-        }
-        programs
-    }
+/// What is asked about one document.
+pub(super) struct Question {
+    pub(super) uri: Arc<str>,
+    pub(super) path: PathBuf,
+    /// The first bytes of a program; `None` for a drawing.
+    pub(super) head: Option<Vec<u8>>,
+    /// `program.drawing`.
+    pub(super) setting: Option<String>,
 }
 
-impl Wanted {
-    /// True where no file has to be read for it.
-    pub(crate) fn is_at_hand(&self) -> bool {
-        let known = |(_, from): &(_, From)| matches!(from, From::Known(_));
-        self.partners.iter().all(known)
-    }
+/// The questions about several documents, which the disk answers as it is at one moment.
+pub(super) struct Look {
+    pub(super) questions: Vec<Question>,
+    pub(super) paths: Paths,
+    pub(super) files: Files,
+    pub(super) config: Arc<Config>,
+    /// The texts of open project files.
+    pub(super) settings_texts: FxHashMap<PathBuf, SourceText>,
+}
 
-    /// The partners of the document, and the files that were read for it.
-    pub(super) fn read(self) -> (Beside, Vec<(PathBuf, Kept)>) {
-        let mut read = Vec::new();
-        let mut forms = Vec::with_capacity(self.partners.len());
-        for (name, from) in self.partners {
-            let form = match from {
-                From::Known(form) => form,
-                From::File {
-                    path,
-                    stamp,
-                    settings,
-                } => {
-                    let form = form_of_file(&path, &settings);
-                    let kept = Kept {
-                        stamp,
-                        form: form.clone(),
+impl Look {
+    /// The documents, each with its partners.
+    pub(super) fn answered(self) -> Vec<(Arc<str>, Link)> {
+        let paths = self.paths.clone();
+        let is_open = move |path: &Path| {
+            let paths = paths.read().unwrap_or_else(PoisonError::into_inner);
+            paths.contains_key(path)
+        };
+        let folders = Folders::new(is_open);
+        let mut search = Search::default();
+        let mut answers = Vec::with_capacity(self.questions.len());
+        for question in &self.questions {
+            let setting = question.setting.as_deref();
+            let link = match &question.head {
+                Some(head) => match folders.drawing_of(&question.path, head, setting) {
+                    Some(named) if folders.is_open(&named.path) => Link::Drawing(named, None),
+                    Some(named) => {
+                        let file = self.file(&named.path, &mut search);
+                        Link::Drawing(named, Some(file))
+                    }
+                    None => Link::Nothing,
+                },
+                None => {
+                    let programs = folders.programs_of(&question.path, setting).into_iter();
+                    let read = |path: PathBuf| {
+                        let file = self.file(&path, &mut search);
+                        (path, file)
                     };
-                    read.push((path, kept));
-                    form
+                    let programs: Vec<_> = programs.map(read).collect();
+                    match programs.is_empty() {
+                        true => Link::Nothing,
+                        false => Link::Programs(programs),
+                    }
                 }
             };
-            forms.push((name, form));
+            answers.push((question.uri.clone(), link));
         }
-        let beside = match self.is_program {
-            true => match forms.into_iter().next() {
-                Some(drawing) => Beside::of_program(drawing, self.others),
-                None => Beside::Nothing,
-            },
-            false => Beside::of_drawing(forms),
-        };
-        (beside, read)
+        let mut files = self.files.lock().unwrap_or_else(PoisonError::into_inner);
+        files.retain(|_, kept| kept.strong_count() > 0);
+        answers
+    }
+
+    /// What a file holds that is not open.
+    fn file(&self, path: &Path, search: &mut Search) -> Arc<Kept> {
+        let lock = || self.files.lock().unwrap_or_else(PoisonError::into_inner);
+        let stamp = stamp_of(path);
+        let known = lock().get(path).and_then(Weak::upgrade);
+        let is_same = |known: &&Arc<Kept>| stamp.is_some() && known.stamp == stamp;
+        if let Some(known) = known.as_ref().filter(is_same) {
+            return known.clone();
+        }
+        let uri = config::uri_of(path).unwrap_or_default();
+        let opened = |file: &Path| self.settings_texts.get(file).cloned();
+        let project = self.config.file_for(&uri, search, &opened);
+        let settings = self.config.effective_for(&uri, project.as_deref());
+        let form = form_of_file(path, &settings);
+        if let Some(known) = known.filter(|known| stamp.is_none() && known.form == form) {
+            return known;
+        }
+        let kept = Arc::new(Kept { stamp, form });
+        lock().insert(path.to_path_buf(), Arc::downgrade(&kept));
+        kept
     }
 }
 
 /// Reads a file that is not open.
 fn form_of_file(path: &Path, settings: &Arc<Effective>) -> Result<Form, String> {
-    let file = std::fs::File::open(path).map_err(|error| disk::plain(&error))?;
-    let bytes = disk::read_at_most(&file, LARGEST)?;
+    let bytes = disk::read_path_at_most(path, LARGEST)?;
     let kind = FileKind::of_ending(&disk::ending_of(path)).unwrap_or(FileKind::Drawing);
     let form = catch_unwind(AssertUnwindSafe(|| {
         let (source, _) = kind.read(bytes, settings);
@@ -141,7 +120,9 @@ fn form_of_file(path: &Path, settings: &Arc<Effective>) -> Result<Form, String> 
     form.ok_or_else(|| say!(internal_error_the_document_could_not_be_judged).into())
 }
 
-pub(super) fn stamp_of(path: &Path) -> Stamp {
+fn stamp_of(path: &Path) -> Stamp {
     let metadata = std::fs::metadata(path).ok()?;
-    Some((metadata.modified().ok()?, metadata.len()))
+    let changed = metadata.modified().ok()?;
+    let is_old = changed.elapsed().is_ok_and(|since| since > SOON);
+    is_old.then_some((changed, metadata.len()))
 }

@@ -5,7 +5,6 @@ use super::config::{self, Level, ProjectFile, Search};
 use super::content::Content;
 use super::convert::{settings_diagnostics, written};
 use super::judge::Task;
-use super::open::Open;
 use super::state::State;
 use super::transport::Publish;
 use crate::finding::{Rule, Severity};
@@ -123,12 +122,14 @@ impl State {
                     settings
                 }
             };
-            let is_other = |open: &&mut Open| open.settings != settings;
-            let Some(open) = self.documents.get_mut(&uri).filter(is_other) else {
+            let Some(open) = self.documents.get_mut(&uri) else {
                 continue;
             };
-            open.settings = settings.clone();
-            if !matches!(open.content, Content::Settings(_)) {
+            let is_other = std::mem::replace(&mut open.settings, settings.clone()) != settings;
+            if matches!(open.content, Content::Settings(_)) {
+                // What is at fault there depends on the client's settings, too.
+                self.mark_dirty(&uri);
+            } else if is_other {
                 open.tasks.push(Task::Settings);
                 self.give_stamp(&uri);
                 self.unsettled.push_back(uri);
@@ -138,7 +139,7 @@ impl State {
 
     /// Replaces one level of the client's settings.
     pub(crate) fn set_level(&mut self, level: Level, json: &Value) {
-        for (severity, misfit) in self.config.set_level(level, json) {
+        for (severity, misfit) in Arc::make_mut(&mut self.config).set_level(level, json) {
             let weight = match severity {
                 Severity::Error => Weight::Error,
                 _ => Weight::Warning,
@@ -178,8 +179,7 @@ impl State {
                 .filter_map(|folder| config::path_of(folder.uri.as_str()))
                 .collect()
         };
-        self.config
-            .change_folders(&paths(&event.removed), paths(&event.added));
+        Arc::make_mut(&mut self.config).change_folders(&paths(&event.removed), paths(&event.added));
         self.settings_changed();
     }
 }

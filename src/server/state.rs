@@ -9,8 +9,9 @@ use super::content::Content;
 use super::convert::{settings_diagnostics, written};
 use super::jobs::Workers;
 use super::judge::{Job, Judged, Task};
+use super::kind::Kind;
+use super::links::Links;
 use super::open::Open;
-use super::partner::Links;
 use super::transport::{Publish, Writer, Written, give_back, panic_text};
 use crate::text::Encoding;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -83,7 +84,7 @@ impl Mailbox {
 
 pub(super) struct State {
     pub(crate) client: Client<State>,
-    pub(crate) config: Config,
+    pub(crate) config: Arc<Config>,
     pub(crate) encoding: Encoding,
     pub(crate) workers: Workers,
     /// Returns judged documents from workers.
@@ -121,7 +122,7 @@ pub(super) fn start(writer: Writer, refuse_change: RefuseChange) -> std::io::Res
     let workers = Workers::new(writer.clone());
     let state = State {
         client: Client::new(writer),
-        config: Config::default(),
+        config: Arc::default(),
         encoding: Encoding::default(),
         workers,
         mailbox: mailbox.clone(),
@@ -177,6 +178,7 @@ impl State {
             }
             self.judge_dirty();
             self.judge_unsettled();
+            self.look_beside();
             if began.elapsed() > LONG_TURN {
                 tracing::info!(
                     "a turn that began with {name} took {} ms",
@@ -185,6 +187,7 @@ impl State {
             }
             if self.away == 0
                 && self.unsettled.is_empty()
+                && self.links.is_at_rest()
                 && let Some(done) = self.stopped.take()
             {
                 self.workers.end();
@@ -307,8 +310,10 @@ impl State {
         {
             self.settings_texts.insert(path, uri.clone());
         }
-        self.documents.insert(uri.clone(), open);
-        self.note_path(&uri);
+        let is_program = open.is_program();
+        let old = self.documents.insert(uri.clone(), open);
+        let link = old.map(|old| old.link).unwrap_or_default();
+        self.opened_beside(&uri, &link, is_program);
         self.mark_dirty(&uri);
     }
 
@@ -323,7 +328,7 @@ impl State {
         let Some(open) = self.documents.remove(uri) else {
             return false;
         };
-        if matches!(open.content, Content::Settings(_)) {
+        if open.content.kind() == Kind::Settings {
             self.settings_texts.retain(|_, other| other != uri);
         }
         self.closed_beside(uri, &open.link);
@@ -369,7 +374,8 @@ impl State {
 
     /// Makes a document's pending changes: small work here, the rest on a worker.
     fn judge(&mut self, uri: &Arc<str>) {
-        let beside = self.wanted_beside(uri);
+        let beside = self.beside_of(uri);
+        let wants_form = self.is_compared(uri);
         let Some(open) = self.documents.get_mut(uri) else {
             return;
         };
@@ -385,7 +391,7 @@ impl State {
             is_slow: open.is_slow,
             shown: std::mem::take(&mut open.shown),
             beside,
-            wants_form: open.wants_form,
+            wants_form,
             has_form: open.form.is_some(),
         };
         if job.is_small() {
@@ -393,22 +399,36 @@ impl State {
             self.take_back(judged);
         } else {
             self.away += 1;
-            let mailbox = self.mailbox.clone();
             let reads = job.reads();
-            self.workers.judge(move || {
+            let work = move || {
                 let judged = job.run();
                 // Before the findings are told: whoever has been answered sees what the document takes from now on.
                 if reads {
                     give_back();
                 }
-                mailbox.tell("judging", None, move |state| {
-                    state.away -= 1;
-                    let uri = judged.uri.clone();
-                    state.take_back(judged);
-                    state.go_on(&uri);
-                });
+                judged
+            };
+            self.on_a_worker("judging", work, |state, judged| {
+                state.away -= 1;
+                let uri = judged.uri.clone();
+                state.take_back(judged);
+                state.go_on(&uri);
             });
         }
+    }
+
+    /// Has a worker do `work`, and acts on its result.
+    pub(crate) fn on_a_worker<T: Send + 'static>(
+        &self,
+        name: &'static str,
+        work: impl FnOnce() -> T + Send + 'static,
+        then: impl FnOnce(&mut State, T) + Send + 'static,
+    ) {
+        let mailbox = self.mailbox.clone();
+        self.workers.judge(move || {
+            let done = work();
+            mailbox.tell(name, None, move |state| then(state, done));
+        });
     }
 
     /// Takes back a document and publishes its findings.
@@ -422,7 +442,7 @@ impl State {
             is_slow,
             remarks,
             refused,
-            read,
+            is_other,
             form,
         } = judged;
         let Some(open) = self.documents.get_mut(&uri) else {
@@ -430,6 +450,10 @@ impl State {
         };
         (open.version, open.content, open.is_slow) = (version, content, is_slow);
         open.shown = shown;
+        let is_form_new = (is_other || form.is_some()) && open.form != form;
+        if is_form_new {
+            open.form = form;
+        }
         if let Some((diagnostics, findings)) = told {
             open.findings = findings;
             // The faults in a project's file depend on the client's settings as well.
@@ -459,7 +483,12 @@ impl State {
             open.is_dirty = true;
             self.dirty.push(uri.clone());
         }
-        self.judged_beside(&uri, read, form);
+        if is_other {
+            self.ask_beside(&uri);
+        }
+        if is_form_new {
+            self.poke_partners(&uri);
+        }
         for remark in remarks {
             self.client.log(Weight::Warning, remark);
         }

@@ -26,7 +26,7 @@ impl Default for Budget {
     fn default() -> Self {
         Budget {
             looks: 20_000_000,
-            looks_of_a_segment: 64,
+            looks_of_a_segment: 128,
             most_seen: 20_000,
         }
     }

@@ -5,6 +5,7 @@ use super::row::{LARGEST, Range, Row};
 use super::spelling::{is_slip, listed, named, nearest, snake_case};
 use super::value::{Entry, Node, Value};
 use super::{LengthSetting, PointSetting, RuleSeverity, SettingsError, shipped_profiles};
+use crate::disk::leads_to_the_network;
 use crate::drawing::{Color, Role};
 use crate::finding::Rule;
 use serde::de::DeserializeOwned;
@@ -170,12 +171,13 @@ impl Reader {
         self.misfit(key, node, expected)
     }
 
-    /// The path of a drawing.
+    /// The path of a drawing on this computer: settings may lie beside a drawing of a stranger.
     pub(super) fn path(&mut self, key: &str, node: &Node) -> Option<String> {
         let expected = say!(the_path_of_a_drawing);
         let path = self.text(key, node, expected)?;
         let lower = path.to_ascii_lowercase();
-        if lower.ends_with(".dxf") || lower.ends_with(".dxb") {
+        let is_drawing = lower.ends_with(".dxf") || lower.ends_with(".dxb");
+        if is_drawing && !leads_to_the_network(&path) {
             return Some(path);
         }
         self.misfit(key, node, expected)

@@ -102,7 +102,7 @@ fn two_parts_never_share_a_file() {
                  [workpieces]\n\"{one}\" = [\"PU\"]\n\"{other}\" = [\"PL\"]\n"
             ),
         );
-        let made = desk.run("pair x.dxf -o out");
+        let made = desk.run("pair x.dxf -o out --overwrite");
         let said = format!("the parts {one} and {other} would both be written to this file");
         assert_eq!(made.code, Some(i32::from(!is_made) * 2), "{made:?}");
         assert_eq!(made.stderr.contains(&said), !is_made, "{made:?}");

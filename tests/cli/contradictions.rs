@@ -33,7 +33,9 @@ fn contradictions_are_findings_and_never_a_default() {
             true => "milling",
             false => "3b",
         };
-        let generated = desk.run(&format!("generate x.dxf --format {format} -o x.out"));
+        let generated = desk.run(&format!(
+            "generate x.dxf --format {format} -o x.out --overwrite"
+        ));
         let is_said = generated.stderr.contains(says);
         let is_made = desk.path("x.out").exists();
         if !is_said || is_error && is_made {

@@ -12,7 +12,7 @@ fn a_fix_changes_its_numbers_and_no_other_byte() {
         ("inch.dxf", 2),
     ] {
         let before = desk.read(name);
-        let ended = desk.run(&format!("fix {name} -o fixed.dxf"));
+        let ended = desk.run(&format!("fix {name} -o fixed.dxf --overwrite"));
         assert_eq!(ended.code, Some(0), "{ended:?}");
         assert_eq!(desk.read(name), before, "{name} has been changed");
         let after = desk.read("fixed.dxf");
@@ -78,7 +78,7 @@ fn what_cannot_be_repaired_is_said_and_the_rest_is_repaired() {
     );
     check(
         &desk,
-        "fix both.dxf -o fixed.dxf",
+        "fix both.dxf -o fixed.dxf --overwrite",
         1,
         &[
             "!1 arc repaired",
@@ -89,7 +89,7 @@ fn what_cannot_be_repaired_is_said_and_the_rest_is_repaired() {
     check(&desk, "inspect fixed.dxf --output json", 1, &["0.101"]);
     check(
         &desk,
-        "fix fixed.dxf -o again.dxf",
+        "fix fixed.dxf -o again.dxf --overwrite",
         1,
         &[
             "!nothing could be repaired safely",

@@ -62,14 +62,14 @@ fn the_drill_list_is_a_table_and_a_layer_that_is_not_cut() {
     assert_eq!((list.code, list.stdout.as_str()), (Some(0), LIST));
     check(
         &desk,
-        &format!("holes plate.dxf {options} -o list.csv"),
+        &format!("holes plate.dxf {options} -o list.csv --overwrite"),
         0,
         &["!written list.csv: 3 holes"],
     );
     assert_eq!(desk.read("list.csv"), LIST.as_bytes());
     check(
         &desk,
-        &format!("holes plate.dxf {options} -o drilled.dxf"),
+        &format!("holes plate.dxf {options} -o drilled.dxf --overwrite"),
         0,
         &["!written drilled.dxf: 3 holes"],
     );
@@ -151,7 +151,7 @@ fn a_program_says_what_it_comes_to() {
         "wedm.toml",
         "side = \"auto\"\ngap = 0.02\n[passes]\nrates = [100]\n[job]\nthickness = 40\nmachine-rate = 60\n",
     );
-    let ended = desk.run("generate plate.dxf -o plate.3b");
+    let ended = desk.run("generate plate.dxf -o plate.3b --overwrite");
     for part in [
         "cut: ",
         ", which costs ",
@@ -162,18 +162,18 @@ fn a_program_says_what_it_comes_to() {
     ] {
         assert!(ended.stderr.contains(part), "{part} in {ended:?}");
     }
-    let ended = desk.run("generate plate.dxf -o plate.3b --lang zh");
+    let ended = desk.run("generate plate.dxf -o plate.3b --overwrite --lang zh");
     assert!(ended.stderr.contains("轮廓 A2 的落料：24.7 g"), "{ended:?}");
     // What is asked for and cannot be said names its keys; where nothing is asked nothing is reported.
     desk.write("wedm.toml", "side = \"auto\"\n[job]\nthickness = 40\n");
     check(
         &desk,
-        "generate plate.dxf -o plate.3b",
+        "generate plate.dxf -o plate.3b --overwrite",
         0,
         &["!not known, since not set: passes.rates, job.machine-rate, gap"],
     );
     desk.write("wedm.toml", "side = \"auto\"\n");
-    let ended = desk.run("generate plate.dxf -o plate.3b");
+    let ended = desk.run("generate plate.dxf -o plate.3b --overwrite");
     assert!(!ended.stderr.contains("not known"), "{ended:?}");
 }
 
@@ -267,7 +267,7 @@ fn a_drawing_with_the_holes_is_the_drawing() {
         desk.write("plate.dxf", &drawn);
         check(
             &desk,
-            &format!("holes plate.dxf {options} -o drilled.dxf"),
+            &format!("holes plate.dxf {options} -o drilled.dxf --overwrite"),
             0,
             &["!1 hole"],
         );

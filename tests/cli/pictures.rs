@@ -49,7 +49,7 @@ fn what_lies_far_beside_a_fault_is_no_hindrance() {
         let text = format!("0\nSECTION\n2\nENTITIES\n{all}0\nENDSEC\n0\nEOF\n");
         desk.write("far.dxf", &text);
         for ending in ["svg", "png", "pdf"] {
-            let made = desk.run(&format!("draw far.dxf -o far.{ending}"));
+            let made = desk.run(&format!("draw far.dxf -o far.{ending} --overwrite"));
             assert!(
                 desk.read(&format!("far.{ending}")).len() > 1000,
                 "{nth}: {}",
@@ -123,7 +123,7 @@ fn pictures_are_written_as_png_and_pdf_too() {
         ("a.pdf", b"%PDF-"),
         ("a.svg", b"<svg "),
     ] {
-        let ended = desk.run(&format!("--lang zh draw holes.dxf -o {target}"));
+        let ended = desk.run(&format!("--lang zh draw holes.dxf -o {target} --overwrite"));
         assert_eq!(ended.code, Some(0), "{ended:?}");
         let bytes = desk.read(target);
         assert!(bytes.starts_with(begins), "{target}: {} bytes", bytes.len());

@@ -206,7 +206,7 @@ fn programs_of_small_parts_are_not_taken_for_inches() {
         for compensation in ["path", "controller"] {
             let name = format!("{profile}-{compensation}.iso");
             let generate = format!(
-                "generate small.dxf --side opening --format iso --profile {profile} --compensation {compensation} -o {name}"
+                "generate small.dxf --side opening --format iso --profile {profile} --compensation {compensation} -o {name} --overwrite"
             );
             assert_eq!(desk.run(&generate).code, Some(0), "{generate}");
             let checked = desk.run(&format!("check {name} --output concise"));
@@ -285,7 +285,9 @@ fn a_pair_is_held_in_each_other_and_its_programs_are_written_once() {
     let pair = "--drawn-as punch --clearance 0.01";
     let thick = format!("{pair} --wire-diameter 0.18 --gap 0.01");
     let thin = format!("{pair} --wire-diameter 0.1 --gap 0.01");
-    let bound = desk.run(&format!("fit tight_fillet.dxf {thick} -o fit.svg"));
+    let bound = desk.run(&format!(
+        "fit tight_fillet.dxf {thick} -o fit.svg --overwrite"
+    ));
     assert_eq!(bound.code, Some(1), "{bound:?}");
     assert!(
         bound

@@ -30,7 +30,7 @@ fn a_settings_file_is_begun() {
         "work/wedm.schema.json",
         desk.run("config schema").stdout.as_bytes(),
     );
-    check(&desk, &format!("{begin} --force"), 0, &[]);
+    check(&desk, &format!("{begin} --overwrite"), 0, &[]);
     let text = String::from_utf8(desk.read("work/wedm.toml")).unwrap();
     assert!(
         text.starts_with("#:schema ./wedm.schema.json\n# "),
@@ -191,7 +191,7 @@ fn an_order_of_picks_without_picks_is_said() {
         "0\nSECTION\n2\nENTITIES\n0\nCIRCLE\n5\n2A\n10\n0\n20\n0\n40\n5\n0\nENDSEC\n0\nEOF\n",
     );
     let said = "no contour is picked";
-    let made = desk.run("generate x.dxf -o x.3b");
+    let made = desk.run("generate x.dxf -o x.3b --overwrite");
     assert!(
         made.code == Some(0) && made.stderr.contains(said),
         "{made:?}"

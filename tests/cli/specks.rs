@@ -11,7 +11,7 @@ fn no_speck_of_a_path_is_left_in_a_program() {
     for (format, ending) in [("3b", "3b"), ("iso", "iso")] {
         let out = format!("out.{ending}");
         let made = desk.run(&format!(
-            "generate fixed.dxf --side opening --format {format} -o {out}"
+            "generate fixed.dxf --side opening --format {format} -o {out} --overwrite"
         ));
         assert_eq!(made.code, Some(0), "{made:?}");
         let simulated = desk.run(&format!("simulate {out} --output json")).json();
@@ -76,7 +76,9 @@ fn an_arc_below_the_resolution_is_no_small_radius() {
         let found = checked.stdout.contains("error[small-radius]");
         assert_eq!(found, is_found, "{what}: {checked:?}");
         let settings = "--side opening --format iso --lead-in 2";
-        let made = desk.run(&format!("generate bump.dxf {settings} -o bump.iso"));
+        let made = desk.run(&format!(
+            "generate bump.dxf {settings} -o bump.iso --overwrite"
+        ));
         assert_eq!(made.code, Some(i32::from(is_found)), "{what}: {made:?}");
         if !is_found {
             let proof = made.stderr.split("at most ").nth(1);

@@ -135,7 +135,7 @@ fn files_of_others_are_not_overwritten() {
             &desk,
             command,
             2,
-            &[&format!("!{name}: it already exists"), "!--force"],
+            &[&format!("!{name}: it already exists"), "!--overwrite"],
         );
         assert_eq!(desk.read(name), b"correction = 0.2\n", "{command}");
         assert_eq!(
@@ -143,13 +143,46 @@ fn files_of_others_are_not_overwritten() {
             1,
             "{command}"
         );
-        check(&desk, &format!("{command} --force"), 0, &[]);
-        assert_ne!(desk.read(name), b"correction = 0.2\n", "{command} --force");
+        check(&desk, &format!("{command} --overwrite"), 0, &[]);
+        assert_ne!(
+            desk.read(name),
+            b"correction = 0.2\n",
+            "{command} --overwrite"
+        );
         // What an earlier run has written may be written again; `init` is asked each time.
         if !command.starts_with("init") {
             check(&desk, command, 0, &[]);
         }
         std::fs::remove_dir_all(desk.path("own")).unwrap();
+    }
+}
+
+#[test]
+fn a_file_that_holds_something_else_is_not_overwritten() {
+    let desk = Desk::new();
+    for (command, name) in [
+        ("generate clean.dxf --side opening -o x.3b", "x.3b"),
+        ("fix tight.dxf -o x.dxf", "x.dxf"),
+        ("format hole.3b -o x.3b", "x.3b"),
+        ("convert hole.3b -o x.dxf", "x.dxf"),
+        ("draw clean.dxf -o x.svg", "x.svg"),
+        ("holes clean.dxf --side opening -o x.csv", "x.csv"),
+    ] {
+        desk.write(name, "of somebody else\n");
+        check(
+            &desk,
+            command,
+            2,
+            &[&format!("!{name}: it already exists"), "!--overwrite"],
+        );
+        assert_eq!(desk.read(name), b"of somebody else\n", "{command}");
+        check(&desk, &format!("{command} --overwrite"), 0, &[]);
+        let made = desk.read(name);
+        assert_ne!(made, b"of somebody else\n", "{command}");
+        // The same again overwrites nothing.
+        check(&desk, command, 0, &[]);
+        assert_eq!(desk.read(name), made, "{command}");
+        std::fs::remove_file(desk.path(name)).unwrap();
     }
 }
 

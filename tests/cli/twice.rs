@@ -25,7 +25,7 @@ fn what_is_given_twice_is_said_with_both_places() {
         desk.write("wedm.toml", settings);
         desk.write("x.dxf", square(marks));
         let checked = desk.run("check x.dxf --select settings");
-        let made = desk.run("generate x.dxf --format 3b -o x.3b --force");
+        let made = desk.run("generate x.dxf --format 3b -o x.3b --overwrite --force");
         assert_eq!(
             checked.stdout.contains("warning[settings]"),
             made.stderr.contains("warning[settings]"),

@@ -361,7 +361,7 @@ fn a_program_without_end_is_refused() {
     ];
     check(
         &desk,
-        "generate far.dxf --side opening --format 3b -o out.3b",
+        "generate far.dxf --side opening --format 3b -o out.3b --overwrite",
         1,
         refused,
     );
@@ -374,7 +374,7 @@ fn a_program_without_end_is_refused() {
         &["!far.iso: the program would have more than 2000000 blocks: no machine takes that many"];
     check(
         &desk,
-        "convert far.iso --force --format 3b -o out.3b",
+        "convert far.iso --force --format 3b -o out.3b --overwrite",
         1,
         refused,
     );
@@ -387,7 +387,7 @@ fn a_program_without_end_is_refused() {
         &["!line.dxf: the program would have more than 2000000 blocks: no machine takes that many"];
     check(
         &desk,
-        "generate line.dxf --format milling -o out.iso",
+        "generate line.dxf --format milling -o out.iso --overwrite",
         1,
         refused,
     );

@@ -180,7 +180,7 @@ fn passes_without_a_stop_are_told_apart() {
             "G41_D1 5,0 5,5 -5,5 -5,-5 5,-5 5,0 G40 0,0 G42_{skim} 5,0 5,-5 -5,-5 -5,5 5,5 5,0 G40 0,0"
         ));
         std::fs::write(folder.path().join("in.iso"), &text).unwrap();
-        let (code, _, told) = wedm(folder.path(), "convert in.iso -o out.dxf");
+        let (code, _, told) = wedm(folder.path(), "convert in.iso -o out.dxf --overwrite");
         assert!(code == 0 && told.contains(": 1 contour\n"), "{told}");
         let made = dxf::Document::read(std::fs::read(folder.path().join("out.dxf")).unwrap());
         let closed = |(_, entity): (EntityId, &wedm::drawing::Entity)| match &entity.geometry {

@@ -140,9 +140,9 @@ fn contours_of_four_b_lie_where_the_part_has_them() {
     for (side, correction) in [("opening", "0.1"), ("punch", "0.155")] {
         for arguments in [
             format!(
-                "generate two.dxf --side {side} --correction {correction} --format 4b -o {side}.4b"
+                "generate two.dxf --side {side} --correction {correction} --format 4b -o {side}.4b --overwrite"
             ),
-            format!("convert {side}.4b --correction {correction} -o {side}.dxf"),
+            format!("convert {side}.4b --correction {correction} -o {side}.dxf --overwrite"),
         ] {
             let (code, _, errors) = wedm(folder.path(), &arguments);
             assert_eq!(code, 0, "{arguments}: {errors}");

@@ -70,7 +70,7 @@ fn the_correction_is_never_lost_without_a_word() {
     ] {
         let (code, out, errors) = wedm(
             folder.path(),
-            &format!("convert {from} --force --format {to} -o out.{to}"),
+            &format!("convert {from} --force --format {to} -o out.{to} --overwrite"),
         );
         assert_eq!(code, 1, "{from} to {to}: {out}{errors}");
         assert!(errors.contains(said), "{from} to {to}: {errors}");
@@ -91,7 +91,7 @@ fn the_correction_is_never_lost_without_a_word() {
     ] {
         let (code, out, errors) = wedm(
             folder.path(),
-            &format!("convert {from} --force --format {to} -o out.x"),
+            &format!("convert {from} --force --format {to} -o out.x --overwrite"),
         );
         let all = format!("{out}{errors}");
         assert_eq!(code, 0, "{from} to {to}: {all}");
@@ -117,13 +117,16 @@ fn a_taper_is_dropped_only_where_it_is_forced() {
         std::fs::write(folder.path().join("in.iso"), text).unwrap();
         std::fs::write(folder.path().join("wedm.toml"), "[job]\nthickness = 40\n").unwrap();
         for to in ["iso", "3b", "dxf"] {
-            let (code, _, said) = wedm(folder.path(), &format!("convert in.iso -o {name}.{to}"));
+            let (code, _, said) = wedm(
+                folder.path(),
+                &format!("convert in.iso -o {name}.{to} --overwrite"),
+            );
             assert_eq!(code, i32::from(leans), "{name} as {to}: {said}");
             assert_eq!(folder.path().join(format!("{name}.{to}")).exists(), !leans);
             assert_eq!(said.contains("--force"), leans, "{name} as {to}: {said}");
             let (code, _, said) = wedm(
                 folder.path(),
-                &format!("convert in.iso --force -o {name}.{to}"),
+                &format!("convert in.iso --force -o {name}.{to} --overwrite"),
             );
             assert_eq!(code, 0, "{name} as {to}: {said}");
             assert!(said.contains("not written: the taper"), "{said}");
@@ -150,7 +153,7 @@ fn a_line_that_cannot_be_read_is_refused() {
             std::fs::write(folder.path().join("wedm.toml"), settings).unwrap();
             std::fs::write(folder.path().join(name), text).unwrap();
             for to in ["3b", "iso", "dxf"] {
-                let arguments = format!("convert {name} -o new.{to}");
+                let arguments = format!("convert {name} -o new.{to} --overwrite");
                 let (code, out, said) = wedm(folder.path(), &arguments);
                 assert_eq!(code, 1, "{arguments}, {level}: {out}{said}");
                 let says = if level == "error" {
@@ -192,7 +195,7 @@ fn the_command_converts_and_refuses() {
         "written hole.dxf: 1 contour",
     );
     check(
-        "convert hole.3b -o hole.iso --profile fast-wire",
+        "convert hole.3b -o hole.iso --overwrite --profile fast-wire",
         0,
         "written hole.iso: 4 blocks, 1 contour",
     );
@@ -212,7 +215,7 @@ fn the_command_converts_and_refuses() {
         "G92 X0. Y-5.\nG90\nG42 D1\nG01 X0. Y0.\nX9. Y0.\nG03 X10. Y1. I0. J1.\nG01 Y10.\nX-10. Y10.\nY0.\nX0.\nG40\nG01 Y-5.\nM02\n",
     );
     check(
-        "convert part.iso -o part.4b --correction 0.15",
+        "convert part.iso -o part.4b --overwrite --correction 0.15",
         0,
         "written part.4b: 11 blocks, 1 contour",
     );
@@ -239,7 +242,7 @@ fn the_command_converts_and_refuses() {
     );
     check("convert off.iso -o off.dxf", 1, "the program has 1 error");
     check(
-        "convert off.iso -o off.dxf --force",
+        "convert off.iso -o off.dxf --overwrite --force",
         0,
         "left out, since they lead nowhere: lines 4",
     );
@@ -286,7 +289,7 @@ fn words_beside_the_moves_are_not_lost_without_a_word() {
         std::fs::write(folder.path().join("in.iso"), square(beside)).unwrap();
         let is_refused = said.contains("moves the wire");
         for to in ["iso", "3b", "dxf"] {
-            let arguments = format!("convert in.iso --format {to} -o out.{to}");
+            let arguments = format!("convert in.iso --format {to} -o out.{to} --overwrite");
             let (code, _, told) = wedm(folder.path(), &arguments);
             assert_eq!(code, i32::from(is_refused), "{beside:?} as {to}: {told}");
             let is_told = !said.is_empty();
@@ -308,7 +311,7 @@ fn words_beside_the_moves_are_not_lost_without_a_word() {
     }
     let remark = "B9900B0B9900GXL1 ; in\nB9900B0B39600GYNR1\nB9900B0B9900GXL3\nDD\n";
     std::fs::write(folder.path().join("hole.3b"), remark).unwrap();
-    let (code, _, told) = wedm(folder.path(), "convert hole.3b -o hole.iso");
+    let (code, _, told) = wedm(folder.path(), "convert hole.3b -o hole.iso --overwrite");
     assert!(
         code == 0 && told.contains("not written: the comments"),
         "{told}"
@@ -336,7 +339,8 @@ fn options_that_a_conversion_does_not_follow_are_not_offered() {
         "side opening",
     ] {
         for to in ["iso", "3b", "4b", "dxf"] {
-            let arguments = format!("convert hole.3b --format {to} -o out.{to} --{option}");
+            let arguments =
+                format!("convert hole.3b --format {to} -o out.{to} --overwrite --{option}");
             let (code, _, told) = wedm(folder.path(), &arguments);
             assert!(
                 code == 2 && told.contains("unexpected argument"),
@@ -355,7 +359,7 @@ fn options_that_a_conversion_does_not_follow_are_not_offered() {
         ("profile robofil", "iso", 0, ""),
         ("end E", "3b", 0, ""),
     ] {
-        let arguments = format!("convert hole.3b --format {to} -o out.{to} --{option}");
+        let arguments = format!("convert hole.3b --format {to} -o out.{to} --overwrite --{option}");
         let (ended, _, told) = wedm(folder.path(), &arguments);
         assert_eq!(ended, code, "{arguments}: {told}");
         assert_eq!(
@@ -368,7 +372,7 @@ fn options_that_a_conversion_does_not_follow_are_not_offered() {
     // The keys of a file are for all commands.
     let keys = "correction = 0.2\nside = \"opening\"\n[program]\ndirection = \"cw\"\ntab = 3\n";
     std::fs::write(folder.path().join("wedm.toml"), keys).unwrap();
-    let (code, _, told) = wedm(folder.path(), "convert hole.3b -o hole.iso");
+    let (code, _, told) = wedm(folder.path(), "convert hole.3b -o hole.iso --overwrite");
     assert!(code == 0 && !told.contains("does nothing"), "{told}");
 }
 
@@ -379,7 +383,7 @@ fn blocks_that_are_long_for_other_digits_are_split() {
     let long = "B25000B0B25000GXL1\nB0B12000B12000GYL2\nB25000B12000B25000GXL3\nDD\n";
     std::fs::write(folder.path().join("long.3b"), long).unwrap();
     for (to, blocks) in [("3b", 8), ("iso", 3)] {
-        let arguments = format!("convert long.3b --format {to} -o new.{to} --digits 4");
+        let arguments = format!("convert long.3b --format {to} -o new.{to} --overwrite --digits 4");
         let (code, _, told) = wedm(folder.path(), &arguments);
         let said = format!("written new.{to}: {blocks} blocks");
         assert!(code == 0 && told.contains(&said), "{arguments}: {told}");
@@ -390,7 +394,7 @@ fn blocks_that_are_long_for_other_digits_are_split() {
     // A number that no usual controller takes is more likely wrong than long.
     let odd = "B2500000B0B2500000GXL1\nB2500000B0B2500000GXL3\nDD\n";
     std::fs::write(folder.path().join("odd.3b"), odd).unwrap();
-    let (code, out, told) = wedm(folder.path(), "convert odd.3b -o odd.iso");
+    let (code, out, told) = wedm(folder.path(), "convert odd.3b -o odd.iso --overwrite");
     let all = format!("{out}{told}");
     assert!(code == 1 && all.contains("too-many-digits"), "{all}");
 }
@@ -413,7 +417,7 @@ fn arcs_with_rounded_centres_are_fitted() {
         std::fs::write(folder.path().join("in.iso"), text).unwrap();
         for to in ["iso", "3b", "dxf"] {
             // A drawing of the same name would be compared with the programs.
-            let arguments = format!("convert in.iso -o {name}-{to}.{to}");
+            let arguments = format!("convert in.iso -o {name}-{to}.{to} --overwrite");
             let (code, _, told) = wedm(folder.path(), &arguments);
             assert_eq!(code, 0, "{arguments}: {told}");
         }

@@ -175,7 +175,7 @@ fn what_is_not_followed_is_refused_and_said() {
         let text = format!("G92 X0 Y0\nG90\n{}\nM02\n", lines.join("\n"));
         std::fs::write(folder.path().join("in.iso"), &text).unwrap();
         for to in ["iso", "3b", "dxf"] {
-            let arguments = format!("convert in.iso --format {to} -o out.{to}");
+            let arguments = format!("convert in.iso --format {to} -o out.{to} --overwrite");
             let out = folder.path().join(format!("out.{to}"));
             _ = std::fs::remove_file(&out);
             let (code, _, told) = wedm(folder.path(), &arguments);

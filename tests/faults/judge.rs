@@ -128,16 +128,13 @@ fn with(document: &Document, edits: &[TextEdit]) -> Option<String> {
 }
 
 /// The program that fix-all leaves.
-fn fixed(group: Group, document: &Document) -> Document {
+fn fixed(document: &Document) -> Document {
     let mut present = document.clone();
     for _ in 0..ROUNDS {
-        let Some(edits) = present.fix_all_in_text() else {
+        let Some((_, repaired)) = present.round() else {
             break;
         };
-        let Some(text) = with(&present, &edits) else {
-            break;
-        };
-        present = read(group, &text);
+        present = repaired;
     }
     present
 }
@@ -155,7 +152,7 @@ pub enum Left {
 /// What fix-all leaves of a program with a fault, and the text of it.
 pub fn left_of(group: Group, sound: &str, faulty: &str) -> (Left, String) {
     let document = read(group, faulty);
-    let left = fixed(group, &document);
+    let left = fixed(&document);
     let text = left.text().map(|text| text.as_str_lossy().into_owned());
     let text = text.unwrap_or_default();
     let made = acts(&left);
@@ -197,7 +194,7 @@ pub fn judge(group: Group, sound: &str, faulty: &Faulty) -> Option<Verdict> {
     let first_fix = first_text
         .as_ref()
         .is_some_and(|text| is_same(&meant, &acts(&read(group, text))));
-    let mut present = fixed(group, &document);
+    let mut present = fixed(&document);
     let left = acts(&present);
     let outcome = if is_same(&left, &meant) {
         Outcome::Right

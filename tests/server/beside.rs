@@ -197,3 +197,69 @@ fn a_drawing_that_the_settings_name_at_last_is_compared_at_once() {
     unlike(&mut client, &program, 2);
     client.shut_down();
 }
+
+/// What has been found before is no matter: a program that is closed is the one on disk.
+#[test]
+fn a_program_that_is_closed_unsaved_belongs_to_its_drawing_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    let mut client = start(folder.path());
+    std::fs::write(path("other.dxf"), plate(1.0)).unwrap();
+    std::fs::write(path("plate.3b"), PROGRAM).unwrap();
+    let (drawing, program) = (uri_of(&path("plate.dxf")), uri_of(&path("plate.3b")));
+    open(&mut client, &drawing, "dxf", &plate(0.05));
+    unlike(&mut client, &drawing, 2);
+    open(&mut client, &program, "3b", PROGRAM);
+    unlike(&mut client, &program, 2);
+    change(&mut client, &program, 2, &format!("; other.dxf\n{PROGRAM}"));
+    unlike(&mut client, &drawing, 0);
+    client.notify(
+        "textDocument/didClose",
+        json!({ "textDocument": { "uri": program } }),
+    );
+    unlike(&mut client, &drawing, 2);
+    client.shut_down();
+}
+
+#[test]
+fn a_drawing_that_the_settings_no_longer_name_is_compared_no_longer() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    let mut client = start(folder.path());
+    std::fs::write(path("other.dxf"), plate(0.0)).unwrap();
+    std::fs::write(path("plate.3b"), PROGRAM).unwrap();
+    let drawing = uri_of(&path("plate.dxf"));
+    open(&mut client, &drawing, "dxf", &plate(0.05));
+    unlike(&mut client, &drawing, 2);
+    let settings = uri_of(&path("wedm.toml"));
+    let named = "side = \"opening\"\n[program]\ndrawing = \"other.dxf\"\n";
+    open(&mut client, &settings, "toml", named);
+    unlike(&mut client, &drawing, 0);
+    // Its text counts while it is open; on disk there is none such.
+    client.notify(
+        "textDocument/didClose",
+        json!({ "textDocument": { "uri": settings } }),
+    );
+    unlike(&mut client, &drawing, 2);
+    client.shut_down();
+}
+
+#[cfg(unix)]
+#[test]
+fn a_pipe_beside_a_drawing_holds_up_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    let mut client = start(folder.path());
+    let made = std::process::Command::new("mkfifo")
+        .args([path("a.3b"), path("b.dxf")])
+        .status();
+    assert!(made.unwrap().success());
+    std::fs::write(path("plate.3b"), PROGRAM).unwrap();
+    let drawing = uri_of(&path("plate.dxf"));
+    open(&mut client, &drawing, "dxf", &plate(0.05));
+    unlike(&mut client, &drawing, 2);
+    let program = uri_of(&path("c.3b"));
+    open(&mut client, &program, "3b", &format!("; b.dxf\n{PROGRAM}"));
+    unlike(&mut client, &program, 0);
+    client.shut_down();
+}

@@ -28,6 +28,22 @@ fn the_exit_code_tells_whether_shutdown_came_before() {
         0,
     );
     check(
+        "shutdown with empty params, exit",
+        |client| {
+            client.request("shutdown", json!({})).unwrap();
+            client.notify("exit", json!({}));
+        },
+        0,
+    );
+    check(
+        "shutdown with a list of none, exit",
+        |client| {
+            client.request("shutdown", json!([])).unwrap();
+            client.notify("exit", json!([]));
+        },
+        0,
+    );
+    check(
         "shutdown, end of stdin",
         |client| {
             client.request("shutdown", Value::Null).unwrap();

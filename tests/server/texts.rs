@@ -1,6 +1,6 @@
 //! Text documents: incremental sync, encodings, and clients that do odd things.
 
-use crate::support::{Client, TIGHT, capabilities, codes, dxf_of, small};
+use crate::support::{Client, TIGHT, capabilities, codes, dxf_of, frame, small};
 use serde_json::{Value, json};
 
 const URI: &str = "file:///plate.dxf";
@@ -207,5 +207,54 @@ fn a_file_that_is_not_what_it_claims_to_be_gets_one_diagnostic() {
         let found = client.open_text(&format!("file:///{index}.dxf"), "dxf", text);
         assert!(found.len() <= 2, "{text:.20}: {found:?}");
     }
+    client.shut_down();
+}
+
+#[test]
+fn a_change_that_cannot_be_read_asks_for_the_whole_text() {
+    let text = dxf_of(&[("2A", &TIGHT)]);
+    let malformed = json!({ "jsonrpc": "2.0", "method": "textDocument/didChange",
+        "params": { "textDocument": { "uri": URI, "version": 2 }, "contentChanges": [{ "range": 3, "text": "" }] } });
+    let cut_off = malformed.to_string();
+    let cut_off = &cut_off[..cut_off.len() - 3];
+    for broken in [&malformed.to_string(), cut_off] {
+        let mut client = Client::start();
+        assert_eq!(small(&client.open_text(URI, "dxf", &text)), 1);
+        client.send_bytes(&frame(broken));
+        let shown = client.told("window/showMessage");
+        assert!(
+            shown["message"].as_str().unwrap().starts_with(URI),
+            "{shown}"
+        );
+        assert_eq!(codes(&client.diagnostics(URI, 1)), ["syntax"]);
+        // It would be made at a wrong place.
+        change(&mut client, 3, json!([replace((0, 0), (9, 0), "")]));
+        let symbols = json!({ "textDocument": { "uri": URI } });
+        assert_eq!(client.code("textDocument/documentSymbol", symbols), -32801);
+        let whole = json!([{ "text": "?" }, { "text": text }, replace((0, 0), (0, 0), "999\nx\n")]);
+        change(&mut client, 4, whole);
+        assert_eq!(small(&client.diagnostics(URI, 4)), 1);
+        assert!(
+            client
+                .settle()
+                .iter()
+                .all(|message| message["method"] != "window/showMessage")
+        );
+        client.shut_down();
+    }
+}
+
+#[test]
+fn half_a_letter_is_one_letter() {
+    let mut client = Client::start();
+    let text = format!("999\n!\n{}", dxf_of(&[("2A", &TIGHT)]));
+    client.open_text(URI, "dxf", &text);
+    let body = json!({ "jsonrpc": "2.0", "method": "textDocument/didChange", "params": {
+        "textDocument": { "uri": URI, "version": 2 }, "contentChanges": [replace((1, 0), (1, 0), "HALF")] } });
+    client.send_bytes(&frame(&body.to_string().replace("HALF", "\\ud83d")));
+    assert_eq!(small(&client.diagnostics(URI, 2)), 1);
+    // Were it none, or two, the next line would be torn.
+    change(&mut client, 3, json!([replace((1, 0), (1, 2), "")]));
+    assert_eq!(small(&client.diagnostics(URI, 3)), 1);
     client.shut_down();
 }

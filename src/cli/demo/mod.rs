@@ -29,7 +29,7 @@ pub(crate) struct Arguments {
     #[arg(value_name = "DIR", default_value = "wedm-demo")]
     folder: PathBuf,
     #[arg(long)]
-    force: bool,
+    overwrite: bool,
     #[command(flatten)]
     common: Common,
 }
@@ -76,7 +76,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
             say!(the_demonstration_brings_its_own_settings_expected_correction_alone).into(),
         ));
     }
-    if !arguments.force {
+    if !arguments.overwrite {
         refuse_foreign(&arguments.folder)?;
     }
     std::fs::create_dir_all(&arguments.folder).map_err(|error| {
@@ -119,7 +119,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         ),
     ] {
         let path = arguments.folder.join(name);
-        output::write(Some(&path), bytes)?;
+        output::write(Some(&path), bytes, true)?;
         narrator.say(&format!("{}  {what}", output::name(&path)));
     }
     narrator.step(say!(next_steps));

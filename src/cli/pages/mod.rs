@@ -29,7 +29,7 @@ pub(crate) struct Arguments {
     #[arg(short, long, value_name = "FOLDER", default_value = "report")]
     output: PathBuf,
     #[arg(long)]
-    force: bool,
+    overwrite: bool,
     #[arg(long, default_value = "3b", value_parser = Format::of)]
     format: Format,
     #[command(flatten)]
@@ -57,7 +57,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         .into_iter()
         .map(|path| (path, name_of(path, &mut names)))
         .collect();
-    if !arguments.force {
+    if !arguments.overwrite {
         for (_, name) in &drawings {
             output::refuse_foreign(&folder.join(name), html::MARK)?;
         }
@@ -72,7 +72,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
             .and_then(|opened| Page::of(opened, arguments.format));
         match page {
             Ok(page) => {
-                output::write(Some(&folder.join(&name)), page.html().as_bytes())?;
+                output::write(Some(&folder.join(&name)), page.html().as_bytes(), true)?;
                 verdict = verdict.max(Verdict::of_errors(page.has_errors()));
                 lines.push((name, page.line));
             }
@@ -82,7 +82,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
             }
         }
     }
-    output::write(Some(&index), index::index(&lines).as_bytes())?;
+    output::write(Some(&index), index::index(&lines).as_bytes(), true)?;
     output::say(&say!(
         pages_are_written,
         styled(output::GOOD, say!(written)),

@@ -7,6 +7,21 @@ use crate::geometry::{Point, positive_angle};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
+#[test]
+fn the_same_drawing_is_the_same_file() {
+    let mut drawing = Drawing::new(Some(Unit::MILLIMETRE));
+    let circle = Geometry::Circle {
+        center: Point::new(1.0, 2.0),
+        radius: 3.0,
+    };
+    drawing.push(Entity::new("1", "0", circle));
+    let written = write(&drawing).unwrap();
+    std::thread::sleep(std::time::Duration::from_millis(20));
+    assert_eq!(write(&drawing).unwrap(), written);
+    let text = String::from_utf8(written).unwrap();
+    assert!(!text.contains("GUID") && !text.contains("$TD"), "{text}");
+}
+
 /// Asserts that two drawings hold the same within 1e-11, angles modulo a turn; handles and kinds only where asked.
 fn assert_same(left: &Drawing, right: &Drawing, with_handles: bool) {
     assert_eq!(left.len(), right.len());

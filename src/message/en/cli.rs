@@ -26,7 +26,6 @@ declare! {
     verdict_of_an_overlap(fits, over, wanted, places) => "{fits}: the parts overlap by {over:.1} µm where it is tightest, {wanted:.1} µm of clearance are wanted; it is missing at {places}";
     verdict_of_the_fit(fits, least, wanted, places) => "{fits}: {least:.1} µm of {wanted:.1} are left where it is tightest, clearance is missing at {places}";
     everywhere_more_is_left(more) => "; everywhere {more:.1} µm more is left than there should be";
-    the_program_is_there_already => "it already exists, expected a folder without it, or --overwrite";
     the_program_of_a_part_is_written(written, target, part, corrections, blocks, length) => "{written} {target}: {part}, correction {corrections} mm, {blocks}, {length}";
     two_parts_in_one_file(one, other) => "the parts {one} and {other} would both be written to this file; expected names of workpieces that differ in more than case and characters that a file name cannot hold";
     some_passes_run_on_the_other_side(part, passes) => "      {part}: the clearance lies between the corrections, so the wire runs on the other side of what is drawn in pass {passes}, at the distance that is given with a minus sign";
@@ -52,8 +51,8 @@ declare! {
     next_steps => "Go on with";
     the_settings_of_this_session => "the settings of this session";
     left_in_all(counts, path) => "{counts}; wedm check {path} says where";
-    it_is_there_already => "it already exists, expected a folder without one, or --force";
-    it_is_of_somebody_else => "it already exists and is not from an earlier run, expected another folder, or --force";
+    it_is_there_already => "it already exists and holds something else, expected another name, or --overwrite";
+    it_is_of_somebody_else => "it already exists and is not from an earlier run, expected another folder, or --overwrite";
     expected(what) => "expected {what}";
     not_written_as_it_would_be_refused(reason) => "no settings come of these numbers: {reason}";
     wire_diameter_mm => "diameter of the wire, mm";

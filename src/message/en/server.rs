@@ -15,6 +15,8 @@ declare! {
     is_not_open(uri) => "{uri} is not open";
     was_changed_without_being_open(uri) => "{uri} was changed without being open as a text: nothing was done";
     was_closed_without_being_open(uri) => "{uri} was closed without being open as a text";
+    a_change_could_not_be_read => "a change of it could not be read";
+    the_text_is_not_known => "a change of it could not be read, so the text here is no longer the one that you see, and nothing is said of it: close it and open it again, or send the whole text";
     no_reason_given => "no reason given";
     an_answer_came_late(id) => "an answer to {id} came late or answers nothing that was asked";
     was_not_answered_within_s(method, seconds) => "{method} was not answered within {seconds} s";

@@ -11,7 +11,7 @@ declare! {
     a_list_of_lines => "a list of lines such as [\"G90\"]";
     one_line_of_text => "one line of text";
     one_line_without_control_characters => "one line without control characters";
-    the_path_of_a_drawing => "the path of a drawing, .dxf or .dxb";
+    the_path_of_a_drawing => "the path of a drawing on this computer, .dxf or .dxb";
     an_address_with_rule_in_it => "an address such as https://edm.example/rules/{rule}.html, in which {rule} stands for the rule's name";
     the_name_of_a_profile => "the name of a profile";
     true_or_false => "true or false";

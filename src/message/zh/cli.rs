@@ -26,7 +26,6 @@ translate! {
     verdict_of_an_overlap(fits, over, wanted, places) => "{fits}：最紧处两件重叠 {over:.1} µm，应有间隙 {wanted:.1} µm，间隙不足 {places}";
     verdict_of_the_fit(fits, least, wanted, places) => "{fits}：最紧处 {wanted:.1} µm 间隙剩 {least:.1} µm，间隙不足 {places}";
     everywhere_more_is_left(more) => "；各处都比应有的间隙多 {more:.1} µm";
-    the_program_is_there_already => "文件已存在，应换没有它的文件夹，或加 --overwrite";
     the_program_of_a_part_is_written(written, target, part, corrections, blocks, length) => "{written} {target}：{part}，补偿量 {corrections} mm，{blocks}，{length}";
     two_parts_in_one_file(one, other) => "零件 {one} 和 {other} 会写进同一个文件；工件名应有大小写和文件名不能用的字符以外的区别";
     some_passes_run_on_the_other_side(part, passes) => "      {part}：间隙落在补偿量之间，第 {passes} 次切割的电极丝走在图线的另一侧，距离以负号表示";
@@ -52,8 +51,8 @@ translate! {
     next_steps => "接下来可以试：";
     the_settings_of_this_session => "本次会话的设置";
     left_in_all(counts, path) => "{counts}；用 wedm check {path} 查看位置";
-    it_is_there_already => "文件已存在；请换一个没有它的文件夹，或加 --force";
-    it_is_of_somebody_else => "文件已存在，且不是以前生成的，请换一个文件夹，或加 --force";
+    it_is_there_already => "文件已存在，内容不同；请换一个名称，或加 --overwrite";
+    it_is_of_somebody_else => "文件已存在，且不是以前生成的，请换一个文件夹，或加 --overwrite";
     expected(what) => "应为{what}";
     not_written_as_it_would_be_refused(reason) => "这些数值得不出可用的设置：{reason}";
     wire_diameter_mm => "电极丝直径，mm";

@@ -104,7 +104,6 @@ pub(in crate::message) const HELP: &[(&str, &str)] = &[
     ),
     ("pair format", "程序的语言：3b、4b、iso"),
     ("pair output", "程序写到此文件夹 [默认：图形所在的文件夹]"),
-    ("pair overwrite", "覆盖已有的程序"),
     ("pair handle", "只切含有此图元的轮廓；可多次给出"),
     ("pair force", "图形有错误也写出"),
     ("fit", "把丝切出的凸模与凹模相配"),
@@ -168,10 +167,9 @@ pub(in crate::message) const HELP: &[(&str, &str)] = &[
     ),
     (
         "report/",
-        "每页是一个 HTML 文件，不要别的文件，亮暗随查看者，可打印在 A4 上。图形有错误时以 1 结束，页仍会写出。已有的文件若不是 wedm 的报告页，不会被覆盖，除非用 --force。",
+        "每页是一个 HTML 文件，不要别的文件，亮暗随查看者，可打印在 A4 上。图形有错误时以 1 结束，页仍会写出。已有的文件若不是 wedm 的报告页，不会被覆盖，除非用 --overwrite。",
     ),
     ("report paths", "图形，或图形的文件夹"),
-    ("report force", "即使文件不是 wedm 的报告页，也予以覆盖"),
     ("report output", "放这些页的文件夹；没有则建立"),
     (
         "report format",
@@ -195,7 +193,6 @@ pub(in crate::message) const HELP: &[(&str, &str)] = &[
     ("init stock", "粗切为修切留下的余量，mm"),
     ("init passes", "每个轮廓切几次"),
     ("init machine", "机床读什么：3b，或一种 ISO profile"),
-    ("init force", "覆盖已有的 wedm.toml"),
     ("config", "说明可以设置什么"),
     (
         "config-examples",
@@ -207,9 +204,8 @@ pub(in crate::message) const HELP: &[(&str, &str)] = &[
     ("demo", "用自带的图形与真实的服务器演示全过程"),
     (
         "demo/",
-        "打开凹模板图形，像设计员一样修改，显示每个诊断，采用修复，取得 3B 程序，重新解码，写出 demo.dxf、demo.3b、demo.svg 和 wedm.toml。所说的全部属实才以 0 结束。已有的同名文件若不是演示生成的，不会被覆盖，除非用 --force。",
+        "打开凹模板图形，像设计员一样修改，显示每个诊断，采用修复，取得 3B 程序，重新解码，写出 demo.dxf、demo.3b、demo.svg 和 wedm.toml。所说的全部属实才以 0 结束。已有的同名文件若不是演示生成的，不会被覆盖，除非用 --overwrite。",
     ),
-    ("demo force", "即使文件不是演示生成的，也予以覆盖"),
     ("demo folder", "文件写到此文件夹"),
     (
         "serve",
@@ -228,6 +224,7 @@ pub(in crate::message) const HELP: &[(&str, &str)] = &[
     ("version", "显示版本"),
     ("subcommand", "命令"),
     ("output", "输出的形式"),
+    ("overwrite", "覆盖内容不同的已有文件"),
     ("path", "图形"),
     (
         "config-file",

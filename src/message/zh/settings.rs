@@ -20,7 +20,7 @@ translate! {
     a_list_of_lines => "行的列表，如 [\"G90\"]";
     one_line_of_text => "一行文字";
     one_line_without_control_characters => "一行不含控制字符的文字";
-    the_path_of_a_drawing => "图形的路径，.dxf 或 .dxb";
+    the_path_of_a_drawing => "本机上图形的路径，.dxf 或 .dxb";
     an_address_with_rule_in_it => "网址，如 https://edm.example/rules/{rule}.html，其中 {rule} 代表规则名";
     the_name_of_a_profile => "profile 的名称";
     true_or_false => "true 或 false";

@@ -32,8 +32,9 @@ pub(in crate::server) fn initialize(
     };
     state.encoding = encoding;
     state.client.abilities = Arc::new(abilities(&able));
-    state.config.rule_pages = state.client.abilities.rule_pages;
-    state.config.set_folders(folders(&params));
+    let config = Arc::make_mut(&mut state.config);
+    config.rule_pages = state.client.abilities.rule_pages;
+    config.set_folders(folders(&params));
     let options = params.initialization_options.unwrap_or_default();
     state.set_level(Level::Initialization, &options);
     let result = json!({

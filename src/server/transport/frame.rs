@@ -3,6 +3,7 @@
 //! Knows nothing of JSON. Never allocates by `Content-Length` alone: memory grows with the bytes that came. Every step
 //! consumes bytes: there are fewer steps than bytes.
 
+use super::lost::{LostChange, lost_change};
 use crate::text::head;
 use memchr::memmem;
 use std::io::Read;
@@ -35,6 +36,10 @@ pub(in crate::server) struct Frames<R> {
     ended: bool,
     /// The last body was broken: the following bytes may be its rest.
     out_of_step: bool,
+    /// The change of a document in what was passed over.
+    lost: Option<LostChange>,
+    /// Bytes ahead that are the end of a broken body, which its reader has looked through.
+    looked_through: usize,
 }
 
 impl<R: Read> Frames<R> {
@@ -46,7 +51,24 @@ impl<R: Read> Frames<R> {
             dropped: 0,
             ended: false,
             out_of_step: false,
+            lost: None,
+            looked_through: 0,
         }
+    }
+
+    /// The change of a document in what was passed over since this was asked last.
+    pub(crate) fn take_lost(&mut self) -> Option<LostChange> {
+        self.lost.take()
+    }
+
+    /// Passes over bytes that are no part of a sound message.
+    fn pass_over(&mut self, count: usize) {
+        let known = self.looked_through.min(count);
+        self.looked_through -= known;
+        if let Some(lost) = lost_change(self.ahead(known..count)) {
+            self.lost = Some(lost);
+        }
+        self.start += count;
     }
 
     /// Bytes of the stream that are used up. It grows with every step; after [`Frames::was_broken`] it is less than
@@ -59,6 +81,7 @@ impl<R: Read> Frames<R> {
     pub(crate) fn next(&mut self) -> Frame {
         if std::mem::take(&mut self.out_of_step) {
             self.skip_to_header(0);
+            self.looked_through = 0;
         }
         match self.header() {
             Ok(None) => Frame::End,
@@ -78,6 +101,7 @@ impl<R: Read> Frames<R> {
             .unwrap_or_default();
         self.dropped += self.start as i64 - tail.len() as i64;
         self.buffer.splice(..self.start, tail.iter().copied());
+        self.looked_through = tail.len();
         self.start = 0;
         self.out_of_step = true;
     }
@@ -197,7 +221,7 @@ impl<R: Read> Frames<R> {
             // No JSON holds a header line: where one stands, the length was wrong and the next frame begins.
             let from = searched.saturating_sub(MARKER_CAP);
             if let Some(at) = marker(self.ahead(from..have)) {
-                self.start += from + at;
+                self.pass_over(from + at);
                 return Frame::Broken(say!(the_next_frame_begins_within_a_body, length));
             }
             searched = have;
@@ -233,7 +257,7 @@ impl<R: Read> Frames<R> {
                 .unwrap_or(usize::MAX)
                 .min(self.rest().len());
             if let Some(at) = marker(self.ahead(0..have)) {
-                self.start += at;
+                self.pass_over(at);
                 return;
             }
             let drop = if have as u64 == left {
@@ -241,7 +265,7 @@ impl<R: Read> Frames<R> {
             } else {
                 have.saturating_sub(MARKER_CAP)
             };
-            self.start += drop;
+            self.pass_over(drop);
             left -= drop as u64;
             if left == 0 || !self.fill() {
                 return;
@@ -251,13 +275,13 @@ impl<R: Read> Frames<R> {
 
     /// Drops everything before the next header line, which is searched for from `from` bytes ahead on.
     fn skip_to_header(&mut self, from: usize) {
-        self.start = (self.start + from).min(self.buffer.len());
+        self.pass_over(from.min(self.rest().len()));
         loop {
             if let Some(at) = marker(self.rest()) {
-                self.start += at;
+                self.pass_over(at);
                 return;
             }
-            self.start = self.buffer.len() - self.rest().len().min(MARKER_CAP);
+            self.pass_over(self.rest().len().saturating_sub(MARKER_CAP));
             if !self.fill() {
                 self.start = self.buffer.len();
                 return;

@@ -58,8 +58,11 @@ pub(super) fn parse(body: &[u8]) -> Result<Incoming, Error> {
     if message.get("jsonrpc").and_then(Value::as_str) != Some("2.0") {
         return Ok(invalid(id.unwrap_or_default(), say!(jsonrpc_is_not_2_0)));
     }
+    // Many clients send `{}` or `[]` to a method that takes nothing, which the framework refuses.
+    let takes_nothing = matches!(method.as_str(), "shutdown" | "exit");
+    let params = message.remove("params").filter(|_| !takes_nothing);
     let mut request = Request::build(method);
-    if let Some(params) = message.remove("params") {
+    if let Some(params) = params {
         request = request.params(params);
     }
     if let Some(id) = id {
@@ -97,13 +100,39 @@ fn parse_json(body: &[u8]) -> Result<Value, String> {
     if let Some(value) = long_string::parse(body) {
         return Ok(value);
     }
-    match serde_json::from_slice(body) {
-        Ok(value) => Ok(value),
-        Err(error) => match quote_overflowing_numbers(body) {
-            Some(quoted) => serde_json::from_slice(&quoted).map_err(|error| error.to_string()),
+    serde_json::from_slice(body).or_else(|error| {
+        let quoted = quote_overflowing_numbers(body);
+        let whole = replace_halves_of_letters(quoted.as_deref().unwrap_or(body));
+        match whole.or(quoted) {
+            Some(body) => serde_json::from_slice(&body).map_err(|error| error.to_string()),
             None => Err(error.to_string()),
-        },
+        }
+    })
+}
+
+/// The body with U+FFFD in place of each escape of a surrogate without its other half; `None` where there is none.
+///
+/// Editors that count in UTF-16 send such halves, and the parser would refuse the message. Either counts as one there.
+fn replace_halves_of_letters(body: &[u8]) -> Option<Vec<u8>> {
+    let unit_at = |at: usize| {
+        let digits = body.get(at..)?.strip_prefix(b"\\u")?.get(..4)?;
+        u16::from_str_radix(std::str::from_utf8(digits).ok()?, 16).ok()
+    };
+    let mut replaced: Option<Vec<u8>> = None;
+    let mut at = 0;
+    while let Some(next) = memchr::memchr(b'\\', body.get(at..)?) {
+        at += next;
+        at += match (unit_at(at), unit_at(at + 6)) {
+            (Some(0xd800..0xdc00), Some(0xdc00..0xe000)) => 12,
+            (Some(0xd800..0xe000), _) => {
+                let replaced = replaced.get_or_insert_with(|| body.to_vec());
+                replaced.get_mut(at + 2..at + 6)?.copy_from_slice(b"fffd");
+                6
+            }
+            _ => 2,
+        };
     }
+    replaced
 }
 
 /// The body with every number that no `f64` can hold (`1e999`) in quotes; `None` where there is none.
@@ -199,6 +228,22 @@ mod tests {
         check("", "-32700");
         check(r#"{"a":NaN}"#, "-32700");
         check("\u{0}", "-32700");
+    }
+
+    #[test]
+    fn half_a_letter_arrives_as_the_sign_for_one() {
+        let check = |body: &str, expected: Option<&str>| {
+            let read = parse_json(body.as_bytes()).ok();
+            let read = read.map(|value| value.as_str().unwrap_or_default().to_owned());
+            assert_eq!(read.as_deref(), expected, "{body}");
+        };
+        check(r#""a\ud83d""#, Some("a\u{fffd}"));
+        check(r#""\ude00a""#, Some("\u{fffd}a"));
+        check(r#""\ud83d\ud83d\ude00\ude00""#, Some("\u{fffd}😀\u{fffd}"));
+        check(r#""\ud83d\\ude00""#, Some("\u{fffd}\\ude00"));
+        check(r#""\ud83d\n""#, Some("\u{fffd}\n"));
+        check(r#""\ud83""#, None);
+        check(r#""\ud83d"#, None);
     }
 
     #[test]

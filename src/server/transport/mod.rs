@@ -6,6 +6,7 @@
 
 mod frame;
 mod long_string;
+mod lost;
 mod memory;
 mod message;
 mod stdio;
@@ -13,11 +14,13 @@ mod weight;
 mod writer;
 mod written;
 
+pub(crate) use lost::LostChange;
 pub(crate) use memory::give_back;
 pub(crate) use writer::{Publish, Writer};
 pub(crate) use written::{AsWritten, Written};
 
 pub(super) use frame::{Frame, Frames};
+use lost::lost_change;
 use memory::Memory;
 use message::Incoming;
 use serde_json::Value;
@@ -43,6 +46,8 @@ pub(crate) trait Inbox {
     fn reply(&self, id: String, result: Result<Value, Value>);
     /// A line about the connection for the log.
     fn note(&self, text: String);
+    /// A change of a document could not be read.
+    fn lost(&self, change: LostChange);
     /// Number of notifications that a handler has taken so far.
     fn taken(&self) -> usize;
 }
@@ -83,7 +88,9 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
             if !self.wait_for_reader() {
                 return false;
             }
-            match frames.next() {
+            let frame = frames.next();
+            self.lose(frames.take_lost());
+            match frame {
                 Frame::End => return false,
                 Frame::Broken(reason) => {
                     let error = Error {
@@ -97,9 +104,11 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
                     Err(error) => {
                         frames.was_broken(&body);
                         self.answer_broken(error, frames.position());
+                        self.lose(lost_change(&body));
                     }
                     Ok(Incoming::Invalid { id, error }) => {
-                        self.send(Response::from_error(id, error))
+                        self.send(Response::from_error(id, error));
+                        self.lose(lost_change(&body));
                     }
                     Ok(Incoming::Reply { id, result }) => self.inbox.reply(id, result),
                     Ok(Incoming::Request(request)) => {
@@ -153,6 +162,12 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
             ));
         }
         let inline = method == "initialize";
+        let changed = (method == DID_CHANGE).then(|| {
+            let uri = request
+                .params()
+                .and_then(|params| params.pointer("/textDocument/uri"));
+            uri.and_then(Value::as_str).map(str::to_owned)
+        });
         let taken = self.inbox.taken();
         let guard = self.runtime.enter();
         let reply = Reply::default();
@@ -184,6 +199,9 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
                     && matches!(outcome, Ok(Ok(None)));
                 if unread {
                     self.inbox.note(say!(was_ignored_for_its_params, method));
+                    self.lose(changed.map(|uri| LostChange {
+                        uris: uri.into_iter().collect(),
+                    }));
                 }
                 self.finish(&reply, id, outcome);
             }
@@ -220,6 +238,12 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
         self.inbox
             .note(say!(a_broken_message_before_byte, position, error.message));
         self.send(Response::from_error(Id::Null, error));
+    }
+
+    fn lose(&self, change: Option<LostChange>) {
+        if let Some(change) = change {
+            self.inbox.lost(change);
+        }
     }
 
     fn send(&self, response: Response) {
@@ -266,12 +290,14 @@ pub(crate) fn panic_text(panic: &(dyn Any + Send)) -> &str {
     }
 }
 
+const DID_CHANGE: &str = "textDocument/didChange";
+
 /// Notifications whose loss must be reported.
 fn is_ours(method: &str) -> bool {
     method.starts_with("wedm/")
         || matches!(
             method,
-            "textDocument/didOpen" | "textDocument/didChange" | "textDocument/didClose"
+            "textDocument/didOpen" | DID_CHANGE | "textDocument/didClose"
         )
 }
 
