@@ -21,6 +21,7 @@ use crate::program;
 use crate::settings::{self, Effective};
 use crate::text::{Again, SourceText, TextEdit, edited};
 use crate::{dxf, finding::Severity};
+use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
@@ -446,17 +447,20 @@ fn findings(
 ) -> (Vec<Finding>, usize) {
     let (of_source, of_rules) = match source {
         Source::Dxf(document) => (
-            document.findings(),
+            Cow::Borrowed(document.findings()),
             analysis.findings(document.drawing(), limit),
         ),
-        Source::Cad(drawing) => (&[][..], analysis.findings(drawing, limit)),
-        Source::Program(program) => (&[][..], program.findings(analysis.settings(), limit)),
+        Source::Cad(drawing) => (
+            drawing.unseen().into_iter().map(Finding::from).collect(),
+            analysis.findings(drawing, limit),
+        ),
+        Source::Program(program) => (Cow::default(), program.findings(analysis.settings(), limit)),
     };
     let settings = analysis.settings();
     let (mut findings, mut count) = of_rules;
     findings.extend_from_slice(unlike);
     count += unlike.len();
-    for finding in of_source {
+    for finding in of_source.iter() {
         // The reader knows no settings, so its findings get their severities here. A layer with a role is cut or not as
         // the role says. Where the settings give the unit, the drawing need not.
         let is_answered = match &finding.detail {

@@ -37,7 +37,7 @@ pub(crate) use unwritable::Unwritable;
 pub use crate::geometry::Side;
 pub use crate::rule::{Rule, Severity};
 
-use crate::drawing::{ContourSegment, EntityId};
+use crate::drawing::{ContourSegment, EntityId, Unseen};
 use rustc_hash::FxHashSet;
 use std::ops::Range;
 
@@ -74,6 +74,24 @@ impl Finding {
             self.place.is_of(entities) || self.related.iter().any(|place| place.is_of(entities))
         };
         self.place.entity().is_none() || entities.is_none_or(of_entities)
+    }
+}
+
+impl From<Unseen> for Finding {
+    fn from(unseen: Unseen) -> Finding {
+        Finding {
+            rule: Rule::UnsupportedEntity,
+            severity: Severity::Information,
+            place: Place::Entity {
+                entity: unseen.first,
+            },
+            detail: Detail::Unseen {
+                layer: unseen.layer,
+                visibility: unseen.visibility,
+                count: unseen.count,
+            },
+            related: Vec::new(),
+        }
     }
 }
 

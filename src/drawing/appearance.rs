@@ -1,6 +1,7 @@
 //! How a CAD program shows an entity: its colour, linetype, and whether it is visible at all.
 
-use super::{Drawing, EntityId};
+use super::{Drawing, Entity, EntityId};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Whether the CAD program shows an entity, and if not, why. A hidden entity is not cut, unless it
@@ -33,6 +34,14 @@ pub(crate) struct Linetype {
     pub(crate) of_layer: bool,
 }
 
+impl Linetype {
+    /// The linetype of a name; `None` for a continuous one.
+    pub(crate) fn named(name: Arc<str>, of_layer: bool) -> Option<Linetype> {
+        let is_broken = !name.is_empty() && !name.eq_ignore_ascii_case("CONTINUOUS");
+        is_broken.then_some(Linetype { name, of_layer })
+    }
+}
+
 /// Words that the drawing itself holds for one entity.
 pub(crate) type Marks = Arc<[Arc<str>]>;
 
@@ -51,12 +60,23 @@ pub(crate) fn mark_of_layer(layer: &str) -> Option<&str> {
 pub(crate) const SUPPRESS: &str = "suppress";
 
 /// Everything that a drawing knows of the appearance of one entity, and the words that it holds for it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Appearance {
-    pub(super) unseen: Option<(Visibility, Arc<str>)>,
-    pub(super) linetype: Option<Linetype>,
-    pub(super) color: Option<Color>,
-    pub(super) marks: Option<Marks>,
+    /// Set where it is not simply shown, with the layer that decides it.
+    pub(crate) unseen: Option<(Visibility, Arc<str>)>,
+    pub(crate) linetype: Option<Linetype>,
+    pub(crate) color: Option<Color>,
+    pub(crate) marks: Option<Marks>,
+}
+
+/// The entities that are not simply shown for one reason.
+pub(crate) struct Unseen {
+    pub(crate) visibility: Visibility,
+    /// The layer that decides it; empty for entities that are invisible themselves.
+    pub(crate) layer: Arc<str>,
+    pub(crate) count: usize,
+    /// The first of them in machining order.
+    pub(crate) first: EntityId,
 }
 
 /// The colour of an entity or a layer.
@@ -138,11 +158,32 @@ impl Drawing {
         matches!(visibility, Visibility::Off | Visibility::Frozen).then_some(layer)
     }
 
-    /// Entities that are not simply shown, with the layer that decides it; in no order.
-    pub(crate) fn unseen(&self) -> impl Iterator<Item = (EntityId, Visibility, &Arc<str>)> + '_ {
-        self.unseen
-            .iter()
-            .map(|(&id, (visibility, layer))| (id, *visibility, layer))
+    /// The entities with segments that are not simply shown, by visibility and layer.
+    pub(crate) fn unseen(&self) -> Vec<Unseen> {
+        let mut by_reason: BTreeMap<(Visibility, &str), Unseen> = BTreeMap::new();
+        for (&id, (visibility, layer)) in &self.unseen {
+            let has_segments = |entity: &Entity| entity.geometry.segment_count() > 0;
+            if !self.get(id).is_some_and(has_segments) {
+                continue;
+            }
+            let decides = match visibility {
+                Visibility::Invisible => "",
+                _ => layer,
+            };
+            let unseen = by_reason
+                .entry((*visibility, decides))
+                .or_insert_with(|| Unseen {
+                    visibility: *visibility,
+                    layer: decides.into(),
+                    count: 0,
+                    first: id,
+                });
+            unseen.count += 1;
+            if self.rank(id) < self.rank(unseen.first) {
+                unseen.first = id;
+            }
+        }
+        by_reason.into_values().collect()
     }
 
     /// Sets the linetype of an entity; `None` is a continuous one. True when that changes.
@@ -212,9 +253,10 @@ impl Drawing {
     }
 
     pub(crate) fn set_appearance(&mut self, id: EntityId, appearance: Appearance) {
-        if let Some(unseen) = appearance.unseen {
-            self.unseen.insert(id, unseen);
-        }
+        match appearance.unseen {
+            Some(unseen) => self.unseen.insert(id, unseen),
+            None => self.unseen.remove(&id),
+        };
         self.set_linetype(id, appearance.linetype);
         self.set_marks(id, appearance.marks);
         self.set_color(id, appearance.color);

@@ -341,7 +341,7 @@ impl Drawing {
     }
 
     /// Adds entities, each after a given one in machining order (of several after the same one the
-    /// last comes first), on its layer and with its role, under a handle made from its own.
+    /// last comes first), on its layer, with its role and its appearance, under a handle made from its own.
     fn add_all_next_to(
         &mut self,
         added: Vec<(EntityId, &Geometry)>,
@@ -359,6 +359,7 @@ impl Drawing {
                 kind: geometry.kind(),
                 ..model
             });
+            self.set_appearance(entity, self.appearance(after));
             behind.entry(after).or_default().push(entity);
             delta.touched.push(Touched::Entity { entity });
         }

@@ -127,6 +127,14 @@ impl Geometry {
         }
     }
 
+    /// A POINT: it may mark where a cut starts, as the text "O" does.
+    pub(crate) fn mark(at: Point) -> Geometry {
+        Geometry::Text {
+            at,
+            text: "O".into(),
+        }
+    }
+
     /// A line, an arc or a circle as it lies in the drawing, without the direction of an arc.
     pub(crate) fn of_segment(segment: &Segment) -> Geometry {
         match segment {

@@ -25,7 +25,7 @@ mod slots;
 mod twins;
 
 pub(crate) use appearance::{
-    Appearance, Color, Linetype, Marks, SUPPRESS, Visibility, mark_of_layer,
+    Appearance, Color, Linetype, Marks, SUPPRESS, Unseen, Visibility, mark_of_layer,
 };
 pub use chain::Chains;
 pub(crate) use chain::Key as ContourKey;

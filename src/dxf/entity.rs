@@ -52,7 +52,6 @@ pub(super) enum Stroke {
     ByLayer,
     /// From the reference that draws it.
     ByBlock,
-    Continuous,
     Own(Arc<str>),
 }
 
@@ -62,7 +61,6 @@ impl Stroke {
         match name {
             name if name.eq_ignore_ascii_case(b"BYLAYER") => Stroke::ByLayer,
             name if name.eq_ignore_ascii_case(b"BYBLOCK") => Stroke::ByBlock,
-            name if name.eq_ignore_ascii_case(b"CONTINUOUS") => Stroke::Continuous,
             name => Stroke::Own(layers.name(name)),
         }
     }

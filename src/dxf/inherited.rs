@@ -86,11 +86,7 @@ pub(super) fn stroke(
     match own {
         Stroke::ByLayer => states.linetype_of(layer),
         Stroke::ByBlock => around.cloned(),
-        Stroke::Continuous => None,
-        Stroke::Own(name) => Some(Linetype {
-            name: name.clone(),
-            of_layer: false,
-        }),
+        Stroke::Own(name) => Linetype::named(name.clone(), false),
     }
 }
 

@@ -14,8 +14,7 @@ pub(crate) struct LayerEntry {
     pub(crate) name: Arc<str>,
     pub(super) visibility: Visibility,
     pub(super) color: Option<Color>,
-    /// Set where it is not continuous.
-    pub(super) linetype: Option<Arc<str>>,
+    pub(super) linetype: Option<Linetype>,
 }
 
 /// The layer on which AutoCAD keeps the points of dimensions: it is never plotted.
@@ -47,9 +46,7 @@ pub(super) fn read(
                 named = true;
             }
             6 => {
-                let own = lines.trimmed(line);
-                let is_plain = own.is_empty() || own.eq_ignore_ascii_case(b"CONTINUOUS");
-                entry.linetype = (!is_plain).then(|| name(own));
+                entry.linetype = Linetype::named(name(lines.trimmed(line)), true);
             }
             70 => frozen = whole(line).is_some_and(|flags| flags & FROZEN != 0),
             62 => {
@@ -84,7 +81,7 @@ impl LayerEntry {
 }
 
 /// Whether a layer is shown, and its linetype.
-type LayerState = (Visibility, Option<Arc<str>>);
+type LayerState = (Visibility, Option<Linetype>);
 
 /// The table's entry of each layer that is not simply shown, or has a linetype. Names ignore case.
 #[derive(Clone, Debug, Default)]
@@ -110,11 +107,7 @@ impl LayerStates {
 
     /// The linetype of entities that take their layer's.
     pub(super) fn linetype_of(&mut self, layer: &Arc<str>) -> Option<Linetype> {
-        let name = self.state(layer)?.1.clone()?;
-        Some(Linetype {
-            name,
-            of_layer: true,
-        })
+        self.state(layer)?.1.clone()
     }
 
     fn state(&mut self, layer: &Arc<str>) -> Option<&LayerState> {

@@ -4,11 +4,8 @@ use super::lines::Lines;
 use super::reader::range_key;
 use super::table::{Became, Context, NO_ITEM};
 use super::{Document, place};
-use crate::drawing::{EntityId, Visibility};
 use crate::finding::{Detail, Finding, Place, Rule, Severity};
-use std::collections::BTreeMap;
 use std::ops::Range;
-use std::sync::Arc;
 
 impl Document {
     /// One finding for each kind of entity that is not cut, at the first of it; all findings in the order of the text.
@@ -80,44 +77,13 @@ impl Document {
     /// One finding for each layer that is not simply shown and has something drawn on it, at its entry; one for all
     /// entities that are invisible themselves, at the first of them.
     fn name_unseen(&mut self) {
-        let mut by_reason: BTreeMap<(Visibility, Arc<str>), (usize, u64, EntityId)> =
-            BTreeMap::new();
-        for (id, visibility, layer) in self.drawing.unseen() {
-            if self
-                .drawing
-                .get(id)
-                .is_some_and(|entity| entity.geometry.segment_count() > 0)
-            {
-                let layer = if visibility == Visibility::Invisible {
-                    "".into()
-                } else {
-                    layer.clone()
-                };
-                let rank = self.drawing.rank(id);
-                let (count, first, at) = by_reason
-                    .entry((visibility, layer))
-                    .or_insert((0, rank, id));
-                *count += 1;
-                if rank < *first {
-                    (*first, *at) = (rank, id);
-                }
-            }
-        }
-        for ((visibility, layer), (count, _, first)) in by_reason {
-            let range = self
-                .entry_of(&layer)
-                .unwrap_or_else(|| self.range_of(&Place::Entity { entity: first }));
-            self.findings.push(Finding {
-                rule: Rule::UnsupportedEntity,
-                severity: Severity::Information,
-                place: Place::Text { range },
-                detail: Detail::Unseen {
-                    layer,
-                    visibility,
-                    count,
-                },
-                related: Vec::new(),
-            });
+        for unseen in self.drawing.unseen() {
+            let entry = self.entry_of(&unseen.layer);
+            let mut finding = Finding::from(unseen);
+            finding.place = Place::Text {
+                range: entry.unwrap_or_else(|| self.range_of(&finding.place)),
+            };
+            self.findings.push(finding);
         }
     }
 

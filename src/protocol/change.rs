@@ -169,7 +169,7 @@ fn try_change<'a>(
                 }
                 Some(entity) => {
                     entity.check()?;
-                    match &entity.geometry {
+                    match &entity.shape.geometry {
                         Geometry::Polyline { vertices, .. } => Standing::Polyline(vertices.len()),
                         _ => Standing::Other,
                     }
@@ -217,14 +217,14 @@ fn apply_one(
             entity: Some(entity),
             before,
         } => {
-            let entity = entity.into_core()?;
-            match (
+            let (entity, appearance) = entity.into_core()?;
+            let id = match (
                 drawing.find(&handle),
                 before.filter(|before| *before != handle),
             ) {
                 (Some(id), None) => {
                     drawing.replace(id, entity);
-                    delta.touched.push(Touched::Entity { entity: id });
+                    id
                 }
                 (old, before) => {
                     if let Some(old) = old {
@@ -234,10 +234,11 @@ fn apply_one(
                     let next = before.and_then(|before| drawing.find(&before));
                     let position =
                         next.and_then(|next| drawing.order().iter().position(|&id| id == next));
-                    let id = drawing.insert_at(position.unwrap_or(drawing.len()), entity);
-                    delta.touched.push(Touched::Entity { entity: id });
+                    drawing.insert_at(position.unwrap_or(drawing.len()), entity)
                 }
-            }
+            };
+            drawing.set_appearance(id, appearance);
+            delta.touched.push(Touched::Entity { entity: id });
         }
     }
     Ok(())
@@ -247,15 +248,11 @@ fn apply_one(
 /// are one splice, lines and arcs are replaced whole.
 pub(crate) fn changes_of(drawing: &core::Drawing, edit: &core::DrawingEdit) -> Vec<DrawingChange> {
     let mut vertices = AtVertices::new();
-    let mut entities: BTreeMap<EntityId, Option<core::Entity>> = BTreeMap::new();
+    let mut entities: BTreeMap<EntityId, Option<Geometry>> = BTreeMap::new();
     let mut added = Vec::new();
     for change in &edit.changes {
         let id = change.entity();
         let Some(old) = drawing.get(id) else { continue };
-        let with = |geometry| {
-            let old = old.clone();
-            Some(core::Entity { geometry, ..old })
-        };
         match change {
             Change::SetVertex { index, vertex, .. } => {
                 let at = at(&mut vertices, id, *index);
@@ -271,12 +268,12 @@ pub(crate) fn changes_of(drawing: &core::Drawing, edit: &core::DrawingEdit) -> V
                         closed: *closed,
                         vertices: vertices.clone(),
                     };
-                    entities.insert(id, with(geometry));
+                    entities.insert(id, Some(geometry));
                 }
             }
             Change::AddEntity { .. } => added.push((id, change)),
             Change::Reshape { geometry, .. } => {
-                entities.insert(id, with(geometry.clone()));
+                entities.insert(id, Some(geometry.clone()));
             }
             Change::RemoveEntity { .. } => {
                 entities.insert(id, None);
@@ -294,11 +291,11 @@ pub(crate) fn changes_of(drawing: &core::Drawing, edit: &core::DrawingEdit) -> V
         };
         changes.extend(splices(by_index).into_iter().map(change));
     }
-    for (id, entity) in entities {
+    for (id, geometry) in entities {
         let Some(old) = drawing.get(id) else { continue };
         changes.push(DrawingChange::Entity {
             handle: old.handle.to_string(),
-            entity: entity.as_ref().map(Entity::from),
+            entity: geometry.and_then(|geometry| Entity::reshaped(drawing, id, geometry)),
             before: None,
         });
     }
@@ -311,10 +308,11 @@ pub(crate) fn changes_of(drawing: &core::Drawing, edit: &core::DrawingEdit) -> V
         }) else {
             continue;
         };
-        let Some(core::Touched::Entity { entity }) = delta.touched.first() else {
+        let Some(core::Touched::Entity { entity: id }) = delta.touched.first() else {
             continue;
         };
-        let Some(entity) = grown.get(*entity) else {
+        let geometry = grown.get(*id).map(|entity| entity.geometry.clone());
+        let Some(entity) = geometry.and_then(|it| Entity::reshaped(&grown, *id, it)) else {
             continue;
         };
         let next = drawing
@@ -325,8 +323,8 @@ pub(crate) fn changes_of(drawing: &core::Drawing, edit: &core::DrawingEdit) -> V
             .and_then(|&id| drawing.get(id));
         let before = next.map(|next| next.handle.to_string());
         new.push(DrawingChange::Entity {
-            handle: entity.handle.to_string(),
-            entity: Some(Entity::from(entity)),
+            handle: entity.handle.clone(),
+            entity: Some(entity),
             before,
         });
     }

@@ -14,6 +14,7 @@ mod generate;
 mod in_force;
 mod inspection;
 mod locate;
+mod look;
 pub(crate) mod method;
 mod milling;
 mod number;
@@ -21,6 +22,8 @@ mod requests;
 mod schema;
 mod segment;
 mod simulate;
+#[cfg(test)]
+mod tests;
 mod toolpath;
 mod work;
 

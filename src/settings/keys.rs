@@ -66,7 +66,7 @@ tables! {
         /// Role of the entities on a layer, by its name. An entity's own `role` comes first. A contour takes the role of its first entity that
         /// has one. A role other than `ignore` cuts also what is frozen or switched off.
         layers: BTreeMap<String, Role> => roles;
-        /// Role of what is drawn in a linetype, by itself or by its layer: by the name of the linetype, before layers and colours; in DXF.
+        /// Role of what is drawn in a linetype, by itself or by its layer: by the name of the linetype, before layers and colours.
         /// Without one, what is drawn in CENTER, HIDDEN, PHANTOM and their like is not cut: see
         /// [`unsupported-entity`](rules/unsupported-entity.md).
         linetypes: BTreeMap<String, Role> => roles;
@@ -74,7 +74,7 @@ tables! {
         /// in a `wedm.toml` that applies to several they mean each one's own entity of that name.
         contours: BTreeMap<String, Role> => roles;
         /// Role of what is drawn in a colour, by itself or by its layer, where neither entity nor layer has one. Colours are `red`, `yellow`,
-        /// `green`, `cyan`, `blue`, `magenta`, `white`, `1` to `255` (AutoCAD colour index), `#rrggbb`; in DXF.
+        /// `green`, `cyan`, `blue`, `magenta`, `white`, `1` to `255` (AutoCAD colour index), `#rrggbb`.
         colors: BTreeMap<String, Role> => colors;
         /// Settings of one drawing, by the name of its file: `[drawings."plate.dxf".suppress.2A]`.
         drawings: BTreeMap<String, DrawingSettings> => tables;

@@ -22,7 +22,8 @@ namespace Wedm.Core
             {
                 return new JObject { ["handle"] = handle, ["entity"] = null };
             }
-            if (before is PolylineEntity old && after is PolylineEntity fresh && old.Closed == fresh.Closed && old.Layer == fresh.Layer)
+            if (before is PolylineEntity old && after is PolylineEntity fresh && old.Closed == fresh.Closed && old.Layer == fresh.Layer
+                && old.Look.IsSameAs(fresh.Look))
             {
                 return Splice(handle, old.Vertices, fresh.Vertices);
             }
@@ -93,7 +94,7 @@ namespace Wedm.Core
             var vertices = polyline.Vertices.Take(start)
                 .Concat(splice["insert"].Select(Vertex.FromJson))
                 .Concat(polyline.Vertices.Skip(start + count));
-            return new PolylineEntity(handle, polyline.Layer, polyline.Closed, vertices.ToArray());
+            return new PolylineEntity(handle, polyline.Layer, polyline.Closed, vertices.ToArray()) { Look = polyline.Look };
         }
     }
 }

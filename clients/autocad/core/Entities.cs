@@ -30,6 +30,72 @@ namespace Wedm.Core
         public static Vertex FromJson(JToken json) => new Vertex((double)json[0], (double)json[1], json.Count() > 2 ? (double)json[2] : 0.0);
     }
 
+    /// <summary>
+    /// How the CAD program shows an entity, which decides whether it is cut. What it takes from its layer or its block is theirs.
+    /// </summary>
+    public sealed class Look
+    {
+        private static readonly string[] Keys = { "linetype", "linetypeByLayer", "color", "visible", "xdata" };
+
+        private readonly JObject _json;
+
+        private Look(JObject json)
+        {
+            _json = json;
+        }
+
+        /// <summary>A continuous line that is shown, of no colour that is known.</summary>
+        public static Look Plain { get; } = new Look(new JObject());
+
+        /// <param name="linetype">Its name; null for a continuous one.</param>
+        /// <param name="linetypeByLayer">It is that of the layer: a role of the layer then counts for it all the same.</param>
+        /// <param name="color">1 to 255, or "#rrggbb"; null where it is not known.</param>
+        /// <param name="visible">True, false, or of a layer that is not shown "off" or "frozen".</param>
+        /// <param name="xdata">Strings of the extended data of the application WEDM.</param>
+        public static Look Of(string linetype, bool linetypeByLayer, JValue color, JValue visible, IEnumerable<string> xdata)
+        {
+            var json = new JObject();
+            if (!string.IsNullOrEmpty(linetype) && !string.Equals(linetype, "Continuous", StringComparison.OrdinalIgnoreCase))
+            {
+                json["linetype"] = linetype;
+                if (linetypeByLayer)
+                {
+                    json["linetypeByLayer"] = true;
+                }
+            }
+            if (color != null)
+            {
+                json["color"] = color;
+            }
+            if (visible.Type != JTokenType.Boolean || !(bool)visible)
+            {
+                json["visible"] = visible;
+            }
+            var words = new JArray(xdata.ToArray<object>());
+            if (words.Count > 0)
+            {
+                json["xdata"] = words;
+            }
+            return new Look(json);
+        }
+
+        /// <summary>The keys of an entity that say how it is shown.</summary>
+        public static Look FromJson(JObject entity)
+        {
+            return new Look(new JObject(entity.Properties().Where(key => Keys.Contains(key.Name) && key.Value.Type != JTokenType.Null)));
+        }
+
+        public bool IsSameAs(Look other) => JToken.DeepEquals(_json, other._json);
+
+        internal void WriteTo(JObject entity)
+        {
+            foreach (var key in _json.Properties())
+            {
+                entity[key.Name] = key.Value.DeepClone();
+            }
+        }
+    }
+
     /// <summary>An entity as the protocol knows it: plane geometry in world coordinates, angles in degrees.</summary>
     public abstract class Entity
     {
@@ -39,6 +105,9 @@ namespace Wedm.Core
             Layer = layer;
         }
 
+        /// <summary>Set once, where the entity is made.</summary>
+        public Look Look { get; set; } = Look.Plain;
+
         /// <summary>The CAD program's own handle, hexadecimal.</summary>
         public string Handle { get; }
 
@@ -46,7 +115,9 @@ namespace Wedm.Core
 
         public virtual JObject ToJson()
         {
-            return new JObject { ["handle"] = Handle, ["layer"] = Layer };
+            var json = new JObject { ["handle"] = Handle, ["layer"] = Layer };
+            Look.WriteTo(json);
+            return json;
         }
 
         /// <summary>True where both say the same; numbers are compared bit by bit.</summary>
@@ -54,6 +125,13 @@ namespace Wedm.Core
 
         /// <exception cref="FormatException">A kind that the protocol does not have.</exception>
         public static Entity FromJson(JObject json)
+        {
+            var entity = OfType(json);
+            entity.Look = Look.FromJson(json);
+            return entity;
+        }
+
+        private static Entity OfType(JObject json)
         {
             var handle = (string)json["handle"];
             var layer = (string)json["layer"] ?? "0";
@@ -69,8 +147,10 @@ namespace Wedm.Core
                     return new CircleEntity(handle, layer, PointOf(json["center"]), (double)json["radius"]);
                 case "text":
                     return new TextEntity(handle, layer, PointOf(json["at"]), (string)json["text"]);
+                case "point":
+                    return new PointEntity(handle, layer, PointOf(json["at"]));
                 default:
-                    throw new FormatException("found an entity of type \"" + json["type"] + "\", expected polyline, line, arc, circle or text");
+                    throw new FormatException("found an entity of type \"" + json["type"] + "\", expected polyline, line, arc, circle, text or point");
             }
         }
 
@@ -188,5 +268,36 @@ namespace Wedm.Core
             json["text"] = Text;
             return json;
         }
+    }
+
+    /// <summary>A POINT: it may mark a thread hole, as the text "O" does.</summary>
+    public sealed class PointEntity : Entity
+    {
+        public PointEntity(string handle, string layer, double[] at) : base(handle, layer)
+        {
+            At = at;
+        }
+
+        public double[] At { get; }
+
+        public override JObject ToJson()
+        {
+            var json = base.ToJson();
+            json["type"] = "point";
+            json["at"] = new JArray(At[0], At[1]);
+            return json;
+        }
+    }
+
+    /// <summary>An entity of a kind that the protocol does not know: it is named and never sent.</summary>
+    public sealed class OtherEntity : Entity
+    {
+        public OtherEntity(string handle, string layer, string kind) : base(handle, layer)
+        {
+            Kind = kind;
+        }
+
+        /// <summary>Its name in DXF, such as SPLINE.</summary>
+        public string Kind { get; }
     }
 }

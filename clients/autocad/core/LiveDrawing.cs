@@ -11,10 +11,10 @@ namespace Wedm.Core
         /// <summary>"mm", "inch", or null where the drawing does not say.</summary>
         string Units { get; }
 
-        /// <summary>Everything in the modelspace that the protocol knows, in the order of the drawing.</summary>
+        /// <summary>Everything in the modelspace in the order of the drawing; what the protocol does not know as <see cref="OtherEntity"/>.</summary>
         IEnumerable<Entity> ReadAll();
 
-        /// <summary>The entity of a handle as it is now; null where it is gone or of a kind that the protocol does not know.</summary>
+        /// <summary>The entity of a handle as it is now; null where it is gone.</summary>
         Entity Read(string handle);
 
         /// <summary>
@@ -40,6 +40,14 @@ namespace Wedm.Core
         private readonly Dictionary<string, Entity> _sent = new Dictionary<string, Entity>();
         private readonly List<string> _dirtyInOrder = new List<string>();
         private readonly HashSet<string> _dirty = new HashSet<string>();
+
+        /// <summary>What is in the drawing and not sent, its kind by its handle.</summary>
+        private readonly Dictionary<string, string> _others = new Dictionary<string, string>();
+
+        /// <summary>Questions that wait until a repair has been made: they are about the drawing that it leaves.</summary>
+        private readonly Queue<Action> _waiting = new Queue<Action>();
+
+        private bool _isRepairing;
 
         internal LiveDrawing(Session session, string uri, IDrawingHost host)
         {
@@ -74,6 +82,55 @@ namespace Wedm.Core
             }
         }
 
+        /// <summary>Notes that anything may look otherwise, as when a layer has been frozen.</summary>
+        public void TouchAll()
+        {
+            foreach (var handle in _sent.Keys)
+            {
+                Touch(handle);
+            }
+        }
+
+        /// <summary>
+        /// What is in the drawing and can neither be checked nor cut, by kind, as "2 SPLINE, 1 INSERT"; null where there is nothing.
+        /// </summary>
+        public string LeftOut
+        {
+            get
+            {
+                var kinds = _others.Values.GroupBy(kind => kind).OrderBy(kind => kind.Key, StringComparer.Ordinal);
+                return _others.Count == 0 ? null : string.Join(", ", kinds.Select(kind => kind.Count() + " " + kind.Key));
+            }
+        }
+
+        /// <summary>Asks now, or, where a repair is on its way, as soon as it has been made or refused.</summary>
+        internal void AfterRepairs(Action ask)
+        {
+            if (_isRepairing)
+            {
+                _waiting.Enqueue(ask);
+            }
+            else
+            {
+                ask();
+            }
+        }
+
+        /// <summary>A repair is on its way until <see cref="Repaired"/>.</summary>
+        internal void Repairing()
+        {
+            _isRepairing = true;
+        }
+
+        internal void Repaired()
+        {
+            _isRepairing = false;
+            while (!_isRepairing && _waiting.Count > 0)
+            {
+                _waiting.Dequeue()();
+            }
+        }
+
         /// <summary>Reads what was touched and sends the differences. Returns how many entities differ.</summary>
         public int Flush()
         {
@@ -81,7 +138,7 @@ namespace Wedm.Core
             foreach (var handle in _dirtyInOrder)
             {
                 _sent.TryGetValue(handle, out var before);
-                var after = Cut(_host.Read(handle));
+                var after = Cut(handle, _host.Read(handle));
                 var change = Changes.Between(handle, before, after);
                 if (change == null)
                 {
@@ -116,10 +173,23 @@ namespace Wedm.Core
             return refusal;
         }
 
-        /// <summary>Null for the wire's path that the plugin has drawn: it is no part of the drawing.</summary>
-        private static Entity Cut(Entity entity)
+        /// <summary>
+        /// Null for what is not sent: the wire's path that the plugin has drawn, which is no part of the drawing, and kinds that the protocol
+        /// does not know, which are kept by name.
+        /// </summary>
+        private Entity Cut(string handle, Entity entity)
         {
-            return entity != null && string.Equals(entity.Layer, Toolpath.PathLayer, StringComparison.OrdinalIgnoreCase) ? null : entity;
+            _others.Remove(handle);
+            if (entity == null || string.Equals(entity.Layer, Toolpath.PathLayer, StringComparison.OrdinalIgnoreCase))
+            {
+                return null;
+            }
+            if (entity is OtherEntity other)
+            {
+                _others[handle] = other.Kind;
+                return null;
+            }
+            return entity;
         }
 
         /// <summary>Reads the drawing again and sends it whole.</summary>
@@ -132,10 +202,11 @@ namespace Wedm.Core
         internal JObject Whole()
         {
             _sent.Clear();
+            _others.Clear();
             _dirty.Clear();
             _dirtyInOrder.Clear();
             var entities = new JArray();
-            foreach (var entity in _host.ReadAll().Where(entity => Cut(entity) != null))
+            foreach (var entity in _host.ReadAll().Where(entity => Cut(entity.Handle, entity) != null))
             {
                 _sent[entity.Handle] = entity;
                 entities.Add(entity.ToJson());

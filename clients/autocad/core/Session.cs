@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.Diagnostics;
 using System.Linq;
+using System.Threading;
 using Newtonsoft.Json.Linq;
 
 namespace Wedm.Core
@@ -27,7 +28,7 @@ namespace Wedm.Core
     /// All members belong to one thread, that of the CAD program; none of them waits. Whatever comes from the server is handed
     /// over within <see cref="Pump"/>, which that thread calls a few times a second.
     /// </summary>
-    public sealed class Session : IDisposable
+    public sealed partial class Session : IDisposable
     {
         /// <summary>The version of the name space wedm/ that this client speaks.</summary>
         public const int ProtocolVersion = 1;
@@ -42,6 +43,7 @@ namespace Wedm.Core
         private TimeSpan _startedAt;
         private TimeSpan? _readyAt;
         private TimeSpan _restartAt;
+        private int _unanswered;
 
         /// <summary>A question from before the greeting was over: it is sent once its drawings have been opened.</summary>
         private sealed class Deferred
@@ -160,8 +162,33 @@ namespace Wedm.Core
         /// <summary>Asks for the list of all radii.</summary>
         public void ListRadii(LiveDrawing drawing, Action<IReadOnlyList<RadiusRow>> rows, Action<string> refused)
         {
-            drawing.Flush();
-            Request("wedm/inspect", new JObject { ["uri"] = drawing.Uri }, result => rows(RadiusRow.Of(result)), error => refused(error.Message));
+            Ask(drawing, "wedm/inspect", new JObject(), result => rows(RadiusRow.Of(result)), error => refused(error.Message));
+        }
+
+        /// <summary>Asks about the drawing as it is now or, where a repair of it is on its way, as that leaves it.</summary>
+        private void Ask(LiveDrawing drawing, string method, JObject question, Action<JToken> result, Action<ServerError> error)
+        {
+            question["uri"] = drawing.Uri;
+            drawing.AfterRepairs(() =>
+            {
+                drawing.Flush();
+                Request(method, question, result, error);
+            });
+        }
+
+        /// <summary>
+        /// Waits until everything that was asked for is answered, for scripts, whose next command comes at once. False where that takes longer
+        /// than <paramref name="patience"/>.
+        /// </summary>
+        public bool Finish(TimeSpan patience)
+        {
+            var begin = _clock.Elapsed;
+            while (_unanswered > 0 && _clock.Elapsed - begin < patience)
+            {
+                Pump();
+                Thread.Sleep(5);
+            }
+            return _unanswered == 0;
         }
 
         /// <summary>
@@ -170,7 +197,13 @@ namespace Wedm.Core
         /// </summary>
         public void Fix(LiveDrawing drawing, Finding finding, Action<string> done, Action<string> refused)
         {
+            drawing.AfterRepairs(() => FixNow(drawing, finding, done, refused));
+        }
+
+        private void FixNow(LiveDrawing drawing, Finding finding, Action<string> done, Action<string> refused)
+        {
             drawing.Flush();
+            drawing.Repairing();
             var line = finding == null ? 0 : (int?)finding.Diagnostic["range"]?["start"]?["line"] ?? 0;
             var place = new JObject { ["line"] = line, ["character"] = 0 };
             var context = new JObject
@@ -184,7 +217,18 @@ namespace Wedm.Core
                 ["range"] = new JObject { ["start"] = place, ["end"] = place },
                 ["context"] = context,
             };
-            Request("textDocument/codeAction", question, actions => Make(drawing, actions, done, refused), error => refused(error.Message));
+            Request(
+                "textDocument/codeAction", question,
+                actions =>
+                {
+                    Make(drawing, actions, done, refused);
+                    drawing.Repaired();
+                },
+                error =>
+                {
+                    refused(error.Message);
+                    drawing.Repaired();
+                });
         }
 
         /// <summary>What a format ("3b", "4b", "iso", "milling") is called where people read it.</summary>
@@ -196,67 +240,19 @@ namespace Wedm.Core
         /// <summary>Asks for a program ("3b", "4b", "iso", "milling"). Where errors in the drawing prevent it, they are passed on in full.</summary>
         public void Generate(LiveDrawing drawing, string format, Action<string> program, Action<string> refused)
         {
-            drawing.Flush();
-            var question = new JObject { ["uri"] = drawing.Uri, ["format"] = format };
-            Request("wedm/generate", question, result => program((string)result["program"]), error => refused(InFull(error)));
+            Ask(drawing, "wedm/generate", new JObject { ["format"] = format }, result => program((string)result["program"]), error => refused(InFull(error)));
         }
 
         /// <summary>Asks for the path of the wire, with its start holes and its figures (time, weight, cost).</summary>
         public void FindPath(LiveDrawing drawing, Action<Toolpath> found, Action<string> refused)
         {
-            drawing.Flush();
-            Request("wedm/toolpath", new JObject { ["uri"] = drawing.Uri }, result => found(new Toolpath(result)), error => refused(InFull(error)));
-        }
-
-        /// <summary>Draws the wire's path on the layer <see cref="Toolpath.PathLayer"/>, in place of what lies there, as one step of undo.</summary>
-        public void DrawPath(LiveDrawing drawing, Action<string> done, Action<string> refused)
-        {
-            Draw(drawing, Toolpath.PathLayer, path => path.Pieces, path => "the wire's path is on the layer " + Toolpath.PathLayer + ", " + path.Figures().Split('\n')[0], done, refused);
-        }
-
-        /// <summary>
-        /// Draws the start holes with their marks on the layer <see cref="Toolpath.HoleLayer"/>, in place of what lies there. A mark that is moved there moves the hole.
-        /// </summary>
-        public void DrawHoles(LiveDrawing drawing, Action<string> done, Action<string> refused)
-        {
-            Draw(drawing, Toolpath.HoleLayer, path => path.DrawnHoles(), path => path.Holes.Count + " start holes are on the layer " + Toolpath.HoleLayer, done, refused);
-        }
-
-        /// <summary>Marks a thread hole: the mark counts for the contour nearest to it. Returns null, or why it was refused.</summary>
-        public string MarkHole(LiveDrawing drawing, double x, double y)
-        {
-            return drawing.Draw(Toolpath.HoleLayer, new Entity[] { new TextEntity(null, Toolpath.HoleLayer, new[] { x, y }, Toolpath.Mark) }, false);
+            Ask(drawing, "wedm/toolpath", new JObject(), result => found(new Toolpath(result)), error => refused(InFull(error)));
         }
 
         /// <summary>Asks whether punch and plate fit.</summary>
         public void CheckFit(LiveDrawing drawing, Action<Fit> found, Action<string> refused)
         {
-            drawing.Flush();
-            Request("wedm/fit", new JObject { ["uri"] = drawing.Uri }, result => found(new Fit(result)), error => refused(InFull(error)));
-        }
-
-        private void Draw(LiveDrawing drawing, string layer, Func<Toolpath, IReadOnlyList<Entity>> entities, Func<Toolpath, string> words,
-            Action<string> done, Action<string> refused)
-        {
-            drawing.Flush();
-            var version = drawing.Version;
-            FindPath(drawing, path =>
-            {
-                if (drawing.Version != version || drawing.HasUnsentChanges)
-                {
-                    refused("the drawing has changed since the path was made for it; nothing was drawn");
-                    return;
-                }
-                var refusal = drawing.Draw(layer, entities(path), true);
-                if (refusal == null)
-                {
-                    done(words(path));
-                }
-                else
-                {
-                    refused(refusal);
-                }
-            }, refused);
+            Ask(drawing, "wedm/fit", new JObject(), result => found(new Fit(result)), error => refused(InFull(error)));
         }
 
         public void Dispose()
@@ -281,7 +277,23 @@ namespace Wedm.Core
             }
         }
 
-        private void Request(string method, JToken parameters, Action<JToken> result, Action<ServerError> error)
+        private void Request(string method, JToken parameters, Action<JToken> answered, Action<ServerError> failed)
+        {
+            _unanswered++;
+            Action<JToken> result = answer =>
+            {
+                _unanswered--;
+                answered(answer);
+            };
+            Action<ServerError> error = fault =>
+            {
+                _unanswered--;
+                failed(fault);
+            };
+            Send(method, parameters, result, error);
+        }
+
+        private void Send(string method, JToken parameters, Action<JToken> result, Action<ServerError> error)
         {
             if (State == SessionState.Running)
             {
@@ -318,7 +330,7 @@ namespace Wedm.Core
             }
             foreach (var question in TakeDeferred())
             {
-                Request(question.Method, question.Parameters, question.Result, question.Error);
+                Send(question.Method, question.Parameters, question.Result, question.Error);
             }
         }
 

@@ -8,12 +8,13 @@ using Autodesk.AutoCAD.Geometry;
 using Wedm.Core;
 using CadEntity = Autodesk.AutoCAD.DatabaseServices.Entity;
 using Entity = Wedm.Core.Entity;
+using Vertex = Wedm.Core.Vertex;
 
 namespace Wedm.AutoCad
 {
     /// <summary>
-    /// A document's modelspace as the core sees it. Plane entities whose extrusion is +Z or −Z are known, in world coordinates; all
-    /// others stay out, as they do in the server.
+    /// A document's modelspace as the core sees it, and the way of a repair back into it. How an entity is read is said in
+    /// <see cref="EntityReader"/>.
     /// </summary>
     internal sealed class AutoCadDrawing : IDrawingHost
     {
@@ -52,8 +53,8 @@ namespace Wedm.AutoCad
             using (var transaction = Database.TransactionManager.StartOpenCloseTransaction())
             {
                 var modelspace = (BlockTableRecord)transaction.GetObject(SymbolUtilityServices.GetBlockModelSpaceId(Database), OpenMode.ForRead);
-                var entities = modelspace.Cast<ObjectId>().Select(id => Known(transaction.GetObject(id, OpenMode.ForRead))).Where(entity => entity != null);
-                return entities.ToArray();
+                var reader = new EntityReader(Database, transaction);
+                return modelspace.Cast<ObjectId>().Select(id => reader.Read(transaction.GetObject(id, OpenMode.ForRead))).Where(entity => entity != null).ToArray();
             }
         }
 
@@ -61,7 +62,7 @@ namespace Wedm.AutoCad
         {
             using (var transaction = Database.TransactionManager.StartOpenCloseTransaction())
             {
-                return TryFind(handle, out var id) ? Known(transaction.GetObject(id, OpenMode.ForRead, true)) : null;
+                return TryFind(handle, out var id) ? new EntityReader(Database, transaction).Read(transaction.GetObject(id, OpenMode.ForRead, true)) : null;
             }
         }
 
@@ -190,6 +191,10 @@ namespace Wedm.AutoCad
             {
                 return new Circle();
             }
+            if (entity is PointEntity)
+            {
+                return new DBPoint();
+            }
             return new DBText { Height = MarkHeight };
         }
 
@@ -223,6 +228,10 @@ namespace Wedm.AutoCad
                 text.Position = At(wantedText.At, text.Position.Z);
                 text.TextString = wantedText.Text;
             }
+            else if (there is DBPoint point && entity is PointEntity wantedPoint)
+            {
+                point.Position = At(wantedPoint.At, point.Position.Z);
+            }
             else
             {
                 return false;
@@ -255,48 +264,8 @@ namespace Wedm.AutoCad
             polyline.Closed = wanted.Closed;
         }
 
-        private Entity Known(DBObject found)
-        {
-            var entity = found as CadEntity;
-            if (entity == null || entity.IsErased || entity.OwnerId != SymbolUtilityServices.GetBlockModelSpaceId(Database))
-            {
-                return null;
-            }
-            var handle = entity.Handle.ToString();
-            if (entity is Polyline polyline && IsPlane(polyline.Normal) && polyline.NumberOfVertices > 0)
-            {
-                var vertices = Enumerable.Range(0, polyline.NumberOfVertices).Select(index => VertexAt(polyline, index)).ToArray();
-                return new PolylineEntity(handle, polyline.Layer, polyline.Closed, vertices);
-            }
-            if (entity is Line line && line.StartPoint.Z == line.EndPoint.Z)
-            {
-                return new LineEntity(handle, line.Layer, Flat(line.StartPoint), Flat(line.EndPoint));
-            }
-            if (entity is Arc arc && IsPlane(arc.Normal))
-            {
-                var start = arc.StartAngle * DegreesPerRadian;
-                var end = arc.EndAngle * DegreesPerRadian;
-                return arc.Normal.Z > 0
-                    ? new ArcEntity(handle, arc.Layer, Flat(arc.Center), arc.Radius, start, end)
-                    : new ArcEntity(handle, arc.Layer, Flat(arc.Center), arc.Radius, 180 - end, 180 - start);
-            }
-            if (entity is Circle circle && IsPlane(circle.Normal))
-            {
-                return new CircleEntity(handle, circle.Layer, Flat(circle.Center), circle.Radius);
-            }
-            if (entity is DBText text)
-            {
-                return new TextEntity(handle, text.Layer, Flat(text.Position), text.TextString);
-            }
-            if (entity is MText paragraph)
-            {
-                return new TextEntity(handle, paragraph.Layer, Flat(paragraph.Location), paragraph.Text);
-            }
-            return null;
-        }
-
         /// <summary>In world coordinates: where the extrusion is −Z, AutoCAD's own x and bulge have the other sign.</summary>
-        private static Vertex VertexAt(Polyline polyline, int index)
+        internal static Vertex VertexAt(Polyline polyline, int index)
         {
             var mirror = Mirror(polyline.Normal);
             var point = polyline.GetPoint2dAt(index);
@@ -305,10 +274,6 @@ namespace Wedm.AutoCad
         }
 
         private static double Mirror(Vector3d normal) => normal.Z < 0 ? -1 : 1;
-
-        private static bool IsPlane(Vector3d normal) => normal.X == 0 && normal.Y == 0;
-
-        private static double[] Flat(Point3d point) => new[] { point.X, point.Y };
 
         private static Point3d At(double[] point, double z) => new Point3d(point[0], point[1], z);
     }

@@ -61,6 +61,9 @@ namespace Wedm.AutoCad
         /// <summary>A row was double-clicked, or Enter pressed on it.</summary>
         public event Action<RadiusRow> RowActivated;
 
+        /// <summary>What is in the drawing and not in the list; null where that is nothing.</summary>
+        public string LeftOut { get; set; }
+
         /// <summary>Rows that stand in the list now.</summary>
         public int ShownCount => _shown.Length;
 
@@ -81,7 +84,7 @@ namespace Wedm.AutoCad
             _list.VirtualListSize = _shown.Length;
             _list.Invalidate();
             var faults = _all.Count(row => row.IsAtFault);
-            Say(_all.Count + " segments, " + (faults == 0 ? "all ok" : faults + " not ok"));
+            Say(_all.Count + " segments, " + (faults == 0 ? "all ok" : faults + " not ok") + (LeftOut == null ? "" : "; not checked: " + LeftOut));
         }
 
         private void ActivateSelected()

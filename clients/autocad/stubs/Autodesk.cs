@@ -40,6 +40,11 @@ namespace Autodesk.AutoCAD.Runtime
         public ErrorStatus ErrorStatus => throw null;
     }
 
+    public class RXClass
+    {
+        public string DxfName => throw null;
+    }
+
     public abstract class DisposableWrapper : IDisposable
     {
         public void Dispose() => throw null;
@@ -55,9 +60,21 @@ namespace Autodesk.AutoCAD.Geometry
         public double Y => throw null;
     }
 
+    public struct Matrix3d
+    {
+        public static Matrix3d Displacement(Vector3d vector) => throw null;
+        public static Matrix3d PlaneToWorld(Vector3d normal) => throw null;
+        public static Matrix3d Rotation(double angle, Vector3d axis, Point3d center) => throw null;
+        public Matrix3d Inverse() => throw null;
+        public static Matrix3d operator *(Matrix3d left, Matrix3d right) => throw null;
+    }
+
     public struct Point3d
     {
+        public static Point3d Origin => throw null;
         public Point3d(double x, double y, double z) => throw null;
+        public Point3d TransformBy(Matrix3d matrix) => throw null;
+        public static Vector3d operator -(Point3d left, Point3d right) => throw null;
         public double X => throw null;
         public double Y => throw null;
         public double Z => throw null;
@@ -73,6 +90,27 @@ namespace Autodesk.AutoCAD.Geometry
 
     public class IntegerCollection
     {
+    }
+}
+
+namespace Autodesk.AutoCAD.Colors
+{
+    public enum ColorMethod
+    {
+        None,
+        ByColor,
+        ByLayer,
+        ByBlock,
+        ByAci,
+    }
+
+    public class Color
+    {
+        public ColorMethod ColorMethod => throw null;
+        public short ColorIndex => throw null;
+        public byte Red => throw null;
+        public byte Green => throw null;
+        public byte Blue => throw null;
     }
 }
 
@@ -133,6 +171,7 @@ namespace Autodesk.AutoCAD.DatabaseServices
     {
         public static ObjectId Null => throw null;
         public bool IsErased => throw null;
+        public Handle Handle => throw null;
         public static bool operator ==(ObjectId one, ObjectId other) => throw null;
         public static bool operator !=(ObjectId one, ObjectId other) => throw null;
     }
@@ -143,11 +182,28 @@ namespace Autodesk.AutoCAD.DatabaseServices
         public ObjectId OwnerId => throw null;
         public bool IsErased => throw null;
         public void Erase() => throw null;
+        public RXClass GetRXClass() => throw null;
+        public ResultBuffer GetXDataForApplication(string name) => throw null;
+    }
+
+    public struct TypedValue
+    {
+        public short TypeCode => throw null;
+        public object Value => throw null;
+    }
+
+    public class ResultBuffer : DisposableWrapper
+    {
+        public TypedValue[] AsArray() => throw null;
     }
 
     public abstract class Entity : DBObject
     {
         public string Layer { get => throw null; set => throw null; }
+        public ObjectId LayerId { get => throw null; set => throw null; }
+        public string Linetype { get => throw null; set => throw null; }
+        public Autodesk.AutoCAD.Colors.Color Color { get => throw null; set => throw null; }
+        public bool Visible { get => throw null; set => throw null; }
         public int ColorIndex { get => throw null; set => throw null; }
         public void SetDatabaseDefaults(Database database) => throw null;
         public void SetPropertiesFrom(Entity entity) => throw null;
@@ -168,6 +224,37 @@ namespace Autodesk.AutoCAD.DatabaseServices
         public void SetBulgeAt(int index, double bulge) => throw null;
         public void AddVertexAt(int index, Point2d point, double bulge, double startWidth, double endWidth) => throw null;
         public void RemoveVertexAt(int index) => throw null;
+    }
+
+    public enum Vertex2dType
+    {
+        SimpleVertex,
+        CurveFitVertex,
+        SplineFitVertex,
+        SplineControlVertex,
+    }
+
+    public abstract class Vertex : Entity
+    {
+    }
+
+    public class Vertex2d : Vertex
+    {
+        public double Bulge { get => throw null; set => throw null; }
+        public Vertex2dType VertexType => throw null;
+    }
+
+    public class Polyline2d : Curve, IEnumerable
+    {
+        public Vector3d Normal => throw null;
+        public bool Closed { get => throw null; set => throw null; }
+        public IEnumerator GetEnumerator() => throw null;
+        public Point3d VertexPosition(Vertex2d vertex) => throw null;
+    }
+
+    public class DBPoint : Entity
+    {
+        public Point3d Position { get => throw null; set => throw null; }
     }
 
     public class Line : Curve
@@ -194,8 +281,29 @@ namespace Autodesk.AutoCAD.DatabaseServices
         public double Radius { get => throw null; set => throw null; }
     }
 
+    public enum TextHorizontalMode
+    {
+        TextLeft,
+        TextCenter,
+        TextRight,
+        TextAlign,
+        TextMid,
+        TextFit,
+    }
+
+    public enum TextVerticalMode
+    {
+        TextBase,
+        TextBottom,
+        TextVerticalMid,
+        TextTop,
+    }
+
     public class DBText : Entity
     {
+        public TextHorizontalMode HorizontalMode { get => throw null; set => throw null; }
+        public TextVerticalMode VerticalMode { get => throw null; set => throw null; }
+        public Point3d AlignmentPoint { get => throw null; set => throw null; }
         public Point3d Position { get => throw null; set => throw null; }
         public string TextString { get => throw null; set => throw null; }
         public double Height { get => throw null; set => throw null; }
@@ -219,6 +327,14 @@ namespace Autodesk.AutoCAD.DatabaseServices
     }
 
     public class LayerTableRecord : SymbolTableRecord
+    {
+        public bool IsFrozen { get => throw null; set => throw null; }
+        public bool IsOff { get => throw null; set => throw null; }
+        public ObjectId LinetypeObjectId { get => throw null; set => throw null; }
+        public Autodesk.AutoCAD.Colors.Color Color { get => throw null; set => throw null; }
+    }
+
+    public class LinetypeTableRecord : SymbolTableRecord
     {
     }
 
@@ -274,11 +390,16 @@ namespace Autodesk.AutoCAD.DatabaseServices
         public event ObjectEventHandler ObjectAppended;
         public event ObjectEventHandler ObjectModified;
         public event ObjectErasedEventHandler ObjectErased;
+        public event ObjectEventHandler ObjectUnappended;
+        public event ObjectEventHandler ObjectReappended;
     }
 
     public class ViewTableRecord : DBObject
     {
         public Point2d CenterPoint { get => throw null; set => throw null; }
+        public Point3d Target { get => throw null; set => throw null; }
+        public Vector3d ViewDirection { get => throw null; set => throw null; }
+        public double ViewTwist { get => throw null; set => throw null; }
         public double Height { get => throw null; set => throw null; }
         public double Width { get => throw null; set => throw null; }
     }
@@ -315,6 +436,7 @@ namespace Autodesk.AutoCAD.EditorInput
 
     public class Editor
     {
+        public Autodesk.AutoCAD.Geometry.Matrix3d CurrentUserCoordinateSystem { get => throw null; set => throw null; }
         public PromptPointResult GetPoint(string message) => throw null;
         public void WriteMessage(string message) => throw null;
         public PromptFileNameResult GetFileNameForSave(PromptSaveFileOptions options) => throw null;
@@ -359,12 +481,15 @@ namespace Autodesk.AutoCAD.ApplicationServices
     public class Document
     {
         public string Name => throw null;
+        public string CommandInProgress => throw null;
         public Database Database => throw null;
         public Editor Editor => throw null;
         public DocumentLock LockDocument() => throw null;
         public event CommandEventHandler CommandEnded;
         public event CommandEventHandler CommandCancelled;
+        public event CommandEventHandler CommandFailed;
         public event EventHandler LispEnded;
+        public event EventHandler LispCancelled;
     }
 
     public class DocumentCollectionEventArgs : EventArgs
@@ -376,7 +501,9 @@ namespace Autodesk.AutoCAD.ApplicationServices
 
     public class DocumentCollection
     {
-        public Document MdiActiveDocument => throw null;
+        public Document MdiActiveDocument { get => throw null; set => throw null; }
+        public event DocumentCollectionEventHandler DocumentActivated;
+        public event DocumentCollectionEventHandler DocumentToBeDeactivated;
         public event DocumentCollectionEventHandler DocumentToBeDestroyed;
     }
 }
@@ -386,5 +513,7 @@ namespace Autodesk.AutoCAD.ApplicationServices.Core
     public static class Application
     {
         public static DocumentCollection DocumentManager => throw null;
+        public static object GetSystemVariable(string name) => throw null;
+        public static event System.EventHandler Idle;
     }
 }

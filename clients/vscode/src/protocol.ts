@@ -433,7 +433,7 @@ export interface Settings {
     [k: string]: Role;
   };
   /**
-   * Role of what is drawn in a linetype, by itself or by its layer: by the name of the linetype, before layers and colours; in DXF. Without one, what is drawn in CENTER, HIDDEN, PHANTOM and their like is not cut: see `unsupported-entity`.
+   * Role of what is drawn in a linetype, by itself or by its layer: by the name of the linetype, before layers and colours. Without one, what is drawn in CENTER, HIDDEN, PHANTOM and their like is not cut: see `unsupported-entity`.
    */
   linetypes?: {
     [k: string]: Role;
@@ -445,7 +445,7 @@ export interface Settings {
     [k: string]: Role;
   };
   /**
-   * Role of what is drawn in a colour, by itself or by its layer, where neither entity nor layer has one. Colours are `red`, `yellow`, `green`, `cyan`, `blue`, `magenta`, `white`, `1` to `255` (AutoCAD colour index), `#rrggbb`; in DXF.
+   * Role of what is drawn in a colour, by itself or by its layer, where neither entity nor layer has one. Colours are `red`, `yellow`, `green`, `cyan`, `blue`, `magenta`, `white`, `1` to `255` (AutoCAD colour index), `#rrggbb`.
    */
   colors?: {
     [k: string]: Role;

@@ -89,10 +89,7 @@ pub(super) fn point(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Resul
     let common = numbers.gather(lexer, |_, _| {});
     let [x, y] = numbers.required(start, lexer, &common)?;
     common.is_in_the_model()?;
-    let geometry = Geometry::Text {
-        at: Point::new(x, y),
-        text: "O".into(),
-    };
+    let geometry = Geometry::mark(Point::new(x, y));
     let lies = Lies::Level(numbers.values[2].unwrap_or(0.0));
     Ok(common.finish(lexer, layers, Kind::Point, (Shape::Plain(geometry), lies)))
 }

@@ -46,6 +46,9 @@ declare! {
     not_two_finite_numbers(name, key) => "entity {name}: {key} is not two finite numbers";
     the_radius_is_not_finite_and_above_0(name, radius) => "entity {name}: radius is {radius}, expected a finite number above 0";
     not_a_finite_number(name, key) => "entity {name}: {key} is not a finite number";
+    the_linetype_names_none(name, linetype) => "entity {name}: linetype is {linetype}, expected the name of the linetype that it is drawn in, that of its layer or its block where it has none of its own";
+    there_is_no_such_color(name, color) => "entity {name}: color is {color}, expected 1 to 255 or \"#rrggbb\"";
+    there_is_no_such_visibility(name, visible) => "entity {name}: visible is {visible}, expected true, false, \"off\" or \"frozen\"";
     a_vertex_is_not_finite(name, index) => "entity {name}: vertex {index} has a number that is not finite";
     nothing_found => "nothing found";
     next_steps => "Go on with";

@@ -46,6 +46,9 @@ translate! {
     not_two_finite_numbers(name, key) => "图元 {name}：{key} 不是两个有限数";
     the_radius_is_not_finite_and_above_0(name, radius) => "图元 {name}：radius 是 {radius}，应为大于 0 的有限数";
     not_a_finite_number(name, key) => "图元 {name}：{key} 不是有限数";
+    the_linetype_names_none(name, linetype) => "图元 {name}：linetype 是 {linetype}，应为所用线型的名称；自身没有线型时为其图层或图块的线型名";
+    there_is_no_such_color(name, color) => "图元 {name}：color 是 {color}，应为 1 至 255 或 \"#rrggbb\"";
+    there_is_no_such_visibility(name, visible) => "图元 {name}：visible 是 {visible}，应为 true、false、\"off\" 或 \"frozen\"";
     a_vertex_is_not_finite(name, index) => "图元 {name}：顶点 {index} 含有非有限数";
     nothing_found => "没有发现问题";
     next_steps => "接下来可以试：";

@@ -50,6 +50,8 @@ int likeness(const Entity &old, const Entity &fresh)
         const bool angles = alike(old.startAngle, fresh.startAngle) && alike(old.endAngle, fresh.endAngle);
         return (centre ? 2 : 0) + (alike(old.radius, fresh.radius) ? 1 : 0) + (old.kind == Kind::Arc && angles ? 1 : 0);
     }
+    case Kind::Point:
+        return 1;
     case Kind::Text:
         return old.text == fresh.text ? 1 : 0;
     }
@@ -62,7 +64,8 @@ Change changeOf(const Entity &old, Entity &fresh)
 {
     Change change;
     change.handle = fresh.handle;
-    if (old.kind != Kind::Polyline || fresh.kind != Kind::Polyline || old.closed != fresh.closed || old.layer != fresh.layer) {
+    if (old.kind != Kind::Polyline || fresh.kind != Kind::Polyline || old.closed != fresh.closed || old.layer != fresh.layer
+        || old.look != fresh.look) {
         change.what = Change::What::Put;
         change.entity = fresh;
         return change;

@@ -64,7 +64,9 @@ QString put(Drawing &drawing, const Change &change)
     entity.handle = change.handle;
     const int there = indexOf(drawing, change.handle);
     if (there >= 0) {
+        // A repair changes no look, and the server may write the same colour otherwise.
         entity.identity = drawing.entities.at(there).identity;
+        entity.look = drawing.entities.at(there).look;
         drawing.entities[there] = entity;
         return QString();
     }
@@ -93,7 +95,7 @@ bool alike(const Vertex &one, const Vertex &other)
 bool alike(const Entity &one, const Entity &other)
 {
     if (one.kind != other.kind || one.closed != other.closed || one.vertices.size() != other.vertices.size() || one.layer != other.layer
-        || one.text != other.text || !alike(one.x, other.x) || !alike(one.y, other.y) || !alike(one.radius, other.radius)
+        || one.look != other.look || one.text != other.text || !alike(one.x, other.x) || !alike(one.y, other.y) || !alike(one.radius, other.radius)
         || !alike(one.startAngle, other.startAngle) || !alike(one.endAngle, other.endAngle))
         return false;
     const Vertex *a = one.vertices.constData();

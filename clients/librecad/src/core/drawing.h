@@ -14,17 +14,31 @@ struct Vertex {
     double bulge = 0;
 };
 
-enum class Kind { Polyline, Line, Arc, Circle, Text };
+enum class Kind { Polyline, Line, Arc, Circle, Text, Point };
+
+/// How the host shows an entity, as far as it decides whether it is cut. What the entity takes from its layer is the layer's.
+struct EntityLook {
+    /// Its name in DXF; empty for a continuous line.
+    QString linetype;
+    /// The linetype is the layer's: a role of the layer then counts for the entity all the same.
+    bool linetypeByLayer = false;
+    /// "#rrggbb"; empty where it is not known.
+    QString color;
+
+    bool operator==(const EntityLook &other) const { return linetype == other.linetype && linetypeByLayer == other.linetypeByLayer && color == other.color; }
+    bool operator!=(const EntityLook &other) const { return !(*this == other); }
+};
 
 /// One entity. Which members mean something depends on `kind`:
 /// a polyline has `closed` and `vertices`; a line two `vertices`, its ends; an arc and a circle `x`, `y` (the centre) and `radius`;
-/// an arc also `startAngle` and `endAngle` in degrees, counter-clockwise; a text `x`, `y` and `text`.
+/// an arc also `startAngle` and `endAngle` in degrees, counter-clockwise; a text `x`, `y` and `text`; a point `x` and `y`.
 struct Entity {
     /// The host's own number for it; 0 where there is none. It changes when the host replaces the entity.
     quint64 identity = 0;
     /// The server's name for it; empty until it has one. It stays when the host replaces the entity.
     QString handle;
     QString layer;
+    EntityLook look;
     Kind kind = Kind::Polyline;
     bool closed = false;
     QVector<Vertex> vertices;
@@ -34,7 +48,6 @@ struct Entity {
     double startAngle = 0;
     double endAngle = 0;
     QString text;
-
 };
 
 /// Coordinates and bulges that differ by less are the same: a host that keeps an arc by centre and angles returns its ends and its
@@ -45,7 +58,7 @@ constexpr double NOISE_RELATIVE = 4e-14;
 /// Whether two numbers are the same but for noise.
 bool alike(double one, double other);
 bool alike(const Vertex &one, const Vertex &other);
-/// Whether layer and geometry are the same but for noise; identity and handle are not looked at.
+/// Whether layer, look and geometry are the same but for noise; identity and handle are not looked at.
 bool alike(const Entity &one, const Entity &other);
 
 enum class Units { Unknown, Millimetre, Inch };

@@ -54,6 +54,13 @@ void write(QByteArray &out, const Entity &entity)
         out += ",\"layer\":";
         out += toJson(entity.layer);
     }
+    if (!entity.look.linetype.isEmpty()) {
+        out += ",\"linetype\":" + toJson(entity.look.linetype);
+        if (entity.look.linetypeByLayer)
+            out += ",\"linetypeByLayer\":true";
+    }
+    if (!entity.look.color.isEmpty())
+        out += ",\"color\":" + toJson(entity.look.color);
     switch (entity.kind) {
     case Kind::Polyline:
         out += ",\"type\":\"polyline\",\"closed\":";
@@ -86,6 +93,10 @@ void write(QByteArray &out, const Entity &entity)
         out += ",\"type\":\"text\",\"at\":";
         write(out, entity.x, entity.y);
         out += ",\"text\":" + toJson(entity.text);
+        break;
+    case Kind::Point:
+        out += ",\"type\":\"point\",\"at\":";
+        write(out, entity.x, entity.y);
         break;
     }
     out += '}';
@@ -161,6 +172,9 @@ Entity toEntity(const QJsonObject &object, bool *sound)
     Entity entity;
     entity.handle = object.value("handle").toString();
     entity.layer = object.value("layer").toString();
+    entity.look.linetype = object.value("linetype").toString();
+    entity.look.linetypeByLayer = object.value("linetypeByLayer").toBool();
+    entity.look.color = object.value("color").toString();
     const QString type = object.value("type").toString();
     if (type == "polyline") {
         entity.kind = Kind::Polyline;
@@ -181,8 +195,8 @@ Entity toEntity(const QJsonObject &object, bool *sound)
             entity.endAngle = toNumber(object.value("endAngle"));
             *sound = *sound && std::isfinite(entity.startAngle) && std::isfinite(entity.endAngle);
         }
-    } else if (type == "text") {
-        entity.kind = Kind::Text;
+    } else if (type == "text" || type == "point") {
+        entity.kind = type == "text" ? Kind::Text : Kind::Point;
         const QPointF at = toPoint(object.value("at"), sound);
         entity.x = at.x();
         entity.y = at.y();

@@ -29,6 +29,7 @@ void Looks::whole(Document_Interface &drawing)
     QElapsedTimer clock;
     clock.start();
     m_slices.drop();
+    m_slices.forgetLayers();
     const Snapshot snapshot = takeSnapshot(drawing);
     parent()->setProperty("lookMilliseconds", clock.elapsed());
     deliver(snapshot, clock.elapsed());
@@ -38,6 +39,8 @@ void Looks::whole(Document_Interface &drawing)
 void Looks::nextSlice()
 {
     if (!m_slices.isBegun()) {
+        if (m_window != host::currentWindow())
+            m_slices.forgetLayers();
         m_window = host::currentWindow();
         m_spent = 0;
         parent()->setProperty("slices", 0);

@@ -2,6 +2,7 @@
 #include "snapshot.h"
 
 #include "document_interface.h"
+#include "layer_looks.h"
 
 #include <QElapsedTimer>
 #include <QHash>
@@ -17,8 +18,6 @@ const char MARK_LAYER[] = "WEDM_MARKS";
 const char PATH_LAYER[] = "WEDM_PATH";
 
 namespace {
-
-using Data = QHash<int, QVariant>;
 
 /// The colours of marks and of the wire's path, 24 bits.
 constexpr int MARK_COLOUR = 0xff00ff;
@@ -84,7 +83,6 @@ const char *uncheckedKind(int type)
     case DPI::SOLID:
         return "solid";
     default:
-        // Points, texts and dimensions are no contour.
         return nullptr;
     }
 }
@@ -101,10 +99,11 @@ QVector<Vertex> verticesOf(Plug_Entity &entity)
 }
 
 /// False for what cannot be cut.
-bool read(Plug_Entity &source, const Data &data, Entity *entity)
+bool read(Plug_Entity &source, const Data &data, LayerLooks &layers, Entity *entity)
 {
     entity->identity = data.value(DPI::EID).toULongLong();
     entity->layer = data.value(DPI::LAYER).toString();
+    entity->look = layers.of(data);
     entity->x = number(data, DPI::STARTX);
     entity->y = number(data, DPI::STARTY);
     switch (data.value(DPI::ETYPE).toInt()) {
@@ -139,6 +138,9 @@ bool read(Plug_Entity &source, const Data &data, Entity *entity)
         entity->kind = Kind::Text;
         entity->text = data.value(DPI::TEXTCONTENT).toString();
         return entity->text.size() <= LONGEST_START_MARK;
+    case DPI::POINT:
+        entity->kind = Kind::Point;
+        return true;
     default:
         return false;
     }
@@ -156,14 +158,14 @@ void readUnits(Document_Interface &drawing, Snapshot *snapshot)
         snapshot->otherUnit = unit;
 }
 
-void readEntity(Plug_Entity &source, Snapshot *snapshot)
+void readEntity(Plug_Entity &source, LayerLooks &layers, Snapshot *snapshot)
 {
     Data data;
     source.getData(&data);
     if (isOwn(data))
         return;
     Entity entity;
-    if (read(source, data, &entity))
+    if (read(source, data, layers, &entity))
         snapshot->entities += entity;
     else if (const char *kind = uncheckedKind(data.value(DPI::ETYPE).toInt()))
         ++snapshot->unchecked[QString::fromLatin1(kind)];
@@ -191,7 +193,7 @@ Data geometry(const Entity &entity, bool clockwise)
     case Kind::Polyline:
         data.insert(DPI::CLOSEPOLY, entity.closed);
         break;
-    case Kind::Text:
+    default:
         break;
     }
     return data;
@@ -208,7 +210,7 @@ enum DPI::ETYPE typeOf(Kind kind)
         return DPI::ARC;
     case Kind::Circle:
         return DPI::CIRCLE;
-    case Kind::Text:
+    default:
         break;
     }
     return DPI::UNKNOWN;
@@ -303,10 +305,11 @@ void SlicedSnapshot::read(Document_Interface &drawing, qint64 milliseconds)
         readUnits(drawing, &m_snapshot);
         m_snapshot.entities.reserve(size);
     }
+    LayerLooks layers(drawing, m_layers);
     while (m_next < size) {
         const int end = qMin(m_next + AT_ONCE, size);
         for (; m_next < end; ++m_next)
-            readEntity(*entities.list().at(m_next), &m_snapshot);
+            readEntity(*entities.list().at(m_next), layers, &m_snapshot);
         if (clock.elapsed() >= milliseconds)
             break;
     }
@@ -340,7 +343,7 @@ bool applyRepair(Document_Interface &drawing, const Repair &repair, QString *fai
             changed += entity;
         if (old >= 0)
             stays[old] = true;
-        if (old < 0 && entity.kind == Kind::Text) {
+        if (old < 0 && typeOf(entity.kind) == DPI::UNKNOWN) {
             *failure = QObject::tr("The repair holds what this plugin cannot draw; nothing was changed.");
             return false;
         }
@@ -361,12 +364,14 @@ bool applyRepair(Document_Interface &drawing, const Repair &repair, QString *fai
     QHash<quint64, Plug_Entity *> wrappers;
     QHash<quint64, Data> looks;
     QHash<QString, Data> layerLooks;
+    QHash<QString, EntityLook> known;
+    LayerLooks layers(drawing, known);
     int same = 0;
     for (Plug_Entity *each : entities.list()) {
         Data data;
         each->getData(&data);
         Entity entity;
-        if (isOwn(data) || !read(*each, data, &entity))
+        if (isOwn(data) || !read(*each, data, layers, &entity))
             continue;
         const int old = identities.value(entity.identity, -1);
         if (old < 0 || !alike(repair.before.at(old), entity)) {
@@ -421,7 +426,7 @@ bool applyRepair(Document_Interface &drawing, const Repair &repair, QString *fai
         Data data;
         result.list().at(i)->getData(&data);
         Entity entity;
-        if (!read(*result.list().at(i), data, &entity))
+        if (!read(*result.list().at(i), data, layers, &entity))
             continue;
         for (int k = 0; k < meant.size(); ++k) {
             if (!there.at(k) && arrived(meant.at(k), entity)) {

@@ -5,6 +5,7 @@
 
 #include "core/session.h"
 
+#include <QHash>
 #include <QMap>
 
 class Document_Interface;
@@ -39,9 +40,12 @@ public:
     /// What was read; the next one begins again.
     Snapshot take();
     void drop() { take(); }
+    /// The looks of layers are kept from one snapshot to the next until this is called.
+    void forgetLayers() { m_layers.clear(); }
 
 private:
     Snapshot m_snapshot;
+    QHash<QString, EntityLook> m_layers;
     bool m_isBegun = false;
     int m_size = 0;
     int m_next = 0;

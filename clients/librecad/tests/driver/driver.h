@@ -31,6 +31,7 @@ private:
     void fixOne();
     void generate();
     void formats();
+    void counterbore();
     void path();
     void hole();
     void stale();

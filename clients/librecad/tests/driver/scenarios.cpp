@@ -30,6 +30,7 @@ void Driver::scenario(const QString &name)
         {"fixOne", &Driver::fixOne},
         {"generate", &Driver::generate},
         {"formats", &Driver::formats},
+        {"counterbore", &Driver::counterbore},
         {"path", &Driver::path},
         {"hole", &Driver::hole},
         {"stale", &Driver::stale},
@@ -158,6 +159,24 @@ void Driver::generate()
     const QByteArray program = file.readAll();
     expect("it is 3B, from the first block to DD", program.startsWith("B") && program.trimmed().endsWith("DD"), program);
     expect("nothing else lies beside it", QDir(QFileInfo(path).path()).entryList({"plate.3b*", "*.XXXXXX"}, QDir::Files).size() == 1);
+}
+
+/// What is drawn to be read, by its linetype or its layer's, is not cut here either: the program is that of the file.
+void Driver::counterbore()
+{
+    const QString path = QFileInfo(m_file).absoluteDir().filePath("plate.3b");
+    choose("Check radii");
+    set("wedm_side", "opening");
+    choose("Generate 3B…");
+    acceptFile(path);
+    expectSoon("the program is written", [this] { return text("wedm_message").startsWith("Written"); }, [this] { return text("wedm_message"); });
+    QFile file(path);
+    const QByteArray program = file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
+    QProcess server;
+    server.start(qEnvironmentVariable("WEDM"), {"generate", "--side", "opening", m_file});
+    server.waitForFinished(PATIENCE);
+    const QByteArray ofFile = server.readAllStandardOutput();
+    expect("it is that of the file", !program.isEmpty() && program == ofFile, program + "\n---\n" + ofFile);
 }
 
 /// ISO, 4B and milling, from the same drawing.

@@ -16,7 +16,7 @@ import warnings
 from .archive import Checked, check_many, report
 from .cad import UnsupportedEntity, UnsupportedUnits
 from .documents import Action, Document, Drawing, ProgramFormat, TextDocument, WireFormat, write_back
-from .entities import Arc, Change, Circle, Delete, Entity, Line, Point, Polyline, Put, Splice, Text, Vertex
+from .entities import Arc, Change, Circle, Delete, Entity, Line, Mark, Point, Polyline, Put, Splice, Text, Vertex
 from .errors import (
     DoesNotApply,
     NoAnswer,
@@ -119,6 +119,7 @@ __all__ = [
     "LargestWire",
     "Line",
     "Located",
+    "Mark",
     "MilledContour",
     "Milling",
     "MillingSettings",

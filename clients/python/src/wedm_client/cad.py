@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from .entities import Arc, Circle, Entity, Line, Polyline, Text, entity_from_json, with_handle
+from .entities import Arc, Circle, Entity, Line, Mark, Polyline, Text, entity_from_json, with_handle
 from .settings import Units
 
 
@@ -69,7 +69,7 @@ def _is_vertex(item: Any) -> bool:
 
 
 def _entity(item: Any, number: int) -> Entity:
-    if isinstance(item, (Polyline, Line, Arc, Circle, Text)):
+    if isinstance(item, (Polyline, Line, Arc, Circle, Text, Mark)):
         return item
     if isinstance(item, Mapping):
         return entity_from_json(item)
@@ -80,12 +80,58 @@ def _entity(item: Any, number: int) -> Entity:
     raise TypeError(f"item {number} is of type {type(item).__name__}, expected an entity, a dictionary, vertices or an entity of ezdxf")
 
 
+_KNOWN = ("LWPOLYLINE", "POLYLINE", "LINE", "ARC", "CIRCLE", "TEXT", "MTEXT", "POINT")
+#: What has world coordinates, whatever its extrusion is.
+_IN_SPACE = ("LINE", "MTEXT", "POINT")
+#: Flag of a vertex of POLYLINE: a control point of its frame.
+_FRAME = 16
+#: Values of colour, group code 62.
+_BY_BLOCK, _BY_LAYER = 0, 256
+
+
+def _look(entity: Any) -> dict[str, Any]:
+    """How ezdxf's entity is shown: what it takes from its layer is the layer's."""
+    document = entity.doc
+    layer = document.layers.get(entity.dxf.layer) if document is not None and entity.dxf.layer in document.layers else None
+    look: dict[str, Any] = {}
+    linetype = str(entity.dxf.linetype)
+    by_layer = linetype.upper() == "BYLAYER"
+    if by_layer:
+        linetype = str(layer.dxf.linetype) if layer is not None else ""
+    if linetype.upper() not in ("", "CONTINUOUS", "BYBLOCK", "BYLAYER"):
+        look.update(linetype=linetype, linetype_by_layer=by_layer)
+    color = _color(entity)
+    if color is None and layer is not None:
+        color = _color(layer)
+    if color is not None:
+        look.update(color=color)
+    if entity.dxf.get("invisible", 0):
+        look.update(visible=False)
+    elif layer is not None and layer.is_frozen():
+        look.update(visible="frozen")
+    elif layer is not None and layer.is_off():
+        look.update(visible="off")
+    if entity.has_xdata("WEDM"):
+        look.update(xdata=tuple(str(tag.value) for tag in entity.get_xdata("WEDM") if tag.code == 1000))
+    return look
+
+
+def _color(shown: Any) -> int | str | None:
+    """The colour that an entity or a layer has of its own; that of a layer is negative where the layer is off."""
+    if shown.dxf.hasattr("true_color"):
+        return f"#{shown.dxf.true_color & 0xFFFFFF:06x}"
+    index = abs(int(shown.dxf.get("color", _BY_LAYER)))
+    return index if _BY_BLOCK < index < _BY_LAYER else None
+
+
 def _from_ezdxf(entity: Any) -> Entity:
     kind = entity.dxftype()
     handle = str(entity.dxf.handle or "")
-    layer = str(entity.dxf.layer)
+    if kind not in _KNOWN:
+        raise _unsupported(kind, handle)
+    common: dict[str, Any] = {"handle": handle, "layer": str(entity.dxf.layer), **_look(entity)}
     # The plane of an entity that is seen from below is that of the drawing mirrored about the y axis.
-    mirrored = kind != "LINE" and _is_seen_from_below(entity, kind, handle)
+    mirrored = kind not in _IN_SPACE and _is_seen_from_below(entity, kind, handle)
     sign = -1.0 if mirrored else 1.0
 
     def pair(point: Any) -> tuple[float, float]:
@@ -94,25 +140,36 @@ def _from_ezdxf(entity: Any) -> Entity:
     match kind:
         case "LWPOLYLINE":
             vertices = [(sign * x, y, sign * bulge) for x, y, bulge in entity.get_points("xyb")]
-            return Polyline(vertices, bool(entity.closed), handle, layer)
+            return Polyline(vertices, bool(entity.closed), **common)
         case "POLYLINE" if entity.is_2d_polyline:
-            bulged = [(*pair(vertex.dxf.location), sign * float(vertex.dxf.get("bulge", 0.0))) for vertex in entity.vertices]
-            return Polyline(bulged, bool(entity.is_closed), handle, layer)
+            # The frame of a spline is no part of it.
+            drawn = [vertex for vertex in entity.vertices if not vertex.dxf.flags & _FRAME]
+            bulged = [(*pair(vertex.dxf.location), sign * float(vertex.dxf.get("bulge", 0.0))) for vertex in drawn]
+            return Polyline(bulged, bool(entity.is_closed), **common)
         case "LINE":
-            return Line(pair(entity.dxf.start), pair(entity.dxf.end), handle, layer)
+            return Line(pair(entity.dxf.start), pair(entity.dxf.end), **common)
         case "ARC":
             start, end = float(entity.dxf.start_angle), float(entity.dxf.end_angle)
             if mirrored:
                 start, end = 180.0 - end, 180.0 - start
-            return Arc(pair(entity.dxf.center), float(entity.dxf.radius), start, end, handle, layer)
+            return Arc(pair(entity.dxf.center), float(entity.dxf.radius), start, end, **common)
         case "CIRCLE":
-            return Circle(pair(entity.dxf.center), float(entity.dxf.radius), handle, layer)
+            return Circle(pair(entity.dxf.center), float(entity.dxf.radius), **common)
         case "TEXT":
-            return Text(pair(entity.dxf.insert), str(entity.dxf.text), handle, layer)
+            # Aligned right, middle or above a line: the user has set the second point.
+            is_set = entity.dxf.hasattr("align_point") and (entity.dxf.halign in (1, 2, 4) or entity.dxf.valign in (1, 2, 3))
+            at = entity.dxf.align_point if is_set else entity.dxf.insert
+            return Text(pair(at), str(entity.plain_text()).strip(), **common)
         case "MTEXT":
-            return Text((float(entity.dxf.insert[0]), float(entity.dxf.insert[1])), str(entity.plain_text()), handle, layer)
-    raise UnsupportedEntity(
-        f"{kind} {handle} is none of LWPOLYLINE, 2D POLYLINE, LINE, ARC, CIRCLE, TEXT, MTEXT: "
+            return Text(pair(entity.dxf.insert), str(entity.plain_text()).strip(), **common)
+        case "POINT":
+            return Mark(pair(entity.dxf.location), **common)
+    raise _unsupported(kind, handle)
+
+
+def _unsupported(kind: str, handle: str) -> UnsupportedEntity:
+    return UnsupportedEntity(
+        f"{kind} {handle} is none of LWPOLYLINE, 2D POLYLINE, LINE, ARC, CIRCLE, TEXT, MTEXT, POINT: "
         "save the drawing and open the file, or open the ezdxf document as a whole"
     )
 
@@ -134,7 +191,7 @@ def write_back_to(entities: Mapping[str, Entity], sources: Mapping[str, Any]) ->
         if entity is None:
             source.destroy()
             changed += 1
-        elif with_handle(_from_ezdxf(source), handle) != entity:
+        elif _from_ezdxf(source)._json() != entity._json():
             _write(entity, source)
             changed += 1
     return changed
@@ -142,7 +199,7 @@ def write_back_to(entities: Mapping[str, Entity], sources: Mapping[str, Any]) ->
 
 def _write(entity: Entity, source: Any) -> None:
     kind = source.dxftype()
-    sign = -1.0 if kind != "LINE" and _is_seen_from_below(source, kind, entity.handle) else 1.0
+    sign = -1.0 if kind not in _IN_SPACE and _is_seen_from_below(source, kind, entity.handle) else 1.0
     match entity, kind:
         case Polyline(vertices=vertices), "LWPOLYLINE":
             source.set_points([(sign * x, y, sign * bulge) for x, y, bulge in vertices], format="xyb")

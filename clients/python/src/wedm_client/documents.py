@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Literal, Protocol
 
@@ -357,7 +357,7 @@ def _splice(entity: Entity, splice: Splice) -> Polyline:
         raise DoesNotApply(f"{entity.handle} has {count} vertices, expected a range in them, found {splice.start} to {end}")
     inserted = tuple(Vertex(*vertex) for vertex in splice.insert)
     vertices = entity.vertices[: splice.start] + inserted + entity.vertices[end:]
-    return Polyline(vertices, entity.closed, entity.handle, entity.layer, entity.role)
+    return replace(entity, vertices=vertices)
 
 
 class TextDocument(Document):

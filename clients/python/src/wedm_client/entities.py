@@ -8,8 +8,8 @@ from __future__ import annotations
 import math
 import numbers
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
-from typing import Any, ClassVar, NamedTuple, Union
+from dataclasses import KW_ONLY, dataclass, replace
+from typing import Any, ClassVar, Literal, NamedTuple, Union
 
 from .settings import Role
 
@@ -37,9 +37,25 @@ def number(value: Any, name: str) -> float:
     raise ValueError(f"{name} is {value!r}, expected a finite number")
 
 
+#: False: the CAD program does not show the entity, and it is not cut. ``"off"`` and ``"frozen"`` are those of its layer, whose role brings it back.
+Visible = Literal["off", "frozen"] | bool
+
+
 @dataclass(frozen=True)
 class _Entity:
+    """How the CAD program shows it, which decides whether it is cut. What it takes from its layer or its block is theirs."""
+
     kind: ClassVar[str]
+    _: KW_ONLY
+    #: Name of the linetype; None is continuous.
+    linetype: str | None = None
+    #: It has the linetype from its layer: a role of the layer then counts for it all the same.
+    linetype_by_layer: bool = False
+    #: 1 to 255 of AutoCAD's colours, or ``"#rrggbb"``.
+    color: int | str | None = None
+    visible: Visible | None = None
+    #: Its extended data (XDATA) of the application WEDM, such as ``"suppress gap: as the customer drew it"``.
+    xdata: tuple[str, ...] = ()
 
     def _number(self, key: str) -> float:
         return number(getattr(self, key), f"entity {getattr(self, 'handle')}: {key}")
@@ -66,10 +82,14 @@ class _Entity:
         :raises ValueError: one of its numbers is not finite, or a radius is not above 0.
         """
         written: dict[str, Any] = {"handle": getattr(self, "handle"), "type": self.kind, **self._json()}
-        for key in ("layer", "role"):
+        for key in ("layer", "role", "linetype", "color", "visible"):
             value = getattr(self, key)
             if value is not None:
                 written[key] = value
+        if self.linetype is not None and self.linetype_by_layer:
+            written["linetypeByLayer"] = True
+        if self.xdata:
+            written["xdata"] = list(self.xdata)
         return written
 
 
@@ -91,12 +111,12 @@ class Polyline(_Entity):
         handle: str = "",
         layer: str | None = None,
         role: Role | None = None,
+        **look: Any,
     ) -> None:
-        object.__setattr__(self, "vertices", tuple(Vertex(*vertex) for vertex in vertices))
-        object.__setattr__(self, "closed", closed)
-        object.__setattr__(self, "handle", handle)
-        object.__setattr__(self, "layer", layer)
-        object.__setattr__(self, "role", role)
+        own = {"vertices": tuple(Vertex(*vertex) for vertex in vertices), "closed": closed, "handle": handle, "layer": layer, "role": role}
+        super().__init__(**look)
+        for key, value in own.items():
+            object.__setattr__(self, key, value)
 
     def _json(self) -> dict[str, Any]:
         name = f"entity {self.handle}: vertex"
@@ -163,15 +183,31 @@ class Text(_Entity):
         return {"at": self._point("at"), "text": self.text}
 
 
-Entity = Union[Polyline, Line, Arc, Circle, Text]
+@dataclass(frozen=True)
+class Mark(_Entity):
+    """A POINT of a CAD program: it may mark a thread hole, as the text "O" does."""
+
+    kind: ClassVar[str] = "point"
+    at: tuple[float, float]
+    handle: str = ""
+    layer: str | None = None
+    role: Role | None = None
+
+    def _json(self) -> dict[str, Any]:
+        return {"at": self._point("at")}
+
+
+Entity = Union[Polyline, Line, Arc, Circle, Text, Mark]
 
 
 def entity_from_json(written: Mapping[str, Any]) -> Entity:
     """The entity that the protocol's form names.
 
-    :raises ValueError: a key is missing, or the type is none of the five.
+    :raises ValueError: a key is missing, or the type is none of the six.
     """
-    common = {key: written.get(key) for key in ("layer", "role")}
+    common: dict[str, Any] = {key: written.get(key) for key in ("layer", "role", "linetype", "color", "visible")}
+    common["linetype_by_layer"] = bool(written.get("linetypeByLayer"))
+    common["xdata"] = tuple(written.get("xdata") or ())
     handle = str(written.get("handle", ""))
     try:
         match written.get("type"):
@@ -185,8 +221,10 @@ def entity_from_json(written: Mapping[str, Any]) -> Entity:
                 return Circle(_pair(written["center"]), written["radius"], handle, **common)
             case "text":
                 return Text(_pair(written["at"]), written["text"], handle, **common)
+            case "point":
+                return Mark(_pair(written["at"]), handle, **common)
             case other:
-                raise ValueError(f"entity {handle!r} has type {other!r}, expected polyline, line, arc, circle or text")
+                raise ValueError(f"entity {handle!r} has type {other!r}, expected polyline, line, arc, circle, text or point")
     except KeyError as missing:
         raise ValueError(f"entity {handle!r} of type {written.get('type')!r} has no {missing}") from None
 
