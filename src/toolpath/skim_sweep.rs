@@ -307,6 +307,7 @@ mod tests {
         let corner = (0.0..0.2, prop_oneof![Just(0.0), -0.9..0.3]);
         let corners = prop::collection::vec(corner, 8..60);
         let config = ProptestConfig {
+            cases: 48,
             failure_persistence: None,
             ..ProptestConfig::default()
         };
