@@ -99,7 +99,7 @@ impl State {
         };
         self.links.is_looking = true;
         self.on_a_worker(
-            "looking beside",
+            "partners",
             move || catch_unwind(AssertUnwindSafe(|| look.answered())),
             |state, answers| {
                 state.links.is_looking = false;
