@@ -99,7 +99,7 @@ impl State {
         };
         self.links.is_looking = true;
         self.on_a_worker(
-            "looking beside",
+            "partners",
             move || catch_unwind(AssertUnwindSafe(|| look.answered())),
             |state, answers| {
                 state.links.is_looking = false;
@@ -141,7 +141,7 @@ impl State {
         for partner in old.paths().chain(link.paths()) {
             self.poke(partner);
         }
-        self.add_task(uri, Task::Beside);
+        self.judge_beside(uri);
     }
 
     /// What lies beside a document that is to be judged.
@@ -207,14 +207,41 @@ impl State {
     fn poke_linked(&mut self, path: &Path) {
         let linked: Vec<Arc<str>> = self.links.linked_to(path).cloned().collect();
         for uri in linked {
-            self.add_task(&uri, Task::Beside);
+            self.judge_beside(&uri);
         }
     }
 
     /// Has the document of a file judged again, where it is open.
     fn poke(&mut self, path: &Path) {
         if let Some(uri) = self.links.open_at(path) {
-            self.add_task(&uri, Task::Beside);
+            self.judge_beside(&uri);
         }
+    }
+
+    /// Has a document compared again with what lies beside it. Its text is what it was, and answers about it hold.
+    pub(crate) fn judge_beside(&mut self, uri: &Arc<str>) {
+        let Some(open) = self.documents.get_mut(uri) else {
+            return;
+        };
+        if !open.tasks.iter().any(|task| matches!(task, Task::Beside)) {
+            open.tasks.push(Task::Beside);
+        }
+        if !std::mem::replace(&mut open.is_dirty, true) {
+            self.dirty.push(open.uri.clone());
+        }
+    }
+
+    /// Has a worker do `work`, and acts on its result.
+    pub(crate) fn on_a_worker<T: Send + 'static>(
+        &self,
+        name: &'static str,
+        work: impl FnOnce() -> T + Send + 'static,
+        then: impl FnOnce(&mut State, T) + Send + 'static,
+    ) {
+        let mailbox = self.mailbox.clone();
+        self.workers.judge(move || {
+            let done = work();
+            mailbox.tell(name, None, move |state| then(state, done));
+        });
     }
 }

@@ -16,6 +16,10 @@ use rustc_hash::FxHashMap;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// Documents are judged under other settings for as long as this between other messages.
+const SLICE: Duration = Duration::from_millis(10);
 
 impl State {
     /// The settings of a document, with its project's file read again.
@@ -133,6 +137,22 @@ impl State {
                 open.tasks.push(Task::Settings);
                 self.give_stamp(&uri);
                 self.unsettled.push_back(uri);
+            }
+        }
+    }
+
+    /// Judges some of the documents with changed settings; the others hold up no edit or request meanwhile.
+    pub(crate) fn judge_unsettled(&mut self) {
+        let began = Instant::now();
+        while began.elapsed() < SLICE
+            && let Some(uri) = self.unsettled.pop_front()
+        {
+            if self
+                .documents
+                .get(&uri)
+                .is_some_and(|open| !open.tasks.is_empty() && !open.is_away())
+            {
+                self.judge(&uri);
             }
         }
     }

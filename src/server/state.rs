@@ -27,8 +27,6 @@ use tower_lsp::jsonrpc;
 const QUEUE: usize = 1024;
 /// A flood of messages is interrupted after this long to publish the present state.
 const TURN: Duration = Duration::from_millis(50);
-/// Documents are judged under other settings for as long as this between other messages.
-const SLICE: Duration = Duration::from_millis(10);
 /// A turn longer than this is logged.
 const LONG_TURN: Duration = Duration::from_millis(100);
 
@@ -88,14 +86,14 @@ pub(super) struct State {
     pub(crate) encoding: Encoding,
     pub(crate) workers: Workers,
     /// Returns judged documents from workers.
-    mailbox: Mailbox,
+    pub(crate) mailbox: Mailbox,
     /// Acts when a change does not fit its drawing.
     refuse_change: RefuseChange,
     pub(crate) documents: FxHashMap<Arc<str>, Open>,
     /// Drawings that the client has been asked to send again.
     pub(crate) resending: FxHashSet<Arc<str>>,
     /// Documents to be judged and published, in the order of their changes.
-    dirty: Vec<Arc<str>>,
+    pub(crate) dirty: Vec<Arc<str>>,
     /// Documents with changed settings: they are judged when there is nothing else to do, a few at a time.
     pub(crate) unsettled: VecDeque<Arc<str>>,
     /// Open texts of project files, by their paths.
@@ -356,24 +354,8 @@ impl State {
         }
     }
 
-    /// Judges some of the documents with changed settings; the others hold up no edit or request meanwhile.
-    fn judge_unsettled(&mut self) {
-        let began = Instant::now();
-        while began.elapsed() < SLICE
-            && let Some(uri) = self.unsettled.pop_front()
-        {
-            if self
-                .documents
-                .get(&uri)
-                .is_some_and(|open| !open.tasks.is_empty() && !open.is_away())
-            {
-                self.judge(&uri);
-            }
-        }
-    }
-
     /// Makes a document's pending changes: small work here, the rest on a worker.
-    fn judge(&mut self, uri: &Arc<str>) {
+    pub(crate) fn judge(&mut self, uri: &Arc<str>) {
         let beside = self.beside_of(uri);
         let wants_form = self.is_compared(uri);
         let Some(open) = self.documents.get_mut(uri) else {
@@ -415,20 +397,6 @@ impl State {
                 state.go_on(&uri);
             });
         }
-    }
-
-    /// Has a worker do `work`, and acts on its result.
-    pub(crate) fn on_a_worker<T: Send + 'static>(
-        &self,
-        name: &'static str,
-        work: impl FnOnce() -> T + Send + 'static,
-        then: impl FnOnce(&mut State, T) + Send + 'static,
-    ) {
-        let mailbox = self.mailbox.clone();
-        self.workers.judge(move || {
-            let done = work();
-            mailbox.tell(name, None, move |state| then(state, done));
-        });
     }
 
     /// Takes back a document and publishes its findings.

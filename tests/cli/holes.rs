@@ -287,7 +287,7 @@ fn a_drawing_with_the_holes_is_the_drawing() {
         assert_eq!(made.replace(line_end, "\n"), expected);
         assert_eq!(made.matches(line_end).count(), expected.lines().count());
         // The holes are there now.
-        let again = format!("holes drilled.dxf {options} -o again.dxf");
+        let again = format!("holes drilled.dxf {options} -o again.dxf --overwrite");
         check(&desk, &again, 0, &["!1 hole"]);
         assert_eq!(desk.read("again.dxf"), desk.read("drilled.dxf"));
     }

@@ -290,7 +290,7 @@ mod unix {
             &desk,
             "check clean.dxf --config zero.toml",
             2,
-            &["!zero.toml: it has more than"],
+            &["!zero.toml: it is not a regular file"],
         );
         check(&desk, "check null.3b", 0, &[]);
         make_pipe(&desk, "pipe.dxf");

@@ -244,7 +244,7 @@ fn periodic_knots_close_and_bad_numbers_are_refused() {
             "has 10 knots, expected 11 for 7 control points of degree 3",
         ),
         (3, 11, vec![1.0; 3], "has 3 weights for 7 control points"),
-        (3, 11, vec![0.0; 7], "has a weight that is not above 0"),
+        (3, 11, vec![0.0; 7], "has weights of both signs, or of 0"),
     ] {
         let knots = (0..knots).map(f64::from).collect();
         assert_eq!(
