@@ -56,12 +56,12 @@ fn a_circle_is_cut_from_the_side_of_its_thread_hole() {
     let outline = outline(&drawing, [(id, false)], Some(Role::Opening));
     for (thread, direction, expected) in [
         (
-            at(1.0, 2.0),
+            at(25.4, 50.8),
             Direction::Ccw,
             "1.000 2.000 in 1.400 2.000 ccw 1.400 2.000 out 1.000 2.000",
         ),
         (
-            at(1.0, 2.2),
+            at(25.4, 55.88),
             Direction::Cw,
             "1.000 2.200 in 1.000 2.400 cw 1.000 2.400 out 1.000 2.200",
         ),

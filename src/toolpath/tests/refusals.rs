@@ -60,12 +60,6 @@ fn what_cannot_be_planned_is_refused_in_a_sentence() {
         },
         "there is no entity with the handle 77",
     );
-    check_refused(
-        &[],
-        Some(Role::Opening),
-        defaults(),
-        "there is no contour to cut",
-    );
     let (drawing, outlines) =
         drawing(&[(SQUARE, Some(Role::Opening)), (SQUARE, Some(Role::Opening))]);
     let settings = Effective {
