@@ -151,7 +151,7 @@ fn a_line_within_a_contour_is_cut_where_a_side_is_said() {
     let side = "side = \"punch\"\n";
     for (said, cut, error) in [
         ("", 1, None),
-        ("[layers]\n0 = \"punch\"\n", 1, None),
+        ("[layers]\n0 = \"punch\"\n", 2, Some(Rule::OpenContour)),
         (
             "[layers]\n0 = \"left\"\n[contours]\n2A = \"punch\"\n",
             2,
