@@ -401,14 +401,15 @@ fn pieces(drawing: &Drawing, chains: &Chains) -> Vec<Vec<(EntityId, bool)>> {
 
 #[test]
 fn thousands_of_ends_nearly_in_one_point_are_chained_in_machining_order() {
-    let drawing = star(2 * CROWD);
+    let count = 8 * CROWD;
+    let drawing = star(count);
     let chains = Chains::new(&drawing, 0.01, &|_| true);
     let id = |number: usize| EntityId(number as u32);
     let pair = |pair: usize| vec![(id(2 * pair + 1), true), (id(2 * pair), false)];
-    let mut expected: Vec<Vec<(EntityId, bool)>> = (0..CROWD).map(pair).collect();
+    let mut expected: Vec<Vec<(EntityId, bool)>> = (0..count / 2).map(pair).collect();
     expected.push(
         [0, 1, 2]
-            .map(|number| (id(2 * CROWD + number), false))
+            .map(|number| (id(count + number), false))
             .to_vec(),
     );
     let found = pieces(&drawing, &chains);
