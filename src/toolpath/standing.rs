@@ -313,7 +313,12 @@ impl Swept {
             let twice_area = to.twice_area - from.twice_area + cross(one, other);
             twice_area / self.twice_area >= LEAST_HELD
         };
-        let (mut narrowest, mut width) = (None, f64::INFINITY);
+        // Nothing is wider than the tab itself, straight across: what lies farther apart is not looked at.
+        let entry = self.beginning.iter().find(|piece| is_held(piece.source))?;
+        let end = self.end.last()?;
+        let across = (entry.geometry.start() - end.geometry.end()).norm();
+        let mut width = across - entry.radius - end.radius;
+        let mut narrowest = (entry, end);
         for to in self.end.iter().rev() {
             let reach = to.geometry.bounds().grown(width + widest + to.radius);
             beginning.find(&reach, |index| {
@@ -322,12 +327,12 @@ impl Swept {
                 let away = beginning.distance_below(&to.geometry, index, width + radii);
                 if let Some(away) = away.filter(|_| goes_round(from, to)) {
                     width = away - radii;
-                    narrowest = Some((from, to));
+                    narrowest = (from, to);
                 }
                 false
             });
         }
-        let (from, to) = narrowest?;
+        let (from, to) = narrowest;
         Some((
             width,
             nearest_place(&to.geometry, &from.geometry),
