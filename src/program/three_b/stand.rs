@@ -16,9 +16,13 @@ use crate::program::grid::{Node, chord_count, in_pieces};
 /// A micrometre more where arcs are run exactly weighs as much as this more where steps are counted.
 const EXACT_WEIGHS: f64 = 0.7;
 
+/// At least this many times what it costs to stand somewhere is as far as the machine can be from the target: whatever
+/// lies between the two readings and the target costs the rest, √(2 / (1 + w² / (1 + w²))).
+const MACHINE_ALONE: f64 = 1.23;
+
 /// Both readings stand near the end of a piece where the mean of their distances from it and from each other is at most
 /// this, µm: a control that stands on the node itself may be 0.7 µm off.
-const NEAR: f64 = 0.6;
+const NEAR: f64 = 0.7;
 
 /// Where the best block ends further away than this as a control counts, µm, more of them are tried.
 const FAR: f64 = 1.5;
@@ -58,6 +62,10 @@ impl Stand {
             machine: node,
             exact: point_of(node),
         }
+    }
+
+    fn stepped(&self, by: Node) -> Point {
+        point_of(self.machine) + point_of(by).coords
     }
 
     /// A block as it runs from here in the exact reading, and where the program then stands. `None` where it leads
@@ -257,6 +265,11 @@ fn best(stand: Stand, encoded: Encoded, allowed: Allowed, reaches: &[&[i64]]) ->
     let first = planned(encoded.block)?;
     let mut best = first;
     let mut least = first.after.cost(target);
+    // Exact arcs are only run where the steps alone do not rule a block out.
+    let is_hopeless = |block: &Block, least: f64| {
+        let by = travel(block);
+        by.is_some_and(|by| (stand.stepped(by) - target).norm() >= MACHINE_ALONE * least)
+    };
     if least <= NEAR {
         return Some(best);
     }
@@ -264,7 +277,8 @@ fn best(stand: Stand, encoded: Encoded, allowed: Allowed, reaches: &[&[i64]]) ->
     let widest = ASIDE_TOLERANCE.max(first.aside());
     for reach in reaches {
         let mut look = |block: Block| {
-            let made = allowed.holds(&block).then(|| planned(block)).flatten();
+            let may = allowed.holds(&block) && !is_hopeless(&block, least);
+            let made = may.then(|| planned(block)).flatten();
             if let Some(made) = made
                 && made.after.cost(target) < least
                 && is_alike(&first, &made, allowed)
