@@ -6,7 +6,7 @@
 use super::block::{Block, Motion};
 use super::limits::Limits;
 use super::moves::{Bend, CenterRule, MICROMETRE, Move, Place, Reading, apart, distance};
-use super::word::Number;
+use super::word::{Number, Term, Value};
 use crate::settings::NumberUnit;
 
 /// The distances of an arc's ends from its centre differ by at most this many steps of the finest number: each of the
@@ -28,6 +28,9 @@ const LONG: i64 = 1_000;
 /// In µm all of a part that is smaller is hardly larger than a wire is thick; in mm few machines travel as far.
 const SMALL: i64 = 500;
 
+/// No correction is as large, mm.
+const LARGE_CORRECTION: i64 = 5;
+
 /// Beyond this many numbers without a point among others, the first stands for all.
 pub(crate) const FEW_BARE: u32 = 20;
 
@@ -42,6 +45,8 @@ pub(crate) struct Evidence {
     pub(crate) long: u32,
     /// Those of them that are at least [`SMALL`].
     pub(crate) at_least_small: u32,
+    /// Corrections without a point that are at least [`LARGE_CORRECTION`].
+    pub(crate) corrections: u32,
     /// How far those under G91 lead, added up.
     pub(crate) travel: u64,
     /// How many numbers with a point have each number of decimals.
@@ -228,6 +233,7 @@ impl Evidence {
             (&mut self.with_point, other.with_point),
             (&mut self.bare, other.bare),
             (&mut self.long, other.long),
+            (&mut self.corrections, other.corrections),
             (&mut self.at_least_small, other.at_least_small),
             (&mut self.fine, other.fine),
             (&mut self.inches, other.inches),
@@ -248,6 +254,12 @@ impl Evidence {
             .iter()
             .rposition(|count| *count > 0)
             .unwrap_or(0) as u8
+    }
+
+    /// Counts the value of a correction.
+    pub(crate) fn correction(&mut self, terms: &[Term]) {
+        let is_large = |term: &Term| matches!(term.value, Value::Number(number) if !number.point && number.mantissa.abs() >= LARGE_CORRECTION);
+        self.corrections += u32::from(terms.iter().any(is_large));
     }
 
     /// Counts a line's numbers.
@@ -388,7 +400,8 @@ impl Evidence {
 
     /// No number has a point, and none is too long for whole mm: nothing in the text says what they are.
     pub(crate) fn may_be_whole_units(&self) -> bool {
-        self.with_point == 0 && self.bare > 0 && self.long == 0 && self.inches == 0
+        let is_told = self.long > 0 || self.corrections > 0 || self.inches > 0;
+        self.with_point == 0 && self.bare > 0 && !is_told
     }
 
     /// The decimals of the numbers, where all but one or two have as many.

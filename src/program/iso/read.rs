@@ -95,6 +95,7 @@ impl Stretch {
             definitions,
             lengths,
             after,
+            evidence,
             ..
         } = &mut *self;
         let (inch, known_faults) = (after.inch, faults.len());
@@ -127,6 +128,7 @@ impl Stretch {
                 terms,
                 range,
             } => {
+                evidence.correction(&terms);
                 let range = pair(range);
                 definitions.push(Definition {
                     offset,

@@ -10,6 +10,8 @@ pub(crate) struct Style {
     decimals: u8,
     /// All numbers have as many decimals.
     padded: bool,
+    /// No number has a point: those of whole units get none.
+    bare: bool,
     inch: bool,
 }
 
@@ -58,10 +60,11 @@ impl Style {
             steps % per_unit,
             width = usize::from(self.decimals)
         );
-        if self.padded {
-            text
-        } else {
-            text.trim_end_matches('0').to_owned()
+        let short = text.trim_end_matches('0');
+        match (self.padded, self.bare) {
+            (true, _) => text,
+            (false, true) => short.trim_end_matches('.').to_owned(),
+            (false, false) => short.to_owned(),
         }
     }
 }

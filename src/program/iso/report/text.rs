@@ -346,6 +346,8 @@ impl Report<'_> {
             Some(placed.offset + first as usize)
         });
         let line = self.text.line_of(arcs.next()?);
-        word_at(self.text, line, |letter, _| matches!(letter, b'I' | b'J'))
+        let word = word_at(self.text, line, |letter, _| matches!(letter, b'I' | b'J'));
+        // Of a variable only the line is known.
+        word.or_else(|| Some(self.document.words_of(line)))
     }
 }

@@ -42,6 +42,7 @@ impl Style {
             fine,
             decimals,
             padded: padded || looked_at == 0,
+            bare: looked_at > 0 && document.evidence().with_point == 0,
             inch,
         }
     }

@@ -144,6 +144,11 @@ fn a_rule_of_centres_is_followed_from_its_line_on() {
 
 #[test]
 fn r_beside_i_and_j_says_the_same_arc_or_is_an_error() {
+    // A half turn leaves open what I and J mean.
+    let told = |text: &str| -> Vec<&str> {
+        let all = rules(text).into_iter();
+        all.filter(|rule| *rule != "ambiguous-center").collect()
+    };
     let half = |r: &str| {
         format!(
             "G90 G92 X0. Y-3.\nG01 X0. Y0.\nX10.\nG03 X10. Y5. I0. J2.5 {r}\nG01 X0.\nY0.\nY-3.\nM02\n"
@@ -155,12 +160,12 @@ fn r_beside_i_and_j_says_the_same_arc_or_is_an_error() {
         )
     };
     for r in ["", "R2.5", "R2.501", "R-2.5"] {
-        assert_eq!(rules(&half(r)), [""; 0], "{r}");
+        assert_eq!(told(&half(r)), [""; 0], "{r}");
     }
-    assert_eq!(rules(&half("R4.")), ["arc-off-radius"]);
-    assert_eq!(rules(&quarter("R2.")), [""; 0]);
+    assert_eq!(told(&half("R4.")), ["arc-off-radius"]);
+    assert_eq!(told(&quarter("R2.")), [""; 0]);
     for r in ["R-2.", "R2.02", "R20."] {
-        assert_eq!(rules(&quarter(r)), ["arc-off-radius"], "{r}");
+        assert_eq!(told(&quarter(r)), ["arc-off-radius"], "{r}");
     }
 }
 
