@@ -34,7 +34,7 @@ const SHARE_OF_ENDS: f64 = 0.25;
 const LEAST_HELD: f64 = 0.9;
 
 /// Pieces of a cut are no longer than this share of it.
-const PIECE: f64 = 1.0 / 400.0;
+const PIECE: f64 = 1.0 / 100.0;
 
 /// A neck. Lengths in mm.
 struct Neck {
