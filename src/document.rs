@@ -6,6 +6,7 @@
 mod changes;
 mod compared;
 mod file_kind;
+mod rounds;
 mod since;
 
 pub(crate) use file_kind::FileKind;
@@ -19,7 +20,7 @@ use crate::finding::{self, Detail, Edit, Finding, Fix, FixKind, Keep, Place, Rul
 use crate::fit::Laid;
 use crate::program;
 use crate::settings::{self, Effective};
-use crate::text::{Again, SourceText, TextEdit, edited};
+use crate::text::{Again, SourceText};
 use crate::{dxf, finding::Severity};
 use std::borrow::Cow;
 use std::ops::Range;
@@ -382,42 +383,6 @@ impl Document {
             Source::Dxf(_) | Source::Cad(_) => Source::Dxf(dxf::Document::read(bytes)),
         };
         Document::new(source, settings)
-    }
-
-    /// One round of [`Document::fix_all`] as edits of the text, and the document after it; `None` where there is none, or it would
-    /// leave as much to repair as before.
-    pub fn round(&self) -> Option<(Vec<TextEdit>, Document)> {
-        let settings = self.settings();
-        if let Source::Program(program) = &self.source {
-            let (edits, mended) = program.fixed(settings)?;
-            let mended = Document::new(Source::Program(mended), settings.clone());
-            return Some((edits, mended));
-        }
-        let (Edit::Drawing(edit), Source::Dxf(text)) = (self.fix_all()?, &self.source) else {
-            return None;
-        };
-        let edits = text.text_edits(&edit).ok()?;
-        let mended = self.reread(edited(text.text().bytes(), &edits)?);
-        (mended.left_to_repair() < self.left_to_repair()).then_some((edits, mended))
-    }
-
-    /// What each round of repairs of a drawing makes less: its findings, the heaviest ones first, else its segments.
-    pub(crate) fn left_to_repair(&self) -> [usize; 5] {
-        let findings = self.all_findings();
-        let count = |severity| {
-            let own = findings.iter().filter(|it| it.severity == severity);
-            own.filter(|it| it.rule != Rule::NotTheDrawing).count()
-        };
-        let entities = self.drawing().into_iter().flat_map(|it| it.entities());
-        let segments = entities.map(|(_, entity)| entity.geometry.segment_count());
-        let [error, warning, information, hint] = [
-            Severity::Error,
-            Severity::Warning,
-            Severity::Information,
-            Severity::Hint,
-        ]
-        .map(count);
-        [error, warning, information, hint, segments.sum()]
     }
 
     /// The bytes of a place; `None` where there is no text.

@@ -25,6 +25,7 @@ mod simulate;
 #[cfg(test)]
 mod tests;
 mod toolpath;
+mod vertex;
 mod work;
 
 pub(crate) use change::{DrawingChange, apply, changes_of};

@@ -179,7 +179,7 @@ fn a_look_that_changes_is_judged_as_a_fresh_one() {
         own.insert("handle".into(), handle.to_string().into());
         own.insert(
             "layer".into(),
-            if handle % 3 == 0 { "DIE" } else { "0" }.into(),
+            if handle.is_multiple_of(3) { "DIE" } else { "0" }.into(),
         );
         entity
     };

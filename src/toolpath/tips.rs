@@ -111,7 +111,7 @@ fn way_on(segment: &Segment, to: Point) -> Option<Segment> {
     match segment {
         Segment::Line(line) => {
             let is_ahead = (to - start).dot(&(line.end - line.start)) > 0.0;
-            is_ahead.then(|| Segment::line(start, to))
+            is_ahead.then_some(Segment::line(start, to))
         }
         Segment::Arc(arc) => {
             let sweep = match arc.is_shallow() {
@@ -120,15 +120,14 @@ fn way_on(segment: &Segment, to: Point) -> Option<Segment> {
             };
             let ahead = sweep * arc.sweep.signum();
             let is_ahead = ahead > 0.0 && ahead <= FRAC_PI_2;
-            is_ahead.then(|| {
-                Segment::Arc(Arc {
-                    start_angle: arc.start_angle + arc.sweep,
-                    sweep,
-                    start,
-                    end: to,
-                    ..*arc
-                })
-            })
+            let on = Arc {
+                start_angle: arc.start_angle + arc.sweep,
+                sweep,
+                start,
+                end: to,
+                ..*arc
+            };
+            is_ahead.then_some(Segment::Arc(on))
         }
     }
 }

@@ -407,11 +407,7 @@ fn thousands_of_ends_nearly_in_one_point_are_chained_in_machining_order() {
     let id = |number: usize| EntityId(number as u32);
     let pair = |pair: usize| vec![(id(2 * pair + 1), true), (id(2 * pair), false)];
     let mut expected: Vec<Vec<(EntityId, bool)>> = (0..count / 2).map(pair).collect();
-    expected.push(
-        [0, 1, 2]
-            .map(|number| (id(count + number), false))
-            .to_vec(),
-    );
+    expected.push([0, 1, 2].map(|number| (id(count + number), false)).to_vec());
     let found = pieces(&drawing, &chains);
     let differs = (0..)
         .zip(&found)

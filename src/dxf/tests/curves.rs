@@ -104,7 +104,7 @@ fn a_sweep_a_hair_over_a_full_turn_is_a_full_turn() {
         (arc(-180.0, 180.05), whole),
         (arc(10.0, 400.0), whole / 12.0),
         (arc(350.0, 370.0), whole / 18.0),
-        (ellipse(0.0, 6.2832), whole),
+        (ellipse(0.0, turn + 1.5e-5), whole),
         (ellipse(1.0, 1.0 + 6.284), whole),
         (ellipse(0.0, turn / 4.0), whole / 4.0),
     ] {

@@ -3,7 +3,9 @@
 //! The meaning of numbers and arc centres differs from machine to machine and is found from the program itself, never
 //! assumed.
 
+mod ahead;
 pub(crate) mod block;
+mod code;
 mod control;
 mod corner;
 mod cursor;

@@ -53,8 +53,9 @@ const HARMLESS: [&str; 5] = ["MSG", "PRINT", "STOP", "TN", "TP"];
 
 /// Whether a name, in letters of either case, is known to leave the way of the wire as it is.
 pub(super) fn is_harmless(name: &[u8]) -> bool {
-    let is_own = |own: &&str| name.eq_ignore_ascii_case(own.as_bytes());
-    HARMLESS.iter().any(|own| is_own(&own))
+    HARMLESS
+        .iter()
+        .any(|own| name.eq_ignore_ascii_case(own.as_bytes()))
 }
 
 /// What a name does, in letters of either case; `None` for one that is not of the list.

@@ -2,6 +2,8 @@
 
 #![warn(clippy::indexing_slicing)]
 
+use super::ahead::Ahead;
+pub(crate) use super::ahead::Lines;
 use super::block::{Block, Note, Stop, read_under};
 use super::corner::{self, Turned, turned};
 use super::evidence::FEW_BARE;
@@ -468,29 +470,6 @@ impl Stretch {
         self.fixed |= next.is_fixed;
         let next = next.made.map(|next| shape(next.at_origin()));
         joint.fault(next.as_ref())
-    }
-}
-
-/// Lines, each with the byte at which it begins, that can be read more than once.
-pub(crate) trait Lines<'a>: Iterator<Item = (usize, &'a [u8])> + Clone {}
-
-impl<'a, I: Iterator<Item = (usize, &'a [u8])> + Clone> Lines<'a> for I {}
-
-/// The lines after a line.
-struct Ahead<'l, L> {
-    lines: &'l L,
-    /// The number of lines in the stretch.
-    left: usize,
-}
-
-impl<'a, L: Lines<'a>> Ahead<'_, L> {
-    fn lines(&self) -> impl Iterator<Item = &'a [u8]> {
-        self.lines.clone().map(|(_, line)| line)
-    }
-
-    /// How many of the lines read are after the stretch.
-    fn beyond(&self, looked_at: usize) -> u32 {
-        looked_at.saturating_sub(self.left) as u32
     }
 }
 

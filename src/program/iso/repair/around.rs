@@ -99,7 +99,8 @@ pub(super) fn stands_alone(document: &Document, lines: &Range<usize>) -> bool {
     let has_variable = lines
         .clone()
         .any(|line| memchr::memchr(b'#', document.line_bytes(line)).is_some());
-    !(has_corner && has_arc) && !has_variable && (document.order().is_none() || !is_begun())
+    let reaches_back = has_corner && has_arc || document.order().is_some() && is_begun();
+    !has_variable && !reaches_back
 }
 
 /// True for a line of the way itself.
