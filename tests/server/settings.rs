@@ -119,6 +119,31 @@ fn misfits_are_shown_by_name_and_the_other_keys_hold() {
     client.shut_down();
 }
 
+/// A profile may be named at another level of settings than the one where it stands.
+#[test]
+fn a_request_names_a_profile_of_the_client() {
+    let profiles = json!({ "shop": { "base": "fast-wire", "end": ["M30"] } });
+    let mut client = Client::start_with(capabilities(), json!({ "profiles": profiles }));
+    open(&mut client, URI);
+    let mut generate = |profile: &str| {
+        let options = json!({ "side": "opening", "rules": { "small-radius": "off" }, "program": { "profile": profile } });
+        let params = json!({ "uri": URI, "format": "iso", "options": options });
+        client.request("wedm/generate", params)
+    };
+    let made = generate("shop").unwrap();
+    assert!(
+        made["program"].as_str().unwrap().ends_with("M30\n"),
+        "{made}"
+    );
+    let error = generate("shed").unwrap_err();
+    let message = error["message"].as_str().unwrap();
+    assert!(
+        message.contains("expected fast-wire, generic, robofil, shop"),
+        "{error}"
+    );
+    client.shut_down();
+}
+
 /// Lua and PHP send an empty table as an empty list.
 #[test]
 fn an_empty_list_is_an_empty_table() {
