@@ -22,7 +22,7 @@ const MACHINE_ALONE: f64 = 1.23;
 
 /// Both readings stand near the end of a piece where the mean of their distances from it and from each other is at most
 /// this, µm: a control that stands on the node itself may be 0.7 µm off.
-const NEAR: f64 = 0.7;
+const NEAR: f64 = 1.0;
 
 /// Where the best block ends further away than this as a control counts, µm, more of them are tried.
 const FAR: f64 = 1.5;

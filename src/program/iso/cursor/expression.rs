@@ -14,8 +14,6 @@ const PARTS: i128 = 1_000_000_000;
 #[derive(Clone, Copy)]
 struct Value {
     parts: i128,
-    /// A decimal point stands in one of its numbers.
-    point: bool,
 }
 
 impl Value {
@@ -23,7 +21,6 @@ impl Value {
         let scale = PARTS / 10_i128.checked_pow(u32::from(number.decimals))?;
         Some(Value {
             parts: i128::from(number.mantissa) * scale,
-            point: number.point,
         })
     }
 
@@ -38,11 +35,10 @@ impl Value {
         let most = PARTS * 10_i128.pow(MOST_DIGITS);
         (parts.abs() < most).then_some(Value {
             parts,
-            point: self.point || other.point,
         })
     }
 
-    /// With as many decimals as it needs.
+    /// With as many decimals as it needs. What is worked out is no whole number of steps, with or without a point.
     fn number(self) -> Option<Number> {
         let (mut mantissa, mut decimals) = (self.parts, 9);
         while decimals > 0 && mantissa % 10 == 0 {
@@ -51,7 +47,7 @@ impl Value {
         Some(Number {
             mantissa: i64::try_from(mantissa).ok()?,
             decimals,
-            point: self.point || decimals > 0,
+            point: true,
         })
     }
 }

@@ -173,14 +173,14 @@ fn units_follow_from_the_numbers() {
     check("G01 X1.2345678 Y0", 1234.568, 0.0);
     check("G20 G01 X1. Y.5", 25_400.0, 12_700.0);
     check("G20 G01 X10000", 25_400.0, 0.0);
-    check("G91 G01 X10 Y10\nX5\nG90 X1", 1.0, 10.0);
+    check("G91 G01 X1000 Y1000\nX500\nG90 X1", 1.0, 1000.0);
     // G92 before the first move sets the position, later it moves the zero, after a stop it tells where the wire was
     // taken.
-    check("G92 X100 Y50\nG91 G01 X10", 110.0, 50.0);
-    check("G90 G01 X100\nG92 X0 Y0\nG01 X10", 110.0, 0.0);
+    check("G92 X1000 Y500\nG91 G01 X10", 1010.0, 500.0);
+    check("G90 G01 X1000\nG92 X0 Y0\nG01 X10", 1010.0, 0.0);
     check("G90 G01 X100\nM00\nG92 X1000 Y0\nG01 X1010", 1010.0, 0.0);
     // Words that use the coordinates themselves.
-    check("G01 X10\nG04 X500\nG28 X0 Y0\nG01 Y5", 10.0, 5.0);
+    check("G01 X1000\nG04 X500\nG28 X0 Y0\nG01 Y5", 1000.0, 5.0);
 }
 
 #[test]
@@ -300,7 +300,7 @@ fn subprograms_are_followed_where_they_are_called() {
     );
     // Calls without end are cut off.
     check(
-        "M98 P1\nM02\nN1 G91 G01 X1\nM98 P1\nM99\n",
+        "M98 P1\nM02\nN1 G91 G01 X1.\nM98 P1\nM99\n",
         &[
             (3, "not-closed"),
             (4, "machine-dependent"),
@@ -317,7 +317,6 @@ fn an_expression_where_the_wire_goes_is_an_error_and_a_name_is_told() {
     for line in [
         "G01 X#1 Y2.",
         "g01 y#101",
-        "X[1+2]",
         "X [#1 + 2]",
         "G1 X=AC(5) Y2.",
         "X=R1",
@@ -326,7 +325,6 @@ fn an_expression_where_the_wire_goes_is_an_error_and_a_name_is_told() {
         "X-#1",
         "XPOS5 Y1.",
         "G03 X1. Y1. I#2 J0.",
-        "G03 X1. Y1. R[2]",
         "G#1 X2.",
         "X1. X2. Y#3",
         "G01 X1O. Y#3",
@@ -343,7 +341,6 @@ fn an_expression_where_the_wire_goes_is_an_error_and_a_name_is_told() {
         ("#1=4", 1),
         ("RETURN", 1),
         ("GOTO20", 1),
-        ("M#1", 1),
         ("Z=3", 1),
         ("#1=4\nSTOP\n#2=5\nstop", 2),
         ("WHILE\nREPEAT\nSIDE", 3),

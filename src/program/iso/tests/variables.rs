@@ -32,7 +32,9 @@ fn shape(number: impl Fn(usize, &str) -> String, before: &str, beside: &str) -> 
 fn rules(text: &str) -> Vec<&'static str> {
     let all = faults(text, &Effective::default());
     let rules = all.into_iter().map(|(_, rule)| rule);
-    rules.filter(|rule| *rule != "machine-dependent").collect()
+    // What stands before the program repeats a number on purpose.
+    let is_aside = |rule: &&str| matches!(*rule, "machine-dependent" | "block-number");
+    rules.filter(|rule| !is_aside(rule)).collect()
 }
 
 proptest! {
@@ -164,7 +166,7 @@ fn r_beside_i_and_j_says_the_same_arc_or_is_an_error() {
     }
     assert_eq!(told(&half("R4.")), ["arc-off-radius"]);
     assert_eq!(told(&quarter("R2.")), [""; 0]);
-    for r in ["R-2.", "R2.02", "R20."] {
+    for r in ["R-2.", "R2.05", "R20."] {
         assert_eq!(told(&quarter(r)), ["arc-off-radius"], "{r}");
     }
 }
