@@ -4,7 +4,6 @@ mod blocks;
 mod changes;
 mod edited;
 mod foreign;
-mod inferred;
 mod long;
 mod numbers;
 mod passes;

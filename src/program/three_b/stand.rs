@@ -12,6 +12,7 @@ use super::machine::travel;
 use crate::geometry::{Arc, Point, Segment, Vector, turn};
 use crate::program::encode::{ASIDE_TOLERANCE, aside};
 use crate::program::grid::{Node, chord_count, in_pieces};
+use rustc_hash::FxHashSet;
 
 /// A micrometre more where arcs are run exactly weighs as much as this more where steps are counted.
 const EXACT_WEIGHS: f64 = 0.7;
@@ -351,7 +352,7 @@ fn arcs(
 ) {
     let full_turn = encoded.from == encoded.to;
     let bulge = (arc.sweep / 4.0).tan();
-    let mut seen: Vec<Block> = Vec::new();
+    let mut seen = FxHashSet::default();
     let ends = around(encoded.to, reach).take(if full_turn { 1 } else { usize::MAX });
     for to in ends {
         let (to, center) = match full_turn {
@@ -375,11 +376,7 @@ fn arcs(
                     ..block
                 };
                 // Of two ends the arcs may be about one centre.
-                if seen.contains(&block) {
-                    continue;
-                }
-                seen.push(block);
-                if !look(block) {
+                if seen.insert(block) && !look(block) {
                     return;
                 }
             }

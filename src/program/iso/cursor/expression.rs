@@ -33,9 +33,7 @@ impl Value {
             _ => rounded(self.parts * PARTS, other.parts)?,
         };
         let most = PARTS * 10_i128.pow(MOST_DIGITS);
-        (parts.abs() < most).then_some(Value {
-            parts,
-        })
+        (parts.abs() < most).then_some(Value { parts })
     }
 
     /// With as many decimals as it needs. What is worked out is no whole number of steps, with or without a point.
@@ -202,13 +200,8 @@ impl Cursor<'_> {
             b'.' | b'0'..=b'9' => self.plain_number(),
             _ => self.function(depth),
         };
-        value.map(|value| Value {
-            parts: if is_negative {
-                -value.parts
-            } else {
-                value.parts
-            },
-            ..value
+        value.map(|Value { parts }| Value {
+            parts: if is_negative { -parts } else { parts },
         })
     }
 
