@@ -22,7 +22,6 @@ pub(in crate::program) mod refactor;
 mod repair;
 mod rules;
 mod scan;
-mod stand;
 mod stretch;
 mod sum;
 #[cfg(test)]
