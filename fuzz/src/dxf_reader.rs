@@ -31,7 +31,7 @@ pub fn run(data: &[u8]) {
         assert!(entity.geometry.is_sound(), "{entity:?}");
     }
     text.segments_at(0..length);
-    let side = if data.len() % 2 == 0 {
+    let side = if data.len().is_multiple_of(2) {
         SideSetting::Both
     } else {
         SideSetting::Auto

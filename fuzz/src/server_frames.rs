@@ -3,7 +3,7 @@
 use wedm::server::testing::bodies;
 
 pub fn run(data: &[u8]) {
-    let is_broken = |body: &[u8]| body.len() % 2 == 0;
+    let is_broken = |body: &[u8]| body.len().is_multiple_of(2);
     let at_once = bodies(data, usize::MAX, is_broken);
     assert_eq!(
         bodies(data, 1 + data.len() % 7, is_broken),
