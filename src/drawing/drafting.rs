@@ -70,8 +70,9 @@ pub(crate) fn is_layer_of_start_holes(name: &str) -> bool {
     START_HOLE_LAYERS.iter().any(|part| own.contains(part))
 }
 
-/// The layers on which the CAD plugins draw marks about faults and the wire's path.
-const OF_PLUGINS: &[&str] = &["WEDM_MARKS", "WEDM_PATH"];
+/// The layers on which the CAD plugins draw marks about faults and the wire's path, and those of the ways to and between contours in
+/// a drawing that is made from a program.
+const OF_PLUGINS: &[&str] = &["WEDM_MARKS", "WEDM_PATH", "LEAD", "WAY"];
 
 /// Words of layers with centre marks, hatches, dimensions, texts and construction lines; sorted.
 const LAYERS: &[&str] = &[
