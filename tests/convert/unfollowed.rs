@@ -87,7 +87,7 @@ const PROGRAMS: [(&str, &str, Told); 65] = [
         "A\nG91 G01 X1. L3\nG90\nB",
         Some(("L3", 7)),
     ),
-    ("the name of a program", "L100\nA\nB", None),
+    ("a name, or a call", "L100\nA\nB", Some(("L100", 3))),
     ("mirror in X", "G05\nA\nB", Some(("G05", 3))),
     ("mirror in Y", "A\nG06\nB", Some(("G06", 7))),
     ("axes exchanged", "A\nG7\nB", Some(("G7", 7))),
