@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import os
 
-from runner import ROOT, TARGET, Part, cargo, line, silent, whole
+from runner import TARGET, Part, cargo, line, silent
 
 # The program that the Rust tests build, and all clients are tested with.
 WEDM = TARGET / "debug" / "wedm"
