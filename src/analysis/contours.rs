@@ -3,7 +3,7 @@
 use super::Analysis;
 use super::suppressed::own_role;
 use crate::drawing::{
-    Contour, ContourKey, Drawing, EntityId, Outline, Role, is_drafting_layer, is_drafting_linetype,
+    Contour, ContourKey, Drawing, EntityId, Outline, Role, is_drafting_layer, is_drafting_linetype, is_layer_of_ways,
     nesting_depths, twins,
 };
 use crate::finding::{Aside, Side};
@@ -188,7 +188,8 @@ pub(crate) fn set_aside(drawing: &Drawing, settings: &Effective, id: EntityId) -
             return Some(Aside::Linetype(linetype.name.clone()));
         }
     }
-    (is_drafting_layer(&entity.layer) && !layer_has_role())
+    let is_way = || entity.geometry.segment_count() == 1 && is_layer_of_ways(&entity.layer);
+    ((is_drafting_layer(&entity.layer) || is_way()) && !layer_has_role())
         .then(|| Aside::Layer(entity.layer.clone()))
 }
 

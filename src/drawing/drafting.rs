@@ -70,9 +70,11 @@ pub(crate) fn is_layer_of_start_holes(name: &str) -> bool {
     START_HOLE_LAYERS.iter().any(|part| own.contains(part))
 }
 
-/// The layers on which the CAD plugins draw marks about faults and the wire's path, and those of the ways to and between contours in
-/// a drawing that is made from a program.
-const OF_PLUGINS: &[&str] = &["WEDM_MARKS", "WEDM_PATH", "LEAD", "WAY"];
+/// The layers on which the CAD plugins draw marks about faults and the wire's path.
+const OF_PLUGINS: &[&str] = &["WEDM_MARKS", "WEDM_PATH"];
+
+/// The layers of the ways to and between contours in a drawing that is made from a program.
+const OF_WAYS: &[&str] = &["LEAD", "WAY"];
 
 /// Words of layers with centre marks, hatches, dimensions, texts and construction lines; sorted.
 const LAYERS: &[&str] = &[
@@ -207,6 +209,12 @@ type Asked = Option<(Arc<str>, bool)>;
 thread_local! {
     /// The layers looked up last: thousands of entities lie on one.
     static ASKED: RefCell<[Asked; 8]> = const { RefCell::new([const { None }; 8]) };
+}
+
+/// True for the name of a layer on which `wedm convert` draws ways to and between contours, each of a single segment: an outline on
+/// a layer of that name is somebody's own.
+pub(crate) fn is_layer_of_ways(name: &str) -> bool {
+    OF_WAYS.contains(&name)
 }
 
 /// True for the name of a layer with annotation of the part: as ISO 13567 writes it, or in words.

@@ -34,7 +34,7 @@ pub use contour::Contour;
 pub(crate) use contour::{ContourSegment, Piece};
 pub(crate) use doubles::run_together;
 pub(crate) use drafting::{
-    START_HOLES, is_drafting_layer, is_drafting_linetype, is_layer_of_start_holes,
+    START_HOLES, is_drafting_layer, is_drafting_linetype, is_layer_of_start_holes, is_layer_of_ways,
 };
 pub(crate) use edit::differing;
 pub use edit::{Change, Delta, DrawingEdit, Touched};

@@ -213,8 +213,10 @@ choices! {
     /// Millimetres with a decimal point, or whole micrometres without one.
     #[derive(Default)]
     NumberUnit {
+        /// Millimetres.
         #[default]
         Mm,
+        /// Micrometres.
         Um,
     }
 
