@@ -25,6 +25,8 @@ ROOT = Path(__file__).resolve().parents[2]
 WEDM = os.environ.get("WEDM") or str(ROOT / "target/release/wedm")
 SCHEMA: dict[str, Any] = json.loads((ROOT / "docs/protocol.schema.json").read_text())
 PROTOCOL = (ROOT / "docs/protocol.md").read_text()
+#: What is asked about texts has a page of its own.
+EDITING = (ROOT / "docs/editing.md").read_text()
 
 #: What a client can declare that the server makes use of.
 CAPABILITIES: dict[str, Any] = {
@@ -270,5 +272,5 @@ def methods_of_the_source() -> set[str]:
 
 
 def methods_of_the_page() -> set[str]:
-    """Every method that docs/protocol.md names in full."""
-    return set(re.findall(r"`((?:textDocument|workspace|window|client|wedm|codeLens|completionItem)/[A-Za-z/]+)`", PROTOCOL))
+    """Every method that docs/protocol.md and docs/editing.md name in full."""
+    return set(re.findall(r"`((?:textDocument|workspace|window|client|wedm|codeLens|completionItem)/[A-Za-z/]+)`", PROTOCOL + EDITING))

@@ -1,16 +1,21 @@
-"""docs/protocol.md says what is there, and nothing else: the answer to the handshake, and the name of every key."""
+"""docs/protocol.md says what is there, and nothing else: a client that runs, the answer to the handshake, and the name of every key."""
 
 from __future__ import annotations
 
 import json
+import os
 import re
+import subprocess
+import sys
+from pathlib import Path
 from typing import Any
 
 import pytest
-from conftest import PROTOCOL, ROOT, SCHEMA, Client
+from conftest import PROTOCOL, ROOT, SCHEMA, WEDM, Client
 
-#: Where keys are explained.
-PAGES = PROTOCOL + (ROOT / "docs/programs.md").read_text()
+#: Where keys are explained, and whose links are looked at.
+EXPLAINED = [ROOT / "docs" / f"{name}.md" for name in ("protocol", "settings", "editing", "command-line", "programs")]
+PAGES = "".join(page.read_text() for page in EXPLAINED)
 
 #: Keys of LSP's own, which its specification explains.
 STANDARD = {"location", "character", "codeDescription", "href"}
@@ -23,6 +28,15 @@ DECLARED = {
     },
     "experimental": {"wedm": {"applyDrawingEdit": True, "resendDrawing": True, "codeLens": True}},
 }
+
+
+def test_the_client_on_the_page_runs_and_prints_what_is_shown(tmp_path: Path) -> None:
+    (source, shown) = re.findall(r"```(?:python|text)\n(.*?)```", PROTOCOL, re.DOTALL)
+    (tmp_path / "client.py").write_text(source)
+    (tmp_path / "wedm").symlink_to(WEDM)
+    path = f"{tmp_path}{os.pathsep}{os.environ['PATH']}"
+    ran = subprocess.run([sys.executable, "client.py"], cwd=tmp_path, env={**os.environ, "PATH": path}, capture_output=True, text=True, timeout=60, check=False)
+    assert (ran.stdout.strip(), ran.stderr, ran.returncode) == (shown.strip(), "", 0)
 
 
 async def test_the_answer_to_the_handshake_is_the_one_on_the_page(stranger: Client) -> None:
@@ -65,7 +79,7 @@ def test_the_rules_that_the_page_names_are_there() -> None:
 
 
 def test_links_within_the_pages_lead_somewhere() -> None:
-    for page in (ROOT / "docs/protocol.md", ROOT / "docs/programs.md", ROOT / "README.md", *(ROOT / "clients").glob("*/README.md")):
+    for page in (*EXPLAINED, ROOT / "README.md", *(ROOT / "clients").glob("*/README.md")):
         for target in re.findall(r"\]\((?!https?:)([^)\s]+)\)", page.read_text()):
             path, _, place = target.partition("#")
             led = (page.parent / path).resolve() if path else page

@@ -37,7 +37,7 @@ fn type_of(row: &Row, schema: &Value) -> String {
 }
 
 #[test]
-fn the_protocol_lists_every_key() {
+fn the_page_of_settings_lists_every_key() {
     let mut table = String::new();
     for row in of_documents() {
         let schema = schema_of(&row);
@@ -58,7 +58,7 @@ fn the_protocol_lists_every_key() {
         table += &format!("| `{}` | {kind} | {default} | {meaning} |\n", row.key);
     }
     hold(
-        "docs/protocol.md",
+        "docs/settings.md",
         "| key | type | default | meaning |\n|---|---|---|---|\n",
         "\nA table `profiles.NAME`",
         &table,

@@ -1,4 +1,4 @@
-"""The settings of wedm as typed dictionaries, and their form in the protocol. What they mean: docs/protocol.md of wedm."""
+"""The settings of wedm as typed dictionaries, and their form in the protocol. What they mean: docs/settings.md of wedm."""
 
 from __future__ import annotations
 
