@@ -217,7 +217,7 @@ fn offsets_that_cross_themselves_everywhere_are_left_out_together_and_said() {
         };
         let granted = Budget::default();
         let budget = Budget {
-            looks: granted.looks / 4,
+            looks: granted.looks / 16,
             ..granted
         };
         let settings = Effective {

@@ -14,6 +14,8 @@ mod open;
 mod passes;
 #[path = "paths/main.rs"]
 mod paths;
+#[path = "support/size.rs"]
+mod size;
 #[path = "support/generate.rs"]
 mod support;
 #[path = "taper.rs"]

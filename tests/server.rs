@@ -33,6 +33,8 @@ mod program_text;
 mod programs;
 #[path = "server/settings.rs"]
 mod settings;
+#[path = "support/size.rs"]
+mod size;
 #[path = "soak.rs"]
 mod soak;
 #[cfg(feature = "testing")]

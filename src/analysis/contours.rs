@@ -3,8 +3,8 @@
 use super::Analysis;
 use super::suppressed::own_role;
 use crate::drawing::{
-    Contour, ContourKey, Drawing, EntityId, Outline, Role, is_drafting_layer, is_drafting_linetype, is_layer_of_ways,
-    nesting_depths, twins,
+    Contour, ContourKey, Drawing, EntityId, Outline, Role, is_drafting_layer, is_drafting_linetype,
+    is_layer_of_ways, nesting_depths, twins,
 };
 use crate::finding::{Aside, Side};
 use crate::geometry::Bounds;

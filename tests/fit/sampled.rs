@@ -1,6 +1,7 @@
 //! The fit of random polygons against an erosion and dilation by sampling alone.
 
 use super::{drawing, pair, polyline, rounded, snapshot};
+use crate::size::by_day;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -138,7 +139,7 @@ fn depth_by_sampling(contour: &[(Point, Vector)], corrections: [f64; 2], half: f
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, cases: 2, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { failure_persistence: None, cases: by_day(1, 4), ..ProptestConfig::default() })]
 
     /// Every misfit is found, and none invented.
     #[test]

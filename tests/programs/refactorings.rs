@@ -100,13 +100,15 @@ fn refactorings_do_what_is_recorded_and_bring_no_error() {
         let mut of_all: Vec<(String, Result<Vec<u8>, String>)> = Vec::new();
         let mut say = |title: &str, edits: Result<Vec<TextEdit>, String>| {
             let result = edits.map(|edits| applied(&bytes, &edits));
-            if let Ok(after) = &result {
+            // Most do the same wherever the cursor is.
+            if let Ok(after) = &result
+                && !of_all.iter().any(|(_, known)| known.as_ref() == Ok(after))
+            {
                 let now = errors(language, after, &settings);
                 if let Some(rule) = now.difference(&before).next() {
                     spoiled.push(format!("{name}: {title} brings {rule}"));
                 }
             }
-            // Most do the same wherever the cursor is.
             let (id, place) = title.split_once(" at ").unwrap();
             if place != "nothing" && of_all.contains(&(id.to_owned(), result.clone())) {
                 return;

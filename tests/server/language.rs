@@ -1,5 +1,6 @@
 //! What editors ask about DXF text, over the real process.
 
+use crate::size::by_day;
 use crate::support::{Client, TIGHT, capabilities, dxf_of, tight_plate};
 use serde_json::{Value, json};
 
@@ -265,8 +266,10 @@ fn symbols_are_a_list_for_clients_that_know_no_trees() {
 }
 
 #[test]
-fn five_megabytes_are_answered_and_a_text_that_moved_on_is_not() {
-    let handles: Vec<String> = (0..36_000).map(|i| format!("{i:X}")).collect();
+fn a_long_text_is_answered_and_a_text_that_moved_on_is_not() {
+    let handles: Vec<String> = (0..by_day(9_000, 36_000))
+        .map(|i| format!("{i:X}"))
+        .collect();
     let text = dxf_of(
         &handles
             .iter()
