@@ -1,6 +1,6 @@
 //! Faults put into sound programs: what is found, at which line, and what the repairs make of it.
 //!
-//! The table in `docs/programs.md` is made by
+//! The table in `docs/programs.md` and `docs/zh/programs.md` is made by
 //!
 //! ```text
 //! cargo test --release --test core faults table -- --ignored --nocapture
@@ -146,7 +146,7 @@ fn fix_all_spoils_no_program() {
 }
 
 #[test]
-#[ignore = "makes the table of docs/programs.md"]
+#[ignore = "makes the table of docs/programs.md and docs/zh/programs.md"]
 fn table() {
     let wanted = std::env::var("WEDM_FAULTS").unwrap_or_default();
     let mut wanted = wanted

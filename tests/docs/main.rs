@@ -61,6 +61,22 @@ fn links(page: &str) -> Vec<String> {
     links
 }
 
+/// The anchors that headings make: lower case, spaces to hyphens, punctuation dropped.
+pub(crate) fn anchors(page: &str) -> Vec<String> {
+    let headings = page
+        .lines()
+        .filter(|line| line.starts_with('#'))
+        .map(|line| line.trim_start_matches('#').trim().to_lowercase());
+    let anchor = |heading: String| {
+        heading
+            .chars()
+            .filter(|c| c.is_alphanumeric() || *c == ' ' || *c == '-')
+            .collect::<String>()
+            .replace(' ', "-")
+    };
+    headings.map(anchor).collect()
+}
+
 /// One command of a `console` block: what follows `$ `, the lines shown after it, and the code that `$ echo $?` shows.
 struct Shown {
     command: String,
@@ -133,6 +149,9 @@ fn the_commands_do_what_is_shown(page: &str, language: &str) {
         std::fs::create_dir_all(folder.path().join("drawings")).unwrap();
         std::fs::copy(&drawing, folder.path().join("drawings").join(&name)).unwrap();
     }
+    // The reader's own drawing.
+    let own = folder.path().join("part.dxf");
+    std::fs::copy(root().join("tests/data/tight.dxf"), own).unwrap();
     let shown = commands(&read(&root().join(page)));
     let ours = shown.iter().filter_map(|shown| {
         let arguments = shown

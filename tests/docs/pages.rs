@@ -22,22 +22,6 @@ fn pages() -> Vec<PathBuf> {
     .collect()
 }
 
-/// The anchors that headings make: lower case, spaces to hyphens, punctuation dropped.
-fn anchors(page: &str) -> Vec<String> {
-    let headings = page
-        .lines()
-        .filter(|line| line.starts_with('#'))
-        .map(|line| line.trim_start_matches('#').trim().to_lowercase());
-    let anchor = |heading: String| {
-        heading
-            .chars()
-            .filter(|c| c.is_alphanumeric() || *c == ' ' || *c == '-')
-            .collect::<String>()
-            .replace(' ', "-")
-    };
-    headings.map(anchor).collect()
-}
-
 #[test]
 fn every_relative_link_leads_somewhere() {
     for path in pages() {

@@ -313,29 +313,31 @@ fn severity_on_page(rule: Rule) -> String {
         .to_owned()
 }
 
-/// The defaults of the rules stand in comments, since a rule that is set is no milder anywhere. Update them with
-/// `UPDATE_EXPECT=1 cargo test --test command_line docs`.
-#[test]
-fn the_page_of_settings_shows_the_default_of_every_rule() {
-    let path = root().join("docs/settings.md");
+/// What stands after the first word of a Chinese page's "默认级别：".
+fn severity_on_chinese_page(rule: Rule) -> String {
+    let name = rule.name();
+    let page = read(&root().join(format!("docs/zh/rules/{name}.md")));
+    let severity = page
+        .split("默认级别：")
+        .nth(1)
+        .and_then(|rest| rest.split(['。', '\n']).next());
+    severity
+        .unwrap_or_else(|| panic!("the Chinese page of {name} says no severity"))
+        .to_owned()
+}
+
+/// The defaults of the rules on a page of settings stand in comments, since a rule that is set is no milder anywhere. `note` says what
+/// else belongs to the default of a rule.
+fn the_page_shows_the_default_of_every_rule(name: &str, note: impl Fn(Rule, &str) -> String) {
+    let path = root().join(name);
     let page = read(&path);
     let (head, rest) = page.split_once("[rules] ").unwrap();
     let (first, rest) = rest.split_once('\n').unwrap();
     let (_, tail) = rest.split_once("```").unwrap();
     let row = |rule: Rule| {
         let default = format!("{:?}", rule.default_severity()).to_lowercase();
-        let on_page = severity_on_page(rule);
-        let note = on_page
-            .strip_prefix(&default)
-            .unwrap_or_else(|| {
-                panic!(
-                    "docs/rules/{}.md says {on_page}, not {default}",
-                    rule.name()
-                )
-            })
-            .trim_start_matches([',', ';', ' ']);
         let row = format!("# {} = \"{default}\"", rule.name());
-        match note {
+        match note(rule, &default).as_str() {
             "" => format!("{row}\n"),
             note => format!("{row:<34} # {note}\n"),
         }
@@ -348,6 +350,35 @@ fn the_page_of_settings_shows_the_default_of_every_rule() {
     }
     assert!(
         read(&path) == shown,
-        "docs/settings.md is out of date; update it with: UPDATE_EXPECT=1 cargo test --test command_line docs"
+        "{name} is out of date; update it with: UPDATE_EXPECT=1 cargo test --test command_line docs"
     );
+}
+
+/// Update them with `UPDATE_EXPECT=1 cargo test --test command_line docs`.
+#[test]
+fn the_pages_of_settings_show_the_default_of_every_rule() {
+    the_page_shows_the_default_of_every_rule("docs/settings.md", |rule, default| {
+        let on_page = severity_on_page(rule);
+        let note = on_page.strip_prefix(default).unwrap_or_else(|| {
+            panic!(
+                "docs/rules/{}.md says {on_page}, not {default}",
+                rule.name()
+            )
+        });
+        note.trim_start_matches([',', ';', ' ']).to_owned()
+    });
+    the_page_shows_the_default_of_every_rule("docs/zh/settings.md", |rule, default| {
+        let on_page = severity_on_chinese_page(rule);
+        let word = format!("（{default}）");
+        // "警告（warning）；……": the word is the default, and the rest belongs to it.
+        let note = match on_page.split_once(&word) {
+            Some((first, rest)) if first.chars().count() == 2 => rest,
+            _ => &on_page,
+        };
+        let names = ["error", "warning", "information", "hint"].map(|name| format!("（{name}）"));
+        let note = names
+            .iter()
+            .fold(note.to_owned(), |note, name| note.replace(name, ""));
+        note.trim_start_matches(['，', '；']).to_owned()
+    });
 }

@@ -2,42 +2,121 @@
 
 use super::*;
 
-fn type_of(row: &Row, schema: &Value) -> String {
+/// The language of a page: what of the two is said there.
+#[derive(Clone, Copy)]
+enum Tongue {
+    English,
+    Chinese,
+}
+use Tongue::{Chinese, English};
+
+impl Tongue {
+    fn say<'a>(self, english: &'a str, chinese: &'a str) -> &'a str {
+        match self {
+            English => english,
+            Chinese => chinese,
+        }
+    }
+
+    fn between(self) -> &'static str {
+        self.say(", ", "、")
+    }
+
+    /// What a key means, or one of its words. In Chinese links lead to the headings of the Chinese pages.
+    fn meaning(self, row: &Row, word: Option<&str>, english: &str) -> String {
+        let own = match self {
+            English => return english.to_owned(),
+            Chinese => in_chinese(row, word),
+        };
+        let mut text = own.clone();
+        for link in between(&own, "](programs.md#", ")") {
+            let twin = twin_of(link);
+            text = text.replace(
+                &format!("programs.md#{link})"),
+                &format!("programs.md#{twin})"),
+            );
+        }
+        text
+    }
+}
+
+/// The heading of `docs/zh/programs.md` that stands where the one of this name stands in `docs/programs.md`.
+fn twin_of(anchor: &str) -> String {
+    let [english, chinese] = ["docs/programs.md", "docs/zh/programs.md"].map(|name| {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+        crate::docs::anchors(&std::fs::read_to_string(root.join(name)).unwrap())
+    });
+    let place = english.iter().position(|own| own == anchor);
+    chinese[place.unwrap_or_else(|| panic!("no heading {anchor}"))].clone()
+}
+
+fn numbers(row: &Row, tongue: Tongue) -> String {
+    match (tongue, row.range) {
+        (English, _) => {
+            format!(
+                "number{}",
+                range(row).map_or_else(String::new, |range| format!(" {range}"))
+            )
+        }
+        (Chinese, None) => "数".into(),
+        (Chinese, Some(range)) if range.most.is_finite() => {
+            format!("{} 至 {} 的数", range.least, range.most)
+        }
+        (Chinese, Some(range)) if range.is_least => format!("不小于 {} 的数", range.least),
+        (Chinese, Some(range)) => format!("大于 {} 的数", range.least),
+    }
+}
+
+fn type_of(row: &Row, schema: &Value, tongue: Tongue) -> String {
     let listed = |words: Vec<(&str, &str)>| {
         let names: Vec<String> = words.iter().map(|(name, _)| format!("`{name}`")).collect();
-        names.join(", ")
+        names.join(tongue.between())
     };
-    let range = range(row).map_or_else(String::new, |range| format!(" {range}"));
+    let say = |english: &str, chinese: &str| tongue.say(english, chinese).to_owned();
+    let number = numbers(row, tongue);
     let own = words(schema);
     if !own.is_empty() {
         return listed(own);
     }
     match schema["type"].as_str() {
-        Some("number") => format!("number{range}"),
-        None if is_length(row) => format!("number{range}, or table of numbers by handle"),
-        Some("integer") => format!("whole number{range}"),
-        Some("boolean") => "`true`, `false`".into(),
-        Some("string") => "a word".into(),
-        Some("array") if schema["items"]["type"] == "number" => {
-            format!("list of numbers{range}, at least one")
+        Some("number") => number,
+        None if is_length(row) => {
+            number + tongue.say(", or table of numbers by handle", "，或按句柄的表")
         }
-        Some("array") => "list of lines".into(),
+        Some("integer") => match tongue {
+            English => format!("whole {number}"),
+            Chinese => number.replace("数", "整数"),
+        },
+        Some("boolean") => listed(vec![("true", ""), ("false", "")]),
+        Some("string") => say("a word", "字"),
+        Some("array") if schema["items"]["type"] == "number" => match tongue {
+            English => number.replacen("number", "list of numbers", 1) + ", at least one",
+            Chinese => format!("{number}的列表，至少一个"),
+        },
+        Some("array") => say("list of lines", "行的列表"),
         Some("object") if ["profiles", "drawings"].contains(&row.key.as_str()) => {
-            "table of tables by name".into()
+            say("table of tables by name", "按名称的表，各项又是表")
         }
-        Some("object") if schema["additionalProperties"]["type"] == "array" => {
-            "table of lists of texts by name".into()
-        }
-        Some("object") => format!(
-            "table of {} by name",
-            listed(words(&schema["additionalProperties"]))
+        Some("object") if schema["additionalProperties"]["type"] == "array" => say(
+            "table of lists of texts by name",
+            "按名称的表，各项是文字的列表",
         ),
-        _ => "point `[x, y]`, or table of points by handle".into(),
+        Some("object") => {
+            let names = listed(words(&schema["additionalProperties"]));
+            match tongue {
+                English => format!("table of {names} by name"),
+                Chinese => format!("按名称的表：{names}"),
+            }
+        }
+        _ => say(
+            "point `[x, y]`, or table of points by handle",
+            "点 `[x, y]`，或按句柄的表",
+        ),
     }
 }
 
-#[test]
-fn the_page_of_settings_lists_every_key() {
+/// A row for each key, as the page of a language has it.
+fn table_of_keys(tongue: Tongue) -> String {
     let mut table = String::new();
     for row in of_documents() {
         let schema = schema_of(&row);
@@ -45,43 +124,80 @@ fn the_page_of_settings_lists_every_key() {
             .default
             .as_deref()
             .map(|default| default.trim_matches('"'));
-        let default = default.map_or("not set".into(), |default| format!("`{default}`"));
+        let not_set = tongue.say("not set", "未设置").to_owned();
+        let default = default.map_or(not_set, |default| format!("`{default}`"));
         let of_words: Vec<String> = words(&schema)
             .into_iter()
             .filter(|(_, meaning)| !meaning.is_empty())
-            .map(|(name, meaning)| format!("`{name}`: {meaning}"))
+            .map(|(name, meaning)| {
+                let meaning = tongue.meaning(&row, Some(name), meaning);
+                format!("`{name}`{}{meaning}", tongue.say(": ", "："))
+            })
             .collect();
-        let meaning = [std::slice::from_ref(&row.meaning), &of_words[..]]
+        let meaning = tongue.meaning(&row, None, &row.meaning);
+        let meaning = [std::slice::from_ref(&meaning), &of_words[..]]
             .concat()
-            .join(" ");
-        let kind = type_of(&row, &schema);
+            .join(tongue.say(" ", ""));
+        let kind = type_of(&row, &schema, tongue);
         table += &format!("| `{}` | {kind} | {default} | {meaning} |\n", row.key);
     }
+    table
+}
+
+#[test]
+fn the_pages_of_settings_list_every_key() {
     hold(
         "docs/settings.md",
         "| key | type | default | meaning |\n|---|---|---|---|\n",
         "\nA table `profiles.NAME`",
-        &table,
+        &table_of_keys(English),
+    );
+    hold(
+        "docs/zh/settings.md",
+        "| 键 | 类型 | 默认值 | 说明 |\n|---|---|---|---|\n",
+        "\n表 `profiles.名称`",
+        &table_of_keys(Chinese),
     );
 }
 
 /// The first sentence of a meaning, and the words that may stand there.
-fn in_short(row: &Row) -> String {
-    let first = row.first_sentence();
+fn in_short(row: &Row, tongue: Tongue) -> String {
+    let first = match tongue {
+        English => row.first_sentence(),
+        Chinese => {
+            let plain = without_links(&in_chinese(row, None)).replace('`', "");
+            plain.split('。').next().unwrap_or_default().to_owned()
+        }
+    };
     let schema = schema_of(row);
     let names: Vec<&str> = words(&schema).iter().map(|(name, _)| *name).collect();
     match names.is_empty() {
         true => first,
-        false => format!("{first}: {}", names.join(", ")),
+        false => [
+            &first,
+            tongue.say(": ", "："),
+            &names.join(tongue.between()),
+        ]
+        .concat(),
     }
 }
 
-#[test]
-fn the_page_of_settings_shows_every_key_with_its_default() {
-    let mut text = String::new();
-    let mut table = "";
-    // What wins over what is not set, and what has no default is an example.
-    let example = |key: &str| match key {
+/// A text with the names of its links alone.
+fn without_links(text: &str) -> String {
+    let mut plain = String::new();
+    let mut rest = text;
+    while let Some((before, link)) = rest.split_once("](") {
+        let (head, name) = before.rsplit_once('[').unwrap_or((before, ""));
+        plain += head;
+        plain += name;
+        rest = link.split_once(')').map_or("", |(_, behind)| behind);
+    }
+    plain + rest
+}
+
+/// What has no default is an example.
+fn example(key: &str) -> &'static str {
+    match key {
         "passes.corrections" => "[0.175, 0.146, 0.140]",
         "passes.gaps" => "[0.02, 0.01, 0.01]",
         "passes.registers" => "[\"D1\", \"D2\", \"D3\"]",
@@ -115,7 +231,13 @@ fn the_page_of_settings_shows_every_key_with_its_default() {
         "program.whole-numbers" => "\"mm\"",
         "program.drawing" => "\"plate.dxf\"",
         _ => panic!("{key} has no default and no example"),
-    };
+    }
+}
+
+/// A `wedm.toml` with every key.
+fn file_of_keys(tongue: Tongue) -> String {
+    let mut text = String::new();
+    let mut table = "";
     let all = of_documents();
     let rows = all
         .iter()
@@ -134,13 +256,25 @@ fn the_page_of_settings_shows_every_key_with_its_default() {
             Some(default) => format!("{key} = {default}"),
             None => format!("# {key} = {}", example(&row.key)),
         };
-        text += &format!("{line:<26} # {}\n", in_short(row));
+        text += &format!("{line:<26} # {}\n", in_short(row, tongue));
     }
+    text
+}
+
+#[test]
+fn the_pages_of_settings_show_every_key_with_its_default() {
+    let text = file_of_keys(English);
     hold(
         "docs/settings.md",
         "commented out:\n\n```toml\n",
         "\n[rules]",
         &text,
+    );
+    hold(
+        "docs/zh/settings.md",
+        "例子：\n\n```toml\n",
+        "\n[rules]",
+        &file_of_keys(Chinese),
     );
     let (settings, errors) = wedm::settings::from_toml(&text.replace("\n# ", "\n"));
     // Some keys have an effect only beside another value than the default of a second one.
