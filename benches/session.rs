@@ -200,7 +200,7 @@ fn large_session(name: &str, text: &str, rounds: usize) {
             version
         });
     }
-    edits.rows(&format!("{name}: one digit"), "p50 10 ms");
+    edits.rows(&format!("{name}: one digit"), "p99 200 ms");
     client.shut_down();
 }
 
@@ -244,12 +244,9 @@ fn text_session(name: &str, text: &str, rounds: usize) {
     for _ in 0..rounds / 4 {
         of_code.time(&mut client, uri, |client| change_in(client, line - 1, "x"));
     }
-    of_code.rows(
-        &format!("{name}: one letter at a group code"),
-        "p50 5 ms, p99 20 ms",
-    );
+    of_code.rows(&format!("{name}: one letter at a group code"), "p99 16 ms");
     let mut change = |client: &mut Client| change_in(client, line, "1");
-    edits.rows(&format!("{name}: one character"), "p50 5 ms, p99 20 ms");
+    edits.rows(&format!("{name}: one character"), "p99 16 ms");
     let bursts = (0..if rounds > 100 { 5 } else { 1 }).map(|_| {
         let mut last = 0;
         for _ in 0..30 {
@@ -485,7 +482,7 @@ fn program_session(program: &Program, rounds: usize) {
             ["1", "2", "3", "4", "5", "6", "7", "8", "9"][round / 2 % 9],
         );
     }
-    edits.rows(&format!("{name}: one character"), "p50 1 ms");
+    edits.rows(&format!("{name}: one character"), "p99 16 ms");
     let mut edits = Edits::default();
     for _ in 0..(rounds / 40).max(1) {
         version += 1;
@@ -611,7 +608,7 @@ fn drawing_session(rounds: usize) {
     row(
         "polyline of 1,000,000 vertices: one moves",
         moves.collect(),
-        "p50 1 ms",
+        "p99 300 ms",
     );
     client.shut_down();
 }
