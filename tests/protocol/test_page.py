@@ -12,6 +12,7 @@ from typing import Any
 
 import pytest
 from conftest import PROTOCOL, ROOT, SCHEMA, WEDM, Client
+from lsprotocol import types
 
 #: Where keys are explained, and whose links are looked at.
 EXPLAINED = [ROOT / "docs" / f"{name}.md" for name in ("protocol", "settings", "editing", "command-line", "programs")]
@@ -37,6 +38,15 @@ def test_the_client_on_the_page_runs_and_prints_what_is_shown(tmp_path: Path) ->
     path = f"{tmp_path}{os.pathsep}{os.environ['PATH']}"
     ran = subprocess.run([sys.executable, "client.py"], cwd=tmp_path, env={**os.environ, "PATH": path}, capture_output=True, text=True, timeout=60, check=False)
     assert (ran.stdout.strip(), ran.stderr, ran.returncode) == (shown.strip(), "", 0)
+
+
+async def test_the_smallest_handshake_brings_notifications_only(stranger: Client) -> None:
+    (smallest,) = re.findall(r"smallest `initialize` has the params `(.*?)`", PROTOCOL)
+    stranger.capabilities = types.ClientCapabilities()
+    assert (await stranger.ask("initialize", json.loads(smallest)))["serverInfo"]["name"] == "wedm"
+    stranger.tell("initialized", {})
+    await stranger.open_text("tight.dxf")
+    assert {method for method, _ in stranger.heard} <= {"textDocument/publishDiagnostics", "window/logMessage", "window/showMessage"}
 
 
 async def test_the_answer_to_the_handshake_is_the_one_on_the_page(stranger: Client) -> None:
