@@ -341,6 +341,7 @@ fn a_profile_that_ships_is_named_wherever_profiles_are_listed() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let places = [
         "docs/programs.md",
+        "docs/zh/programs.md",
         "clients/vscode/src/commands/profiles.ts",
     ];
     for place in places {
