@@ -24,3 +24,5 @@ mod small_radius;
 mod star;
 #[path = "three_b_examples.rs"]
 mod three_b_examples;
+#[path = "twins/main.rs"]
+mod twins;

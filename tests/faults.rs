@@ -12,7 +12,7 @@
 #[path = "faults/alone.rs"]
 mod alone;
 #[path = "faults/chance.rs"]
-mod chance;
+pub mod chance;
 #[path = "faults/contours.rs"]
 mod contours;
 #[path = "faults/inject/mod.rs"]
