@@ -86,8 +86,12 @@ fn cut(chance: &mut Chance) -> Vec<Move> {
                 .collect()
         }
     };
-    let lead = um(chance, 1.0, 4.0);
-    let way_in = line(lead, -lead / 2 - 150);
+    // From within; the pentagon begins at its right corner, the others at the left end of their lower side.
+    let lead = r / 2;
+    let way_in = match outline.len() {
+        5 => line(lead, lead / 7),
+        _ => line(-lead / 3, -lead),
+    };
     let way_out = line(-way_in.by[0], -way_in.by[1]);
     [vec![way_in], outline, vec![way_out]].concat()
 }
