@@ -111,10 +111,14 @@ pub(crate) fn closing(way: &dyn Way) -> Option<Closing> {
         }
     }
     if way.totals().writing.names_places && count > 3 {
-        // The cut may go on past the place where it closes.
+        // The cut may go on past the place where it closes: then its first and its last piece lie on each other there. A last piece
+        // that only ends on the first one, as under a wrong sign, is no such cut.
         let first = way.piece(1)?;
         for lead_out in [0, 1] {
-            if first.distance_to(way.node(count - lead_out)?.meant) <= tolerance {
+            let last = way.piece(count - lead_out - 1)?;
+            if first.distance_to(way.node(count - lead_out)?.meant) <= tolerance
+                && last.distance_to(first.start()) <= tolerance
+            {
                 return closed(1, lead_out);
             }
         }
