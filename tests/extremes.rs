@@ -201,13 +201,13 @@ fn what_lies_side_by_side_by_the_thousand_is_compared_within_bounds_and_what_was
 fn offsets_that_cross_themselves_everywhere_are_left_out_together_and_said() {
     let gear = |number: usize| {
         let vertex = |at: usize| {
-            let (sin, cos) = (std::f64::consts::TAU * at as f64 / 600.0).sin_cos();
+            let (sin, cos) = (std::f64::consts::TAU * at as f64 / 300.0).sin_cos();
             let radius = if at.is_multiple_of(2) { 10.0 } else { 9.0 };
             let (x, y) = (30.0 * number as f64 + radius * cos, radius * sin);
             format!("10\n{x}\n20\n{y}\n")
         };
-        let vertices: String = (0..600).map(vertex).collect();
-        format!("0\nLWPOLYLINE\n90\n600\n70\n1\n{vertices}")
+        let vertices: String = (0..300).map(vertex).collect();
+        format!("0\nLWPOLYLINE\n90\n300\n70\n1\n{vertices}")
     };
     let left_out = |correction: f64| {
         let settings = Settings {

@@ -17,16 +17,18 @@ use wedm::program;
 use wedm::settings::Effective;
 use written::{Move, Writing};
 
-/// Of a hundred twins with one slip, so many are judged alike in 3B and the other writing, at least.
+/// Of a hundred twins with one slip, so many are judged alike in 3B and in 4B, ISO under G91 and ISO under G90, at least. Under G90 what
+/// stands behind a slip is written as it is moved by it, which is not how people slip there: of the rows of a block twice and a sign it says
+/// nothing.
 const ALIKE: [(&str, [usize; 3]); 8] = [
     ("sound", [100, 100, 100]),
-    ("block twice", [0, 0, 0]),
-    ("block lost", [0, 0, 0]),
-    ("digit wrong", [0, 0, 0]),
-    ("digit lost", [0, 0, 0]),
-    ("sign", [0, 0, 0]),
-    ("blocks exchanged", [0, 0, 0]),
-    ("arc turned", [0, 0, 0]),
+    ("block twice", [90, 85, 0]),
+    ("block lost", [95, 85, 85]),
+    ("digit wrong", [100, 85, 85]),
+    ("digit lost", [100, 50, 50]),
+    ("sign", [100, 100, 0]),
+    ("blocks exchanged", [100, 85, 85]),
+    ("arc turned", [100, 100, 100]),
 ];
 
 /// A closed outline of lines and of quarters and halves of circles, from its begin, µm, with a way in and out.
@@ -165,7 +167,7 @@ fn judged(writing: Writing, text: &str) -> Judged {
 
 #[test]
 fn the_same_slip_is_the_same_in_every_language() {
-    let cases = std::env::var("WEDM_CASES").map_or(4, |cases| cases.parse().unwrap());
+    let cases = std::env::var("WEDM_CASES").map_or(8, |cases| cases.parse().unwrap());
     let mut alike: BTreeMap<&str, ([usize; 3], usize)> = BTreeMap::new();
     let mut differing = Vec::new();
     let mut chance = Chance::of_seed(44);
