@@ -6,7 +6,7 @@ use super::{Failure, Verdict, ending, files, report};
 use crate::document::Snapshot;
 use crate::finding::{Detail, Finding, Rule, sentence};
 use crate::job::{self, Wanted};
-use crate::message::{lengths, readable};
+use crate::message::{duration, lengths, readable};
 use crate::program::{Format, ProvedProgram};
 use crate::protocol::{Milling, Work};
 use crate::toolpath;
@@ -128,7 +128,7 @@ fn told(snapshot: &Snapshot, work: &toolpath::Work) {
     if let Some(minutes) = work.minutes {
         let cost = work.cost.map(|cost| say!(which_costs, cost));
         let cost = cost.unwrap_or_default();
-        output::say(&say!(the_cut_takes, work.length, minutes, cost));
+        output::say(&say!(the_cut_takes, work.length, duration(minutes), cost));
         let several = (2..=CUTS).contains(&work.cuts.len());
         for cut in work.cuts.iter().filter(|_| several) {
             let (contour, minutes) = (readable(&cut.contour), cut.minutes.unwrap_or_default());

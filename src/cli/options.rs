@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use std::sync::LazyLock;
 
 /// Groups of options: their heading, the table whose keys they set, and their names.
-const GROUPS: [(&str, &str, &[&str]); 7] = [
+const GROUPS: [(&str, &str, &[&str]); 8] = [
     ("Settings", "", &["correction", "passes", "side"]),
     (
         "Program",
@@ -45,6 +45,19 @@ const GROUPS: [(&str, &str, &[&str]); 7] = [
         &["layout", "digits", "profile", "end", "pause"],
     ),
     ("Settings", "", &["correction"]),
+    (
+        "Job",
+        "job.",
+        &[
+            "title",
+            "part",
+            "material",
+            "thickness",
+            "machine",
+            "revision",
+            "programmer",
+        ],
+    ),
 ];
 
 /// `--passes` is the list of their corrections.
@@ -82,6 +95,9 @@ pub(crate) type Program = Keys<1>;
 
 /// How a program that holds its path already is written.
 pub(crate) type Written = Keys<5>;
+
+/// The head of a page for the workshop.
+pub(crate) type Head = Keys<7>;
 
 /// The correction that 4B needs.
 pub(crate) type Corrected = Keys<6>;
@@ -141,6 +157,7 @@ impl<const GROUP: usize> Args for Keys<GROUP> {
                 "point_setting" => "X,Y",
                 "whole" => "N",
                 "word" => "WORD",
+                "label" => "TEXT",
                 _ => "NAME",
             };
             let arg = arg.value_name(value);
@@ -290,7 +307,7 @@ mod tests {
     #[test]
     fn every_option_is_a_key_of_the_settings() {
         let all = (0..GROUPS.len()).flat_map(options);
-        assert_eq!(all.filter(|(_, row)| row.words.is_empty()).count(), 23);
+        assert_eq!(all.filter(|(_, row)| row.words.is_empty()).count(), 30);
         assert_eq!(row("program.corner").words, ["arc", "intersection"]);
     }
 }

@@ -18,6 +18,8 @@ struct Row {
     part: Option<String>,
     before: String,
     behind: &'static str,
+    /// Its place among all holes of the drawing, from 1: the number in the picture.
+    number: usize,
 }
 
 /// The holes that are drilled: not those that were found where there is no room for any, which is an error of the drawing.
@@ -26,13 +28,25 @@ pub(crate) fn drilled(mut holes: Vec<StartHole>) -> Vec<StartHole> {
     holes
 }
 
+/// The holes that are drilled, with their numbers in the order of the cuts; `first` is that of the first one.
+pub(crate) fn numbered(
+    holes: &[StartHole],
+    first: usize,
+) -> impl Iterator<Item = (usize, &StartHole)> {
+    let holes = holes.iter().enumerate();
+    let holes = holes.map(move |(index, hole)| (first + index, hole));
+    holes.filter(|(_, hole)| !hole.cuts)
+}
+
 impl List {
     /// A row for each hole of a drawing, in mm; without a diameter where the settings have none.
     pub(crate) fn add(&mut self, name: &str, cuts: &[Cut]) {
+        let mut first = 1;
         for cut in cuts {
-            let holes = drilled(cut.planned.holes.clone());
-            let row = |hole: &StartHole| row(name, cut, hole);
-            self.rows.extend(holes.iter().map(row));
+            let row = |(number, hole): (usize, &StartHole)| row(name, cut, (number, hole));
+            let numbered = numbered(&cut.planned.holes, first);
+            self.rows.extend(numbered.map(row));
+            first += cut.planned.holes.len();
         }
     }
 
@@ -46,10 +60,10 @@ impl List {
         let has_parts = self.rows.iter().any(|row| row.part.is_some());
         let head = if has_parts { HEAD_OF_PARTS } else { HEAD };
         let line = |row: &Row| match (has_parts, &row.part) {
-            (false, _) => format!("{},{}\n", row.before, row.behind),
+            (false, _) => format!("{},{},{}\n", row.before, row.behind, row.number),
             (true, part) => {
                 let part = cell(part.as_deref().unwrap_or_default());
-                format!("{},{},{part}\n", row.before, row.behind)
+                format!("{},{},{part},{}\n", row.before, row.behind, row.number)
             }
         };
         let lines = self.rows.iter().map(line);
@@ -58,10 +72,10 @@ impl List {
 }
 
 /// The names of the columns, and those of a list with pairs.
-const HEAD: &str = "drawing,x_mm,y_mm,diameter_mm,contour,hole\n";
-const HEAD_OF_PARTS: &str = "drawing,x_mm,y_mm,diameter_mm,contour,hole,part\n";
+const HEAD: &str = "drawing,x_mm,y_mm,diameter_mm,contour,hole,number\n";
+const HEAD_OF_PARTS: &str = "drawing,x_mm,y_mm,diameter_mm,contour,hole,part,number\n";
 
-fn row(name: &str, cut: &Cut, hole: &StartHole) -> Row {
+fn row(name: &str, cut: &Cut, (number, hole): (usize, &StartHole)) -> Row {
     let snapshot = &cut.snapshot;
     let unit_mm = snapshot.settings.unit_of(&snapshot.drawing).mm;
     let diameter = snapshot.settings.start_hole;
@@ -81,6 +95,7 @@ fn row(name: &str, cut: &Cut, hole: &StartHole) -> Row {
         part: cut.name().map(str::to_owned),
         before,
         behind: if hole.is_given { "given" } else { "found" },
+        number,
     }
 }
 

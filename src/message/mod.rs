@@ -31,8 +31,8 @@ mod zh;
 
 pub(crate) use en::said;
 pub(crate) use language::{Asker, Language, speak, spoken};
-pub(crate) use readable::lengths;
 pub(crate) use readable::{columns, is_hidden, readable};
+pub(crate) use readable::{duration, lengths};
 
 use std::fmt::{self, Debug, Display, Formatter};
 

@@ -37,6 +37,16 @@ pub(crate) fn columns(text: &str) -> usize {
     unicode_width::UnicodeWidthStr::width(text)
 }
 
+/// A time for people: minutes, from an hour on hours and minutes.
+pub(crate) fn duration(minutes: f64) -> String {
+    if minutes < 60.0 {
+        return say!(minutes, minutes);
+    }
+    let whole = minutes.round();
+    let hours = (whole / 60.0).floor();
+    say!(hours_and_minutes, hours, (whole - 60.0 * hours) as u32)
+}
+
 /// The length of the cuts and, if any, of the ways between them, mm.
 pub(crate) fn lengths(cut: f64, jumps: f64, apart: &str) -> String {
     let cut = say!(cut_length, cut);

@@ -1,25 +1,37 @@
 //! The drawing itself: areas, contours, entities that are not cut, the wire's path and the faults on it.
 
-use super::marks;
-use super::numbers::number;
-use super::reach::FARTHEST;
+use super::areas;
+use super::marks::{self, Spot};
+use super::room::Room;
 use super::sheet::{Frame, Sheet, escaped, named, path_data};
 use super::style::class_of;
-use super::subject::{Subject, is_other};
-use crate::drawing::{Entity, EntityId, Geometry, Role};
-use crate::finding::{Detail, Finding, Place};
+use super::subject::{Subject, is_other, mark_numbers};
+use crate::drawing::{Entity, EntityId, Geometry};
+use crate::finding::{Detail, Finding, Place, Severity};
 use crate::geometry::{Point, Segment};
-use crate::toolpath::{Source, WirePath, lengths};
-use rustc_hash::{FxHashMap, FxHashSet};
+use crate::toolpath::{Source, lengths};
+use rustc_hash::FxHashSet;
 
-/// How far the material reaches beyond an opening that no outline holds.
-const GROUND: f64 = 22.0;
-/// Radius of the dot at a fault.
-const DOT: f64 = 4.5;
+/// Radius of the dot at a fault, by its severity: a hint is a small ring.
+const fn dot_of(severity: Severity) -> f64 {
+    match severity {
+        Severity::Error => 4.5,
+        Severity::Warning => 3.6,
+        Severity::Information | Severity::Hint => 2.4,
+    }
+}
+/// A segment that is shorter on the sheet is shown as a dot.
+const TOO_SHORT: f64 = 4.5;
 /// Up to this many segments each one is an element of its own, with a tooltip; beyond it each entity is.
 const TOOLTIP_SEGMENTS: usize = 4000;
 
-pub(super) fn figure(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
+/// Draws it, and notes in `room` where there is something. The places of the marks that have a number come back, by number.
+pub(super) fn figure(
+    sheet: &mut Sheet,
+    frame: &Frame,
+    subject: &Subject,
+    room: &mut Room,
+) -> Vec<Spot> {
     sheet.line(format_args!(
         "{}",
         frame.opening_of_drawing(
@@ -30,11 +42,21 @@ pub(super) fn figure(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
             })
         )
     ));
-    areas(sheet, frame, subject);
+    areas::areas(sheet, frame, subject);
     asides(sheet, frame, subject);
+    let others = others(subject, frame);
+    let is_hint = |other: &&Other| other.finding.severity > Severity::Warning;
+    others
+        .iter()
+        .filter(is_hint)
+        .for_each(|other| other.draw(sheet, frame));
     contours(sheet, frame, subject);
     wire(sheet, frame, subject);
-    other_faults(sheet, frame, subject);
+    let is_fault = |other: &&Other| !is_hint(other);
+    others
+        .iter()
+        .filter(is_fault)
+        .for_each(|other| other.draw(sheet, frame));
     for fault in &subject.faults {
         let (handle, segment, detail) = (&fault.handle, fault.segment, fault.detail);
         let (radius, required) = (subject.mm(detail.radius), subject.mm(detail.required));
@@ -52,8 +74,20 @@ pub(super) fn figure(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
         let radius = detail.required * frame.scale;
         sheet.circle(r#"class="correction fine""#, middle, radius, "");
     }
-    marks::thread_holes(sheet, frame, subject);
+    note(room, frame, subject);
+    marks::thread_holes(sheet, frame, subject, room);
     sheet.line(format_args!("</g>"));
+    others.into_iter().map(|other| other.spot).collect()
+}
+
+/// Notes the lines of contours and paths.
+fn note(room: &mut Room, frame: &Frame, subject: &Subject) {
+    for outline in subject.outlines {
+        let segments = outline.contour.segments(subject.drawing);
+        segments.for_each(|segment| room.line(frame, &segment.geometry));
+    }
+    let pieces = subject.paths.iter().flat_map(|path| &path.segments);
+    pieces.for_each(|piece| room.line(frame, &piece.geometry));
 }
 
 /// The segments of an entity as path data.
@@ -61,108 +95,6 @@ fn data_of(frame: &Frame, subject: &Subject, entity: &Entity) -> String {
     let geometry = &entity.geometry;
     let segments = geometry.segments_of(subject.drawing.flat());
     path_data(frame, segments, geometry.is_closed())
-}
-
-/// The insides of closed contours, the largest first, so that openings lie upon the part that holds them; each with
-/// what the wire cuts along it, and what it leaves of the area that it should cut.
-fn areas(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
-    let drawing = subject.drawing;
-    // By size: whether it is an opening, its contour, and its place among the outlines.
-    let mut areas: Vec<(f64, bool, String, Option<usize>)> = Vec::new();
-    for (id, entity) in drawing.entities() {
-        if entity.geometry.is_closed() && !subject.cut.contains(&id) {
-            let bounds = entity.geometry.bounds(drawing.flat());
-            let size = bounds.width() * bounds.height() * 2.0;
-            areas.push((size, false, data_of(frame, subject, entity), None));
-        }
-    }
-    for (index, outline) in subject.outlines.iter().enumerate() {
-        if outline.contour.closed {
-            let is_opening = outline.role == Role::Opening;
-            let segments = outline.contour.segments(drawing);
-            let data = path_data(frame, segments.map(|segment| segment.geometry), true);
-            areas.push((outline.twice_area.abs(), is_opening, data, Some(index)));
-        }
-    }
-    areas.sort_by(|a, b| b.0.total_cmp(&a.0));
-    if areas.first().is_some_and(|(_, is_opening, ..)| *is_opening) {
-        let [width, height] = [subject.bounds.width(), subject.bounds.height()]
-            .map(|length| number(length * frame.scale + 2.0 * GROUND));
-        sheet.line(format_args!(
-            r#"<rect class="part" x="-{GROUND}" y="-{GROUND}" width="{width}" height="{height}" rx="8"/>"#
-        ));
-    }
-    let mut of: FxHashMap<usize, Vec<(&WirePath, f64)>> = FxHashMap::default();
-    for (path, half) in subject.paths.iter().zip(&subject.half_kerfs) {
-        if let Some(half) = half {
-            of.entry(path.outline).or_default().push((path, *half));
-        }
-    }
-    for (_, is_opening, data, outline) in areas {
-        let paths = outline.and_then(|outline| of.remove(&outline));
-        let paths = &paths.unwrap_or_default()[..];
-        let swept = round_of(frame, paths);
-        let fill = |sheet: &mut Sheet, class: &str, data: &str| {
-            sheet.path(&format!(r#"class="{class}""#), data, "");
-        };
-        match (is_opening, &swept) {
-            (true, Some(round)) => {
-                fill(sheet, "lost", &data);
-                fill(sheet, "void", round);
-            }
-            (false, Some(round)) => fill(sheet, "lost", round),
-            (true, None) => fill(sheet, "void", &data),
-            (false, None) => fill(sheet, "part", &data),
-        }
-        kerfs(sheet, frame, paths);
-        if !is_opening && swept.is_some() {
-            fill(sheet, "part", &data);
-        }
-    }
-    // Open contours have no inside.
-    for index in 0..subject.outlines.len() {
-        kerfs(sheet, frame, &of.remove(&index).unwrap_or_default());
-    }
-}
-
-/// The loop of the first pass around an outline, where the kerf of the wire is known: everything
-/// between that and the contour that no kerf covers is left standing.
-fn round_of(frame: &Frame, paths: &[(&WirePath, f64)]) -> Option<String> {
-    let own = |cut_off: bool| {
-        let is_it = |path: &WirePath| path.pass == 1 && path.cut_off == cut_off;
-        let (path, _) = paths.iter().find(|(path, _)| is_it(path))?;
-        let is_lead = |source: &Source| matches!(source, Source::LeadIn | Source::LeadOut);
-        let pieces = path.segments.iter();
-        let pieces = pieces.filter(|piece| !is_lead(&piece.source));
-        Some(pieces.map(|piece| piece.geometry).collect::<Vec<_>>())
-    };
-    let mut round = own(false)?;
-    let end = round.last()?.end();
-    // The tab closes the loop, whichever way the tab is cut.
-    let tab = own(true).unwrap_or_default();
-    let is_end = |at: Option<Point>| at.is_some_and(|at| (at - end).norm() * frame.scale < 1.0);
-    if is_end(tab.first().map(Segment::start)) {
-        round.extend(tab);
-    } else if is_end(tab.last().map(Segment::end)) {
-        round.extend(tab.iter().rev().map(Segment::reversed));
-    }
-    Some(path_data(frame, round, true))
-}
-
-/// The kerf along an outline in all its passes, leads and tab included, to scale.
-fn kerfs(sheet: &mut Sheet, frame: &Frame, paths: &[(&WirePath, f64)]) {
-    for (path, half) in paths {
-        let pieces = path.segments.iter().map(|piece| piece.geometry);
-        let (data, width) = (path_data(frame, pieces, false), 2.0 * half * frame.scale);
-        if !data.is_empty() {
-            let width = number(width.min(FARTHEST));
-            sheet.path(
-                &format!(r#"class="kerf" stroke-width="{width}""#),
-                &data,
-                "",
-            );
-        }
-    }
 }
 
 /// Entities that are drawn and not cut.
@@ -293,8 +225,35 @@ fn wire(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
     }
 }
 
-/// Errors and warnings without a picture of their own: a dot at a point, else a marked segment.
-fn other_faults(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
+/// A finding without a picture of its own: a dot at a point, else a marked segment.
+struct Other<'a> {
+    finding: &'a Finding,
+    spot: Spot,
+    label: String,
+    /// Path data where a segment is marked.
+    data: Option<String>,
+}
+
+impl Other<'_> {
+    fn draw(&self, sheet: &mut Sheet, frame: &Frame) {
+        let (spot, severity) = (&self.spot, class_of(self.finding.severity));
+        let named = |what: &str| named(&format!("{what} {severity}"), &spot.handle, spot.segment);
+        match &self.data {
+            Some(data) => sheet.path(&named("other"), data, &self.label),
+            None => {
+                let at = (spot.at.0 - frame.left, frame.bottom - spot.at.1);
+                sheet.circle(
+                    &named("dot"),
+                    at,
+                    dot_of(self.finding.severity),
+                    &self.label,
+                );
+            }
+        }
+    }
+}
+
+fn others<'a>(subject: &Subject<'a>, frame: &Frame) -> Vec<Other<'a>> {
     let pieces = subject
         .outlines
         .iter()
@@ -304,27 +263,27 @@ fn other_faults(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
         .filter(|piece| piece.reversed)
         .map(|piece| piece.entity)
         .collect();
-    for finding in subject.findings.iter().filter(|finding| is_other(finding)) {
-        if let Place::Segment { entity, segment } = finding.place
-            && let Some(found) = subject.drawing.get(entity)
-        {
-            let place = (found, segment, reversed.contains(&entity));
-            other_fault(sheet, frame, subject, finding, place);
-        }
-    }
+    let numbered = subject.findings.iter().zip(mark_numbers(subject.findings));
+    let others = numbered.filter_map(|(finding, number)| {
+        let Place::Segment { entity, segment } = finding.place else {
+            return None;
+        };
+        let number = number.filter(|_| is_other(finding))?;
+        let found = subject.drawing.get(entity)?;
+        let place = (found, segment, reversed.contains(&entity));
+        other(subject, frame, (finding, number), place)
+    });
+    others.collect()
 }
 
-fn other_fault(
-    sheet: &mut Sheet,
-    frame: &Frame,
+fn other<'a>(
     subject: &Subject,
-    finding: &Finding,
+    frame: &Frame,
+    (finding, number): (&'a Finding, usize),
     (entity, segment, is_reversed): (&Entity, usize, bool),
-) {
+) -> Option<Other<'a>> {
     let flat = subject.drawing.flat();
-    let Some(geometry) = entity.geometry.segment_of(segment, flat) else {
-        return;
-    };
+    let geometry = entity.geometry.segment_of(segment, flat)?;
     let point = match finding.detail {
         Detail::SelfIntersection { at, .. }
         | Detail::LostPocket { near: at }
@@ -338,17 +297,10 @@ fn other_fault(
             })
         }
         // Too short to be visible.
-        _ if geometry.length() * frame.scale < DOT => Some(geometry.point_at(0.5)),
+        _ if geometry.length() * frame.scale < TOO_SHORT => Some(geometry.point_at(0.5)),
         _ => None,
     };
     let (handle, rule) = (&entity.handle, finding.rule.name());
-    let label = format!("{handle} · {} · {rule}", say!(segment_by_number, segment));
-    let severity = class_of(finding.severity);
-    if let Some(point) = point {
-        let attributes = named(&format!("dot {severity}"), handle, segment);
-        sheet.circle(&attributes, frame.local(point), DOT, &label);
-        return;
-    }
     // Chords are drawn in full where they belong to one entity.
     let count = match finding.detail {
         Detail::ArcAsChords { chords, .. } => chords,
@@ -359,7 +311,23 @@ fn other_fault(
         false => segment,
     };
     let all = entity.geometry.segments_of(flat).skip(from).take(count);
-    let data = path_data(frame, all, false);
-    let class = format!("other {severity}");
-    sheet.path(&named(&class, handle, segment), &data, &label);
+    let data = match point {
+        Some(_) => None,
+        None => Some(path_data(frame, all, false)),
+    };
+    Some(Other {
+        finding,
+        label: format!(
+            "{number} · {handle} · {} · {rule}",
+            say!(segment_by_number, segment)
+        ),
+        spot: Spot {
+            number,
+            at: frame.on_sheet(point.unwrap_or_else(|| geometry.point_at(0.5))),
+            handle: handle.to_string(),
+            segment,
+            severity: finding.severity,
+        },
+        data,
+    })
 }

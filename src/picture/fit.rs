@@ -2,6 +2,7 @@
 
 use super::marks;
 use super::numbers::number;
+use super::room::Room;
 use super::sheet::{Frame, MARGIN, SHEET_WIDTH, Sheet, named, path_data};
 use super::style;
 use super::window::{Window, Windows};
@@ -56,7 +57,7 @@ pub(crate) fn fit_svg(drawing: &Drawing, fit: &Fit, unit_mm: f64) -> String {
     outlines(&mut sheet, fit, &frame);
     sheet.line(format_args!("</g>"));
     let middle = bounds.min + (bounds.max - bounds.min) * 0.5;
-    let mut taken = Vec::new();
+    let mut room = Room::default();
     for (index, spot) in worst.iter().enumerate() {
         let (entity, segment) = spot.segment;
         let handle = drawing
@@ -67,9 +68,15 @@ pub(crate) fn fit_svg(drawing: &Drawing, fit: &Fit, unit_mm: f64) -> String {
         let at = frame.on_sheet(spot.at);
         if index < NUMBERED {
             let outward = spot.at - middle;
-            taken.push(marks::mark(
-                &mut sheet, &named, at, outward, index, None, &taken, 0.0,
-            ));
+            marks::mark(
+                &mut sheet,
+                &named,
+                (at, outward),
+                index,
+                None,
+                &mut room,
+                0.0,
+            );
         } else {
             let [x, y] = [at.0, at.1].map(number);
             sheet.line(format_args!(r#"<g {named} data-at="{x} {y}">"#));

@@ -1,12 +1,14 @@
 //! The first faults enlarged, each with the circle of the correction beside the arc that is too tight for it.
 
+use super::areas;
 use super::numbers::number;
 use super::sheet::{Frame, MARGIN, Sheet, named, path_data};
 use super::style::class_of;
 use super::subject::{Fault, Subject};
 use super::window::{Window, Windows};
-use crate::drawing::{Outline, Role};
+use crate::drawing::Outline;
 use crate::geometry::{Bounds, Point, Segment};
+use rustc_hash::FxHashSet;
 
 const WINDOWS: Windows = Windows {
     columns: 4,
@@ -25,8 +27,12 @@ pub(super) fn height_of(faults: usize) -> f64 {
 }
 
 pub(super) fn row(sheet: &mut Sheet, subject: &Subject, top: f64) {
+    let voids = match subject.faults.is_empty() {
+        true => FxHashSet::default(),
+        false => areas::voids(subject.drawing, subject.outlines),
+    };
     for (index, fault) in subject.faults.iter().take(MOST).enumerate() {
-        lens(sheet, subject, fault, &WINDOWS.at(index, top));
+        lens(sheet, subject, fault, &voids, &WINDOWS.at(index, top));
     }
     let left_out = subject.faults.len().saturating_sub(MOST);
     if left_out > 0 {
@@ -38,7 +44,13 @@ pub(super) fn row(sheet: &mut Sheet, subject: &Subject, top: f64) {
     }
 }
 
-fn lens(sheet: &mut Sheet, subject: &Subject, fault: &Fault, lens: &Window) {
+fn lens(
+    sheet: &mut Sheet,
+    subject: &Subject,
+    fault: &Fault,
+    voids: &FxHashSet<usize>,
+    lens: &Window,
+) {
     let disc = fault.correction_disc();
     let mut seen = Bounds::of_disc(disc, fault.detail.required);
     seen.merge(&fault.arc().bounds());
@@ -53,22 +65,20 @@ fn lens(sheet: &mut Sheet, subject: &Subject, fault: &Fault, lens: &Window) {
         max: middle,
     }
     .grown(WINDOWS.width() / scale);
-    let holds = |outline: &&Outline| {
+    let holds = |(_, outline): &(usize, &Outline)| {
         let mut pieces = outline.contour.pieces.iter();
         fault
             .entity
             .is_some_and(|entity| pieces.any(|piece| piece.entity == entity))
     };
-    let outline = subject.outlines.iter().find(holds);
-    let ground = match outline {
-        Some(outline) if outline.role == Role::Opening => "ground",
-        _ => "sheet",
-    };
+    let outline = subject.outlines.iter().enumerate().find(holds);
+    let is_void = outline.is_some_and(|(index, _)| voids.contains(&index));
+    let ground = if is_void { "ground" } else { "sheet" };
     let severity = class_of(fault.severity);
     let named = named(&format!("lens {severity}"), &fault.handle, fault.segment);
     lens.open(sheet, &named, "lens", ground, &frame);
-    if let Some(outline) = outline {
-        shade(sheet, subject, outline, &frame);
+    if let Some((_, outline)) = outline {
+        shade(sheet, subject, outline, is_void, &frame);
     }
     contents(sheet, subject, &frame, &window);
     marks(sheet, fault, disc, &frame);
@@ -89,13 +99,13 @@ fn lens(sheet: &mut Sheet, subject: &Subject, fault: &Fault, lens: &Window) {
     lens.close(sheet, &figures, &place);
 }
 
-fn shade(sheet: &mut Sheet, subject: &Subject, outline: &Outline, frame: &Frame) {
+fn shade(sheet: &mut Sheet, subject: &Subject, outline: &Outline, is_void: bool, frame: &Frame) {
     if !outline.contour.closed || outline.contour.len() > SHADED_SEGMENTS {
         return;
     }
-    let attributes = match outline.role {
-        Role::Opening => r#"class="void""#,
-        _ => r#"class="ground""#,
+    let attributes = match is_void {
+        true => r#"class="void""#,
+        false => r#"class="ground""#,
     };
     let segments = outline.contour.segments(subject.drawing);
     let data = path_data(frame, segments.map(|segment| segment.geometry), true);

@@ -7,6 +7,7 @@
 //! number beside one (with `data-at`, the point on the sheet that it belongs to), `chrome` the text around it, `fine`
 //! details that are too small to see at this size. An element for a segment has `data-handle` and `data-segment`.
 
+mod areas;
 mod export;
 mod figure;
 mod fit;
@@ -15,6 +16,7 @@ mod marks;
 mod numbers;
 mod program;
 mod reach;
+mod room;
 mod sheet;
 mod style;
 mod subject;
@@ -24,11 +26,13 @@ pub(crate) use export::Image;
 pub(crate) use fit::fit_svg;
 pub(crate) use program::program_svg;
 pub(crate) use sheet::escaped;
+pub(crate) use subject::mark_numbers;
 
 use crate::drawing::{Drawing, Outline};
 use crate::finding::{Detail, Finding, Severity};
 use crate::settings::Effective;
 use crate::toolpath::{StartHole, WirePath, lengths};
+use room::Room;
 use sheet::{FIGURE_TOP, Frame, MARGIN, SHEET_WIDTH};
 use subject::{PartPaths, Subject, is_other};
 
@@ -115,8 +119,17 @@ pub fn svg(view: &View) -> String {
     let alert = (!alert.is_empty()).then_some((style::class_of(severity), alert.as_str()));
     sheet.heading(&title, &facts(&subject), alert);
     sheet.line(format_args!("<g class=\"figure\">"));
-    figure::figure(&mut sheet, &frame, &subject);
-    marks::faults(&mut sheet, &frame, faults, unit_mm, FIGURE_TOP - 26.0);
+    let mut room = Room::default();
+    let spots = figure::figure(&mut sheet, &frame, &subject, &mut room);
+    marks::faults(
+        &mut sheet,
+        &frame,
+        faults,
+        unit_mm,
+        FIGURE_TOP - 26.0,
+        &mut room,
+    );
+    marks::numbers(&mut sheet, &spots, &mut room);
     sheet.line(format_args!("</g>"));
     lens::row(&mut sheet, &subject, details_top);
     sheet.line(format_args!("<g class=\"chrome\">"));

@@ -212,7 +212,7 @@ fn thread_holes(sheet: &mut Sheet, frame: &Frame, moving: &[&Step]) {
         .collect();
     for (index, &place) in begins.iter().enumerate() {
         if begins.len() > 1 {
-            marks::order(sheet, place, index + 1);
+            marks::order(sheet, place, (13.0, -9.0), index + 1);
         }
         let (x, y) = (number(place.0), number(place.1));
         sheet.line(format_args!(

@@ -30,7 +30,7 @@ text{font-family:system-ui,'Segoe UI',Helvetica,Arial,'DejaVu Sans',sans-serif;f
 .lost{fill:#f2a33a}
 .lead{stroke:#0969da;stroke-width:1.2;stroke-dasharray:5 4}
 .lead.back{stroke:none}
-.jump{stroke:#57606a;stroke-width:1;stroke-dasharray:1 4}
+.jump{stroke:#57606a;stroke-width:.7;stroke-dasharray:8 4}
 .fault{stroke-width:3.4}
 .other{stroke-width:3}
 .leader,.spoke{stroke-width:.9}
@@ -44,7 +44,10 @@ text{font-family:system-ui,'Segoe UI',Helvetica,Arial,'DejaVu Sans',sans-serif;f
 .arrow{fill:#0969da}
 .bar{fill:none;stroke:#57606a;stroke-width:1.4}
 .badge,.dot{fill:#cf222e}
-.fault.hint,.other.hint{stroke-width:1.6}
+.dot.warning,.dot.remark,.dot.hint{fill:none;stroke-width:1.3}
+.other.remark,.other.hint{stroke-width:4;stroke-opacity:.45}
+.small{font-size:10px;text-anchor:middle}
+.electrode{fill:#8250df;fill-opacity:.18;stroke:#8250df;stroke-width:1}
 ";
 
 const DARK: &str = "\
@@ -70,6 +73,7 @@ text{fill:#e6edf3}
 .arrow{fill:#58a6ff}
 .bar{stroke:#9da7b3}
 .badge,.dot{fill:#ff6b61}
+.electrode{fill:#bc8cff;stroke:#bc8cff}
 ";
 
 /// The start and end of the dark colours in the style.
@@ -92,8 +96,8 @@ pub(super) fn class_of(severity: Severity) -> &'static str {
 
 fn in_colour(class: &str, colour: &str) -> String {
     format!(
-        ".{class} .leader,.{class} .spoke,.fault.{class},.other.{class}{{stroke:{colour}}}\n\
-         .dot.{class},.{class} .badge,.{class} .radius,.alert.{class}{{fill:{colour}}}\n"
+        ".{class} .leader,.{class} .spoke,.fault.{class},.other.{class},.dot.{class}{{stroke:{colour}}}\n\
+         .{class} .badge,.{class} .radius,.alert.{class}{{fill:{colour}}}\n"
     )
 }
 
@@ -158,6 +162,8 @@ pub(super) const LEAD: &str = r#"<path class="lead" d="M0 0h24"/>"#;
 pub(super) const THREAD: &str =
     r#"<g class="thread"><circle cx="12" cy="0" r="5"/><path d="M4 0h16M12 -8v16"/></g>"#;
 
+const ELECTRODE: &str = r#"<circle class="electrode" cx="12" cy="0" r="7"/>"#;
+
 pub(super) const JUMP: &str = r#"<path class="jump" d="M0 0h24"/>"#;
 
 /// The legend for the kinds of lines that occur in the drawing.
@@ -170,7 +176,7 @@ pub(super) fn entries(shown: &Shown) -> Vec<Entry> {
     if shown.paths && shown.mills {
         entries.extend([
             (WIRE, say!(the_electrode)),
-            (THREAD, say!(start_of_a_contour)),
+            (ELECTRODE, say!(start_of_a_contour)),
         ]);
     } else if shown.paths {
         entries.extend([
@@ -212,14 +218,14 @@ pub(super) fn of_severity(severity: Severity) -> Entry {
     match severity {
         Severity::Error => (r#"<path class="fault error" d="M0 0h24"/>"#, say!(error)),
         Severity::Warning => (
-            r#"<path class="fault warning" d="M0 0h24"/>"#,
+            r#"<path class="other warning" d="M0 0h24"/>"#,
             say!(warning),
         ),
         Severity::Information => (
-            r#"<path class="fault remark" d="M0 0h24"/>"#,
+            r#"<path class="other remark" d="M0 0h24"/>"#,
             say!(information),
         ),
-        Severity::Hint => (r#"<path class="fault hint" d="M0 0h24"/>"#, say!(hint)),
+        Severity::Hint => (r#"<path class="other hint" d="M0 0h24"/>"#, say!(hint)),
     }
 }
 

@@ -29,6 +29,8 @@ pub(super) struct Subject<'a> {
     pub(crate) drill: Drill,
     /// The paths are those of an electrode.
     pub(crate) mills: bool,
+    /// Its radius, drawing units.
+    pub(crate) electrode: Option<f64>,
     pub(crate) unit_mm: f64,
 }
 
@@ -126,6 +128,9 @@ impl<'a> Subject<'a> {
             bounds: extents(drawing, paths, &drill)?,
             outlines,
             mills: settings.mills,
+            electrode: (settings.milling.tool_diameter)
+                .filter(|_| settings.mills)
+                .map(|diameter| diameter / 2.0 / unit_mm),
             cut: pieces.map(|piece| piece.entity).collect(),
             findings,
             faults: tight_arcs(drawing, findings),
@@ -234,6 +239,24 @@ fn extents(drawing: &Drawing, paths: &[WirePath], drill: &Drill) -> Option<Bound
         .iter()
         .all(|length| length.is_finite())
         .then_some(bounds)
+}
+
+/// The number of the mark of each finding, from 1; those of arcs that are too tight come first. The picture, and every list beside it, has
+/// these.
+pub(crate) fn mark_numbers(findings: &[Finding]) -> Vec<Option<usize>> {
+    let is_tight = |finding: &&Finding| matches!(finding.detail, Detail::SmallRadius(_));
+    let mut tight = 0;
+    let mut others = findings.iter().filter(is_tight).count();
+    let number = |finding: &Finding| {
+        let of = match is_tight(&finding) {
+            true => &mut tight,
+            false if is_other(finding) => &mut others,
+            false => return None,
+        };
+        *of += 1;
+        Some(*of)
+    };
+    findings.iter().map(number).collect()
 }
 
 /// An error or a warning on a segment, of any rule but `small-radius`; and the hints about a single place.

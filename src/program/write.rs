@@ -6,7 +6,7 @@
 use super::grid::{Node, point_of, snap};
 use crate::finding::{Finding, sentence};
 use crate::geometry::{Arc, Locus, Point, Segment};
-use crate::settings::{Effective, Jumps};
+use crate::settings::{Effective, Jumps, Lead};
 use crate::toolpath::{Finished, Milled, PathSegment, Source, WirePath};
 use std::fmt;
 
@@ -94,10 +94,14 @@ pub(crate) fn nothing_to_write() -> ProofError {
     ProofError::Refused(say!(the_path_is_shorter_than_the_smallest_step).into())
 }
 
-/// The word of the settings does not stop the machine in this language.
-pub(super) fn does_not_stop(word: &str) -> ProofError {
-    ProofError::Refused(say!(the_word_before_the_tab_does_not_stop, word))
+/// The word that is set under `key` does not stop the machine in this language.
+pub(super) fn does_not_stop(key: &str, word: &str) -> ProofError {
+    ProofError::Refused(say!(a_word_does_not_stop, key, word))
 }
+
+/// The keys of the words that stop the machine before a tab is cut off, and between passes.
+pub(super) const TAB_STOP: &str = "program.tab-stop";
+pub(super) const BETWEEN_PASSES: &str = "program.pause-between-passes";
 
 /// No number of a program reaches `point`, which is in steps of its grid.
 pub(crate) fn too_far_out(point: Point) -> ProofError {
@@ -164,6 +168,9 @@ pub(crate) trait Writer {
 
     /// The machine stops, or an automatic one takes the wire out and threads it.
     fn stop(&mut self, at: Node) -> Proved;
+    /// The next pass of the same contour begins: the machine stops by a `word` of the settings, an empty one for no stop, else as it does
+    /// in this language.
+    fn between_passes(&mut self, at: Node, word: Option<&str>) -> Proved;
     /// The machine stops for certain, by a `word` of the settings if one is set: a tab is cut off next.
     fn stop_before_tab(&mut self, at: Node, word: Option<&str>) -> Proved;
     /// The table moves without the wire.
@@ -171,13 +178,21 @@ pub(crate) trait Writer {
     /// The table has been moved by hand.
     fn moved_by_hand(&mut self, to: Node) -> Proved;
 
-    /// From one path to the next: the wire is taken out, the table moves, the wire is threaded; from pass to pass there is a pause.
+    /// From one path to the next: the wire is taken out, the table moves, the wire is threaded; from pass to pass it stays where it is.
     fn go_over(&mut self, from: Node, to: Node, path: &WirePath, settings: &Effective) -> Proved {
         if path.goes_back_along_tab() && from == to {
             return Ok(());
         }
+        let is_skim = path.pass > 1 && !path.is_way_back && from == to;
+        // Where a tab stands, a pass runs on past its start, or arcs lead to it, only stops show where it ends.
+        let is_simple = settings.closing_overlap == 0.0 && settings.lead != Lead::Arc;
+        let shows = path.returns() && is_simple;
+        let word = settings.pause_between_passes.as_deref();
         match path.cut_off && path.pass == 1 {
             true => self.stop_before_tab(from, settings.tab_stop.as_deref())?,
+            false if is_skim && (shows || word.is_some_and(|word| !word.is_empty())) => {
+                self.between_passes(from, word)?;
+            }
             false => self.stop(from)?,
         }
         match settings.jumps {

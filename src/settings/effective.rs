@@ -29,6 +29,8 @@ pub struct Effective {
     pub unit: Unit,
     /// Set by the user.
     pub states_unit: bool,
+    /// The order of the contours is set.
+    pub states_order: bool,
     pub margin: f64,
     pub layers: ByName<Role>,
     /// Roles by linetype, in upper case.
@@ -105,6 +107,8 @@ pub struct Effective {
     pub profile_name: String,
     pub end: String,
     pub pause: String,
+    /// The word between the passes of a contour, empty for none, where set.
+    pub pause_between_passes: Option<String>,
     pub tolerances: Tolerances,
     pub budget: Budget,
 }
@@ -184,6 +188,7 @@ impl Effective {
             },
             side: settings.side(),
             states_unit: settings.units.is_some(),
+            states_order: program.order.is_some(),
             unit: match settings.units() {
                 UnitSetting::Mm => Unit::MILLIMETRE,
                 UnitSetting::Inch => Unit::INCH,
@@ -256,6 +261,7 @@ impl Effective {
             profile_name: program.profile(),
             end: program.end(),
             pause: program.pause(),
+            pause_between_passes: program.pause_between_passes.clone(),
             tolerances: Tolerances {
                 arc_fit: settings.arc_fit(),
                 resolution: settings.resolution(),

@@ -32,6 +32,18 @@ pub(super) fn faults(settings: &Settings) -> Vec<PassFault> {
             Does::Nothing => complain(key, say!(a_stop_that_does_not_stop, key, stop, pause)),
         }
     }
+    if let Some(stop) = program
+        .pause_between_passes
+        .as_deref()
+        .filter(|stop| !stop.is_empty())
+    {
+        let key = "program.pause-between-passes";
+        match what_does(stop, &end, &pause) {
+            Does::Stop => {}
+            Does::End => complain(key, say!(a_pause_that_ends, key, stop)),
+            Does::Nothing => complain(key, say!(a_stop_that_does_not_stop, key, stop, pause)),
+        }
+    }
     if let Some((hole, wire)) = program.start_hole.zip(settings.wire_diameter)
         && hole <= wire
     {
@@ -106,6 +118,10 @@ pub(super) fn idle(settings: &Settings) -> Vec<PassFault> {
     if passes.skim_corner() == SkimCorner::ConstantStock && count == 1 {
         let key = "passes.skim-corner";
         complain(key, say!(a_stock_needs_skims, key, "passes.corrections"));
+    }
+    if program.pause_between_passes.is_some() && count == 1 {
+        let key = "program.pause-between-passes";
+        complain(key, say!(a_pause_needs_passes, key, "passes.corrections"));
     }
     if program.tab_stop.is_some() && !keeps_a_tab(settings) {
         let key = "program.tab-stop";

@@ -189,7 +189,7 @@ tables! {
         #[serde(alias = "closing-overlap")]
         closing_overlap: f64 = 0.0 => number in Range::FROM_ZERO;
         /// Order of the contours; what lies within one always comes before it.
-        order: Order = Order::InsideFirst => name;
+        order: Order = Order::Nearest => name;
         /// What comes between the contours of one program.
         jumps: Jumps = Jumps::Blocks => name;
         /// Where the correction is applied.
@@ -213,6 +213,10 @@ tables! {
         end: String = "DD" => word;
         /// Word of letters and digits that stops the machine so that the wire can be cut or threaded.
         pause: String = "D" => word;
+        /// Word that stops the machine between the passes of a contour; empty: they follow each other without a stop, except in 4B, whose
+        /// correction is set at the machine. Not set: the profile's `pause-between-passes` in ISO, `pause` in 3B and 4B.
+        #[serde(alias = "pause-between-passes")]
+        pause_between_passes: String => word_or_nothing;
     }
 
     /// The workpiece.
@@ -226,6 +230,18 @@ tables! {
         /// What an hour of the machine costs, in whatever money: the time of `passes.rates` has its price then.
         #[serde(alias = "machine-rate")]
         machine_rate: f64 => number in Range::FROM_ZERO;
+        /// Heading of the page of `wedm report`. Not set: the part, else the name of the drawing.
+        title: String => label;
+        /// Name or number of the part, for the head of that page.
+        part: String => label;
+        /// Material of the workpiece, for the same.
+        material: String => label;
+        /// The machine that cuts it, for the same.
+        machine: String => label;
+        /// Revision of the drawing, for the same.
+        revision: String => label;
+        /// Who has made the program, for the same.
+        programmer: String => label;
     }
 
     /// A punch and its plate: corrections that follow from their clearance, and the fit.
@@ -305,6 +321,9 @@ tables! {
         contour_end: Vec<String> = [] => lines;
         /// Lines at which the wire is taken out or threaded, between contours.
         pause: Vec<String> = ["M00".to_owned()] => lines;
+        /// Lines between the passes of a contour, where the wire stays threaded.
+        #[serde(alias = "pause-between-passes")]
+        pause_between_passes: Vec<String> = [] => lines;
         /// Lines at the end.
         end: Vec<String> = ["M02".to_owned()] => lines;
     }

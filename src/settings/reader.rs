@@ -347,6 +347,27 @@ impl Reader {
         }
     }
 
+    /// A text for people on one line.
+    pub(crate) fn label(&mut self, key: &str, node: &Node) -> Option<String> {
+        match &node.value {
+            Value::Null => None,
+            Value::Text(text)
+                if text.chars().count() <= LONGEST_LABEL && !text.chars().any(char::is_control) =>
+            {
+                Some(text.trim().to_owned())
+            }
+            _ => self.misfit(key, node, &say!(a_text_on_one_line, LONGEST_LABEL)),
+        }
+    }
+
+    /// A word, or an empty one for none.
+    pub(crate) fn word_or_nothing(&mut self, key: &str, node: &Node) -> Option<String> {
+        match &node.value {
+            Value::Text(text) if text.is_empty() => Some(String::new()),
+            _ => self.word(key, node),
+        }
+    }
+
     pub(crate) fn point_setting(&mut self, key: &str, node: &Node) -> Option<PointSetting> {
         match &node.value {
             Value::Table(_) => {
@@ -441,6 +462,9 @@ impl Reader {
             .push(SettingsError::new(key, message, entry.key_range.clone()));
     }
 }
+
+/// The most characters of a text for people.
+const LONGEST_LABEL: usize = 200;
 
 /// True of what a block of 3B consists of: a program could not be told from its end.
 fn is_of_a_block(word: &str) -> bool {

@@ -131,7 +131,7 @@ pub(crate) struct ContourToCut {
 }
 
 /// All contours in the order in which they are cut. `None` for a drawing of so many contours or marks that finding out takes longer than
-/// a question may, and where the order is that of the nearest thread holes and there is no path.
+/// a question may. Where there is no path, the nearest is not known: the order is as drawn then.
 pub(crate) fn cuts(
     drawing: &Drawing,
     outlines: &[Outline],
@@ -146,18 +146,21 @@ pub(crate) fn cuts(
     }
     let job = Job::of(drawing, outlines, settings);
     let segments: usize = outlines.iter().map(|outline| outline.contour.len()).sum();
-    let chosen = match settings.order {
+    let chosen: Vec<usize> = match settings.order {
         Order::Nearest if segments > MOST_LAID => return None,
-        Order::Nearest => plan(drawing, outlines, settings, None)
-            .ok()?
-            .into_iter()
-            .filter(WirePath::is_first)
-            .map(|path| path.outline)
-            .collect(),
-        order => {
-            let chosen = job.chosen(None, order, &job.places());
+        Order::Nearest => {
+            let paths = plan(drawing, outlines, settings, None).unwrap_or_default();
+            let first = paths.iter().filter(|path| path.is_first());
+            first.map(|path| path.outline).collect()
+        }
+        _ => Vec::new(),
+    };
+    let chosen = match chosen.is_empty() {
+        true => {
+            let chosen = job.chosen(None, settings.order, &job.places());
             chosen.unwrap_or_default().outlines
         }
+        false => chosen,
     };
     let marks = job.marks(MOST_COMPARED / segments.max(1))?;
     Some(
@@ -182,10 +185,15 @@ pub(crate) fn plan_while(
 ) -> Result<Planned, Refusal> {
     let job = Job::of(drawing, outlines, settings);
     let places = job.places();
+    // Contours that are asked for come in the order in which they are asked for, unless another one is set.
+    let order = match handles.is_some() && !settings.states_order {
+        true => Order::InsideFirst,
+        false => settings.order,
+    };
     let Chosen {
         outlines: chosen,
         picks,
-    } = job.chosen(handles, settings.order, &places)?;
+    } = job.chosen(handles, order, &places)?;
     if settings.compensation == Compensation::None
         && let Some(path) = drawn_path::one_path(&job, &chosen)
     {
@@ -218,7 +226,7 @@ pub(crate) fn plan_while(
         if settings.job.slug_limit.is_some() {
             job.cut_out = Nesting::new(drawing, outlines, &chosen).cut_out(outlines, &chosen);
         }
-        match of_workpiece(&job, (&chosen, &wanted), &places) {
+        match of_workpiece(&job, order, (&chosen, &wanted), &places) {
             Ok(planned) => all.add(planned),
             Err(Refusal::Findings(findings)) => faults.extend(findings),
             Err(refusal) => return Err(refusal),
@@ -233,6 +241,7 @@ pub(crate) fn plan_while(
 /// The paths of contours that lie in one workpiece.
 fn of_workpiece(
     job: &Job,
+    order: Order,
     (chosen, wanted): (&[usize], &[Requested]),
     places: &Places,
 ) -> Result<Planned, Refusal> {
@@ -250,7 +259,7 @@ fn of_workpiece(
             job.offset_all(chosen, wanted, &contours)?
         }
     };
-    let paths = if settings.order == Order::Nearest {
+    let paths = if order == Order::Nearest {
         job.by_nearest(paths, places)
     } else {
         paths

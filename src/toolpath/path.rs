@@ -108,6 +108,11 @@ impl WirePath {
         self.pass == 1 && !self.cut_off && !self.is_way_back
     }
 
+    /// It begins and ends in the thread hole.
+    pub(crate) fn returns(&self) -> bool {
+        [self.begin(), self.end()] == [self.thread_hole; 2]
+    }
+
     /// It cuts a tab that another pass has cut before, from that pass's end: the machine does not stop in between.
     pub(crate) fn goes_back_along_tab(&self) -> bool {
         self.cut_off && self.pass > 1 && self.begin() != self.thread_hole

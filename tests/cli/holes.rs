@@ -48,10 +48,10 @@ fn write(desk: &Desk, entities: &str) {
 }
 
 const LIST: &str = "\
-drawing,x_mm,y_mm,diameter_mm,contour,hole
-plate.dxf,6.5080,6.5080,2,A1,found
-plate.dxf,50.0000,10.0000,2,A2,found
-plate.dxf,40.0000,-13.0000,2,A0,found
+drawing,x_mm,y_mm,diameter_mm,contour,hole,number
+plate.dxf,6.5080,6.5080,2,A1,found,1
+plate.dxf,50.0000,10.0000,2,A2,found,2
+plate.dxf,40.0000,-13.0000,2,A0,found,3
 ";
 
 #[test]
@@ -90,14 +90,14 @@ fn the_drill_list_is_a_table_and_a_layer_that_is_not_cut() {
         rows.map(row).collect()
     };
     assert_eq!(places(&again.stdout), places(LIST), "{again:?}");
-    assert_eq!(again.stdout.matches(",given").count(), 3, "{again:?}");
+    assert_eq!(again.stdout.matches(",given,").count(), 3, "{again:?}");
     check(&desk, "check drilled.dxf --side auto", 0, &["START-HOLES"]);
     // Without a diameter the places alone.
     check(
         &desk,
         "holes plate.dxf --side auto",
         0,
-        &["plate.dxf,50.0000,10.0000,,A2,found"],
+        &["plate.dxf,50.0000,10.0000,,A2,found,2"],
     );
     check(
         &desk,
@@ -201,7 +201,7 @@ fn a_hole_without_room_is_not_listed_and_one_too_near_is() {
         let options = "--side opening --start-hole 2";
         let ended = desk.run(&format!("holes plate.dxf {options}"));
         assert_eq!(ended.code, Some(code), "{width}: {ended:?}");
-        assert_eq!(ended.stdout.contains(",A0,found"), listed, "{ended:?}");
+        assert_eq!(ended.stdout.contains(",A0,found,"), listed, "{ended:?}");
         assert!(ended.stderr.contains(said), "{ended:?}");
         // There is nothing to repair in the drawing; the program says what the list says.
         let ended = desk.run(&format!("generate plate.dxf {options}"));

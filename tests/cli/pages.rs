@@ -112,7 +112,7 @@ fn a_page_tells_times_holes_and_whether_the_parts_fit() {
         assert!(clean.contains(part), "{part} in {clean}");
     }
     assert!(!clean.contains("<h2>Fit"), "{clean}");
-    assert!(page("index.html").contains(">min</th>"));
+    assert!(page("index.html").contains(">time</th>"));
     // The holes of the page are those of the drill list.
     let list = desk.run("holes clean.dxf").stdout;
     let row = list.lines().nth(1).unwrap();

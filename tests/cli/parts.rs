@@ -113,7 +113,7 @@ fn the_drill_list_names_the_part_of_each_hole() {
         "holes twice/a.dxf drawn/a.dxf",
         0,
         &[
-            "contour,hole,part\n",
+            "contour,hole,part,number\n",
             "twice/a.dxf,10.0000,-3.0000,,2A,found,punch\n",
             "twice/a.dxf,10.0000,3.0000,,2A,found,plate\n",
             ",2B,found,DIE\n",
@@ -165,6 +165,6 @@ fn leads_meet_no_contour_of_another_workpiece() {
         &desk,
         "holes drawn/a.dxf --start-hole 2",
         0,
-        &[",2A,found\n", ",2B,found\n"],
+        &[",2A,found,1\n", ",2B,found,2\n"],
     );
 }

@@ -86,6 +86,7 @@ fn the_settings_shown_are_the_defaults() {
     let shown = Effective {
         passes: default,
         states_unit: false,
+        states_order: false,
         stated_layout: None,
         stated_direction: None,
         stated_lead_in: None,

@@ -180,7 +180,7 @@ fn passes_beyond_the_contour_follow_each_other() {
                 let (program, passes) = keys.split_once("[passes]").unwrap_or((keys, ""));
                 let own = settings(&format!(
                     "wire-diameter = 0.18\ngap = 0.01\n[pair]\ndrawn-as = \"{drawn_as}\"\nclearance = {clearance:?}\n\
-                     [passes]\ncorrections = {corrections:?}{passes}\n[program]\n{program}\n"
+                     [passes]\ncorrections = {corrections:?}{passes}\n[program]\npause-between-passes = \"M00\"\n{program}\n"
                 ));
                 let snapshot = snapshot(drawing, &own);
                 let wanted = Wanted {

@@ -17,14 +17,26 @@ fn one_pass_is_what_it_was() {
 }
 
 #[test]
-fn passes_are_written_with_a_pause_between_them_and_read_back_without_a_fault() {
+fn passes_are_parted_by_the_pause_that_is_set_and_read_back_without_a_fault() {
     let drawing = drawing(Role::Punch, &SQUARE);
+    const NONE: &str = "pause-between-passes = \"\"";
     for corner in ["arc", "intersection"] {
-        for (format, language) in [
-            (Format::ThreeB, Language::ThreeB),
-            (Format::Iso, Language::Iso),
+        for (format, language, keys, expected) in [
+            (Format::ThreeB, Language::ThreeB, "", 2),
+            (Format::ThreeB, Language::ThreeB, NONE, 0),
+            (Format::Iso, Language::Iso, "", 0),
+            (Format::Iso, Language::Iso, "profile = \"robofil\"", 0),
+            (Format::Iso, Language::Iso, "profile = \"fast-wire\"", 2),
+            (
+                Format::Iso,
+                Language::Iso,
+                "pause-between-passes = \"M00\"",
+                2,
+            ),
         ] {
-            let settings = settings(&format!("{THREE}[program]\ncorner = \"{corner}\"\n"));
+            let settings = settings(&format!(
+                "{THREE}[program]\ncorner = \"{corner}\"\n{keys}\n"
+            ));
             let made = generated(&drawing, &settings, format);
             let text = made.program.text;
             assert_eq!(made.contours, 1);
@@ -33,7 +45,7 @@ fn passes_are_written_with_a_pause_between_them_and_read_back_without_a_fault() 
             assert_eq!(made.warnings.iter().filter(is_of_drawing).count(), 0);
             let pause = if format == Format::Iso { "M00" } else { "D" };
             let pauses = text.lines().filter(|line| line.trim() == pause).count();
-            assert_eq!(pauses, 2, "{text}");
+            assert_eq!(pauses, expected, "{text}");
             let document = Document::read(language, text.clone().into(), &settings);
             let (findings, _) = document.findings(&settings, usize::MAX);
             assert_eq!(findings, [], "{text}");

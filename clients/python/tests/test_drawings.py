@@ -275,8 +275,8 @@ def test_formats_are_those_of_the_server(server: Server) -> None:
 def test_start_holes_for_the_drill(server: Server) -> None:
     drawing = server.open([Polyline(ROUND, handle="2A", role="opening")], uri="cad:plate")
     rows = server.holes(drawing, options={"program": {"start_hole": 2.0}}).decode().splitlines()
-    assert rows[0] == "drawing,x_mm,y_mm,diameter_mm,contour,hole"
-    assert rows[1].startswith("cad:plate,") and rows[1].endswith(",2,2A,found") and len(rows) == 2
+    assert rows[0] == "drawing,x_mm,y_mm,diameter_mm,contour,hole,number"
+    assert rows[1].startswith("cad:plate,") and rows[1].endswith(",2,2A,found,1") and len(rows) == 2
     drawn = server.open_text(server.holes(drawing, "dxf", {"program": {"start_hole": 2.0}}).decode())
     assert "START-HOLES" in drawn.text
     assert len(server.contours(drawn).contours) == 1, "holes are drilled, not cut"

@@ -1,7 +1,7 @@
 //! The index of all pages: a row for each drawing.
 
-use super::html::{self, number, table, text};
-use crate::message::spoken;
+use super::html::{self, cell, number, table, text};
+use crate::message::{duration, spoken};
 
 /// The row of a drawing in the index.
 pub(super) struct Line {
@@ -13,6 +13,10 @@ pub(super) struct Line {
     pub(super) notes: usize,
     pub(super) blocks: Option<usize>,
     pub(super) minutes: Option<f64>,
+    /// Why there is no program.
+    pub(super) refusal: Option<String>,
+    /// The keys that times need and that are not set.
+    pub(super) missing: Vec<String>,
 }
 
 /// The index of all pages.
@@ -23,37 +27,35 @@ pub(super) fn index(lines: &[(String, Line)]) -> String {
         say!(column_smallest_radius),
         say!(column_findings),
         say!(column_blocks),
-        say!(column_minutes),
+        say!(column_time),
     ];
-    // No times are set.
-    let columns = heads.len() - usize::from(lines.iter().all(|(_, line)| line.minutes.is_none()));
     let row = |(page, line): &(String, Line)| {
         let link = format!("<a href=\"{}\">{}</a>", text(page), text(&line.name));
         let smallest = line.smallest_mm.map(|radius| format!("{radius:.4}"));
-        let mut cells = vec![
+        let blocks = match (line.blocks, &line.refusal) {
+            (Some(blocks), _) => number(blocks),
+            (None, Some(why)) => cell(say!(none_because, why)),
+            (None, None) => cell(say!(no_program)),
+        };
+        let time = match line.minutes {
+            Some(minutes) => number(duration(minutes)),
+            None if line.missing.is_empty() => cell(say!(no_program)),
+            None => cell(say!(not_set_are, line.missing.join(", "))),
+        };
+        vec![
             ("", link),
             number(line.contours),
-            number(smallest.unwrap_or_default()),
+            smallest.map_or_else(|| cell(say!(no_arcs)), number),
             ("", counts(line)),
-            number(
-                line.blocks
-                    .map(|blocks| blocks.to_string())
-                    .unwrap_or_default(),
-            ),
-            number(
-                line.minutes
-                    .map(|minutes| format!("{minutes:.2}"))
-                    .unwrap_or_default(),
-            ),
-        ];
-        cells.truncate(columns);
-        cells
+            blocks,
+            time,
+        ]
     };
     let title = say!(report_of_drawings, lines.len());
     let body = format!(
         "<h1>{}</h1>\n{}",
         text(&title),
-        table(&heads[..columns], lines.iter().map(row))
+        table(&heads, lines.iter().map(row))
     );
     html::page(spoken().tag(), &title, &body)
 }

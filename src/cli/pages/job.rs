@@ -4,6 +4,7 @@ use super::super::fit::of_least;
 use super::html::{cell, more, number, table, text};
 use crate::document::{Document, Snapshot};
 use crate::job;
+use crate::message::duration;
 use crate::picture;
 use crate::protocol::{Fit, StartHole, Work};
 use crate::settings::part_title;
@@ -11,8 +12,8 @@ use crate::settings::part_title;
 /// The most start holes and slugs on a page: other commands list them all.
 const MOST: usize = 500;
 
-/// The thread holes, in the order of the cuts.
-pub(super) fn drill_list(holes: &[StartHole], unit_mm: f64) -> String {
+/// The thread holes by their numbers, which they have in the picture and in the drill list, too.
+pub(super) fn drill_list(holes: &[(usize, StartHole)], unit_mm: f64) -> String {
     let heads = [
         say!(column_number),
         say!(column_contour),
@@ -21,7 +22,7 @@ pub(super) fn drill_list(holes: &[StartHole], unit_mm: f64) -> String {
         "Ø mm",
         say!(column_hole),
     ];
-    let row = |(index, hole): (usize, &StartHole)| {
+    let row = |(index, hole): &(usize, StartHole)| {
         // A coordinate that rounds to zero has no sign.
         let mm = |along: f64| format!("{:.4}", (along * unit_mm * 1e4).round() / 1e4 + 0.0);
         let hole_is = if hole.given {
@@ -30,7 +31,7 @@ pub(super) fn drill_list(holes: &[StartHole], unit_mm: f64) -> String {
             say!(hole_found)
         };
         vec![
-            number(index + 1),
+            number(index),
             cell(&hole.contour),
             number(mm(hole.at.0)),
             number(mm(hole.at.1)),
@@ -42,23 +43,16 @@ pub(super) fn drill_list(holes: &[StartHole], unit_mm: f64) -> String {
             cell(hole_is),
         ]
     };
-    table(&heads, holes.iter().enumerate().take(MOST).map(row)) + &more(holes.len(), MOST)
+    table(&heads, holes.iter().take(MOST).map(row)) + &more(holes.len(), MOST)
 }
 
 /// Lengths, times, costs, the largest wire and the slugs.
 pub(super) fn time_and_material(work: &Work) -> String {
     let mut facts: Vec<String> = vec![match work.minutes {
-        Some(minutes) => {
-            let cost = work.cost.map(|cost| say!(which_costs, cost));
-            say!(
-                the_cut_takes,
-                work.length,
-                minutes,
-                cost.unwrap_or_default()
-            )
-        }
+        Some(minutes) => say!(the_cut_takes, work.length, duration(minutes), ""),
         None => say!(the_cut_is_long, work.length),
     }];
+    facts.extend(work.cost.map(|cost| say!(the_cut_costs, cost)));
     if work.jumps > 0.0 {
         facts.push(say!(the_jumps_are_long, work.jumps));
     }

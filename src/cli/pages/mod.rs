@@ -1,12 +1,13 @@
 //! `wedm report`: a page for each drawing and an index, for the workshop and for the file.
 
+mod head;
 mod html;
 mod index;
 mod job;
 mod page;
 mod share;
 
-use super::options::{Common, Program};
+use super::options::{Common, Head, Program};
 use super::output::{self, styled};
 use super::{Failure, Verdict, ending, files};
 use crate::disk::ending_of;
@@ -22,6 +23,7 @@ use std::path::{Path, PathBuf};
 Examples:
   wedm report plate.dxf -o report
   wedm report --side opening drawings/ -o report
+  wedm report plate.dxf --side punch --part A-17 --material 1.2379 --thickness 40 -o report
   wedm report plate.dxf --side punch --format iso --profile robofil --compensation controller -o report")]
 pub(crate) struct Arguments {
     #[arg(value_name = "PATH", default_value = ".")]
@@ -34,6 +36,8 @@ pub(crate) struct Arguments {
     format: Format,
     #[command(flatten)]
     program: Program,
+    #[command(flatten)]
+    head: Head,
     #[command(flatten)]
     common: Common,
 }
@@ -66,6 +70,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     std::fs::create_dir_all(folder)
         .map_err(|error| Failure::of(folder, crate::disk::plain(&error)))?;
     let last = arguments.common.settings_with(&arguments.program);
+    let last = last.overlaid(&arguments.head.0);
     let mut lines = Vec::new();
     for (path, name) in drawings {
         let page = files::open_to_use(path, None, &arguments.common, &last)

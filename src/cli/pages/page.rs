@@ -5,14 +5,16 @@ use super::super::files::Opened;
 use super::super::report::{self, Row};
 use super::super::{Failure, output};
 use super::INDEX;
+use super::head::{extents, head, stem_of, titled};
 use super::html::{self, Cell, cell, more, number, section, table, text};
 use super::index::{Line, counts, span};
 use super::job as of_job;
 use super::share::PageShare;
 use crate::document::Snapshot;
-use crate::finding::{Rule, Severity};
+use crate::finding::{Finding, Rule, Severity};
 use crate::job::{self, Wanted};
 use crate::message::spoken;
+use crate::picture::mark_numbers;
 use crate::program::Format;
 use crate::protocol::{Contours, Fit, Inspection, Milling, SegmentKind};
 use crate::settings::Effective;
@@ -34,12 +36,18 @@ pub(super) struct Page {
     /// Its line of the index.
     pub(super) line: Line,
     unit_mm: f64,
+    title: String,
+    /// The fields of the head, by their names.
+    head: Vec<(&'static str, String)>,
     /// The version, and what decides where the wire runs.
     made_with: String,
+    /// Where the contours lie.
+    extents: String,
     picture: String,
     contours: Contours,
     arcs: Vec<ListedArc>,
-    rows: Vec<Row>,
+    /// Findings, each with the number of its mark in the picture.
+    rows: Vec<(Option<usize>, Row)>,
     /// The parts of a pair; else all as one.
     parts: Vec<PageShare>,
     /// The fit, if a clearance is set, or why it is unknown.
@@ -67,10 +75,12 @@ impl Page {
             opened.document.set_settings(Arc::new(milled));
         }
         let snapshot = opened.snapshot()?;
-        let rows = report::rows(&opened.path, &mut opened.document);
+        // The marks of the picture have the numbers of the list.
+        let (listed, _) = job::check(&mut opened.document, report::MOST);
+        let numbers = mark_numbers(&listed);
         let unit_mm = opened.document.unit_mm();
         let findings = opened.document.all_findings();
-        let (cuts, picture) = job::picture(&snapshot, &findings, &());
+        let (cuts, picture) = job::picture(&snapshot, &listed, &());
         let arcs = arcs_of(Inspection::of(&opened.document, None), unit_mm);
         let wanted = Wanted {
             format,
@@ -80,7 +90,30 @@ impl Page {
         };
         let telling = opened.document.telling();
         let parts = PageShare::all(&snapshot, cuts, &findings, &wanted, telling);
-        let count = |severity| rows.iter().filter(|row| row.severity == severity).count();
+        let warnings = parts.iter().filter_map(|part| part.program.as_ref().ok());
+        let warnings: Vec<Finding> = warnings.flat_map(|made| made.warnings.clone()).collect();
+        let of_findings =
+            |findings: &[Finding]| report::rows_of(&opened.path, &opened.document, findings);
+        let mut rows: Vec<(Option<usize>, Row)> =
+            numbers.into_iter().zip(of_findings(&listed)).collect();
+        for row in opened
+            .settings_rows
+            .iter()
+            .cloned()
+            .chain(of_findings(&warnings))
+        {
+            let is_known =
+                |(_, known): &(_, Row)| (known.rule, &known.message) == (row.rule, &row.message);
+            if !rows.iter().any(is_known) {
+                rows.push((None, row));
+            }
+        }
+        let count = |severity| {
+            rows.iter()
+                .map(|(_, row)| row)
+                .filter(|row| row.severity == severity)
+                .count()
+        };
         let (errors, warnings) = (count(Severity::Error), count(Severity::Warning));
         let Snapshot {
             drawing,
@@ -92,6 +125,11 @@ impl Page {
         let mut milled = made().filter_map(|made| made.program.milled.as_ref());
         let milling = milled.next();
         let milling = milling.map(|milled| Milling::new(&snapshot, milled).told(MOST_MILLED));
+        let refusal = parts.iter().find_map(PageShare::refusal).map(str::to_owned);
+        let missing = parts.iter().filter_map(|part| part.work.as_ref());
+        let mut missing: Vec<String> = missing.flat_map(|work| work.missing.clone()).collect();
+        missing.dedup();
+        missing.retain(|key| key != "job.machine-rate");
         let minutes = |part: &PageShare| part.work.as_ref()?.minutes;
         // Of a pair whose parts do not all have a program no sum is told.
         let blocks: Option<usize> = parts.iter().map(|part| part.blocks()).sum();
@@ -105,9 +143,14 @@ impl Page {
                 warnings,
                 notes: rows.len() - errors - warnings,
                 blocks,
+                refusal,
+                missing,
             },
             unit_mm,
+            head: head(settings, format, &opened.path),
+            title: titled(settings, &opened.path),
             made_with: made_with(settings, format),
+            extents: extents(&snapshot),
             picture,
             contours: Contours::new(drawing, outlines, settings),
             arcs,
@@ -124,38 +167,70 @@ impl Page {
     }
 
     pub(super) fn html(&self) -> String {
-        let (name, counts) = (&self.line.name, counts(&self.line));
+        let (name, stem) = (&self.line.name, stem_of(&self.line.name));
         let parts = [
             format!(
-                "<h1>{}</h1>\n<p class=\"under\">{counts}</p>\n<p class=\"faint\">{}<br><a href=\"{INDEX}\">{}</a></p>\n",
-                text(name),
+                "<h1>{}</h1>\n{}{}<p class=\"faint\">{}<span class=\"screen\"> · <a href=\"{INDEX}\">{}</a></span></p>\n",
+                text(&self.title),
+                self.verdict(),
+                html::fields(&self.head),
                 text(&self.made_with),
                 text(say!(all_drawings))
             ),
             self.picture(),
-            section(say!(head_contours), self.contour_table()),
+            of_job::facts(std::slice::from_ref(&self.extents)),
             section(say!(head_findings), self.findings()),
-            section(say!(head_radius_list), self.radius_list()),
-            self.of_all(PageShare::way),
+            self.of_all(|part| part.way(self.format, self.unit_mm)),
             section(
                 say!(head_fit),
                 self.fit.as_ref().map(of_job::fit_part).unwrap_or_default(),
             ),
             section(say!(head_milling), of_job::facts(&self.milling)),
-            self.of_all(PageShare::text),
+            section(say!(head_contours), self.contour_table()),
+            section(say!(head_radius_list), self.radius_list()),
+            self.of_all(|part| part.text(self.format, self.unit_mm, stem)),
             self.parts
                 .iter()
-                .map(|part| part.of_part(self.format, self.unit_mm))
+                .map(|part| part.of_part(self.format, self.unit_mm, stem))
                 .collect(),
         ];
-        html::page(spoken().tag(), name, &parts.concat())
+        let title = match self.title == *name {
+            true => name.clone(),
+            false => format!("{} · {name}", self.title),
+        };
+        html::page(spoken().tag(), &title, &parts.concat())
+    }
+
+    /// What all sections below come to.
+    fn verdict(&self) -> String {
+        let does_not_fit = |fit: &Result<Fit, String>| !fit.as_ref().is_ok_and(|fit| fit.fits);
+        let fails = [
+            self.line.refusal.is_some().then(|| say!(no_program)),
+            self.fit
+                .as_ref()
+                .is_some_and(does_not_fit)
+                .then(|| say!(do_not_fit)),
+        ];
+        let fails: Vec<&str> = fails.into_iter().flatten().collect();
+        let (class, verdict) = if self.line.errors > 0 || !fails.is_empty() {
+            ("error", say!(not_ready_to_be_cut))
+        } else if self.line.warnings > 0 {
+            ("warning", say!(to_be_looked_at_before_the_cut))
+        } else {
+            ("good", say!(ready_to_be_cut))
+        };
+        let all = [verdict].into_iter().chain(fails);
+        let all: Vec<String> = all
+            .map(|one| span(class, one))
+            .chain([counts(&self.line)])
+            .collect();
+        format!("<p class=\"verdict\">{}</p>\n", all.join(" · "))
     }
 
     /// A section of a drawing that is no pair. The parts of a pair have theirs after all other sections.
-    fn of_all(&self, html: fn(&PageShare, Format, f64) -> String) -> String {
+    fn of_all(&self, html: impl Fn(&PageShare) -> String) -> String {
         let all = self.parts.iter().filter(|part| !part.is_part());
-        all.map(|part| html(part, self.format, self.unit_mm))
-            .collect()
+        all.map(html).collect()
     }
 
     /// The picture, unless no page could hold it.
@@ -209,24 +284,29 @@ impl Page {
     }
 
     fn findings(&self) -> String {
-        let mut by_rule: BTreeMap<(Severity, Rule), Vec<&Row>> = BTreeMap::new();
-        for row in &self.rows {
+        let mut by_rule: BTreeMap<(Severity, Rule), Vec<&(Option<usize>, Row)>> = BTreeMap::new();
+        for numbered in &self.rows {
+            let (_, row) = numbered;
             by_rule
                 .entry((row.severity, row.rule))
                 .or_default()
-                .push(row);
+                .push(numbered);
         }
-        let group = |((severity, rule), rows): ((Severity, Rule), Vec<&Row>)| {
-            let shown = rows.iter().take(MOST_OF_A_RULE).map(|row| {
+        let group = |((severity, rule), rows): ((Severity, Rule), Vec<&(Option<usize>, Row)>)| {
+            let shown = rows.iter().take(MOST_OF_A_RULE).map(|(mark, row)| {
                 let place = row.whereabouts().unwrap_or_default();
-                vec![cell(&row.message), cell(place)]
+                let mark = mark.map(|mark| mark.to_string()).unwrap_or_default();
+                vec![number(mark), cell(&row.message), cell(place)]
             });
             let head = span(
                 class_of(severity),
                 format!("{} · {}", rule.name(), rows.len()),
             );
             let more = more(rows.len(), MOST_OF_A_RULE);
-            let table = table(&[say!(column_found), say!(column_place)], shown);
+            let table = table(
+                &[say!(column_number), say!(column_found), say!(column_place)],
+                shown,
+            );
             format!("<h3>{head}</h3>\n{table}{more}")
         };
         by_rule.into_iter().map(group).collect()
@@ -243,7 +323,7 @@ impl Page {
         let severities: HashMap<(&str, usize, &str), Severity> = self
             .rows
             .iter()
-            .filter_map(|row| {
+            .filter_map(|(_, row)| {
                 let data = &row.data;
                 let place = (data.handle.as_deref()?, data.segment?, row.rule.name());
                 Some((place, row.severity))
@@ -265,8 +345,17 @@ impl Page {
                 verdict,
             ]
         };
-        let shown = self.arcs.iter().take(MOST_ARCS).map(row);
-        table(&heads, shown) + &more(self.arcs.len(), MOST_ARCS)
+        let (ok, others): (Vec<&ListedArc>, Vec<&ListedArc>) =
+            self.arcs.iter().partition(|arc| arc.verdict == "ok");
+        let listed = |arcs: &[&ListedArc]| {
+            let shown = arcs.iter().take(MOST_ARCS).map(|arc| row(arc));
+            table(&heads, shown) + &more(arcs.len(), MOST_ARCS)
+        };
+        let summary = match ok.first() {
+            Some(smallest) => say!(arcs_that_are_ok, say!(arcs, ok.len()), smallest.radius_mm),
+            None => String::new(),
+        };
+        listed(&others) + &html::folded(&summary, &listed(&ok))
     }
 }
 

@@ -1,13 +1,14 @@
 //! The section of a page about what is cut together: one part of a pair, or everything in a drawing that is no pair.
 
-use super::super::output;
+use super::super::{contours, output};
 use super::html::{cell, more, number, section, table, text};
 use super::job as of_job;
 use crate::analysis;
 use crate::document::Snapshot;
-use crate::finding::{Finding, Telling};
+use crate::drawing::Role;
+use crate::finding::{Finding, Side, Telling};
 use crate::job::{self, Cut, Generated, Refusal, Wanted, drill};
-use crate::message::lengths;
+use crate::message::{duration, lengths};
 use crate::program::Format;
 use crate::protocol::{StartHole, Work};
 use crate::settings::part_title;
@@ -17,6 +18,31 @@ use std::collections::BTreeMap;
 /// The most lines of a program: no browser shows more at ease.
 const MOST_LINES: usize = 10_000;
 
+/// A program of at most so many lines is printed whole; a longer one is named by its file and its checksum.
+const PRINTED_LINES: usize = 150;
+
+/// One pass of the passes table.
+#[derive(Default)]
+struct Pass {
+    correction: f64,
+    /// Drawing units.
+    length: f64,
+    count: usize,
+    minutes: Option<f64>,
+    /// The words of the control for the side, or what the contours are where the offset is in the coordinates.
+    sides: Vec<&'static str>,
+    is_offset: bool,
+}
+
+/// The checksum of a text as zip, gzip and PNG have it: CRC-32.
+fn crc32(text: &[u8]) -> u32 {
+    let of_bit = |sum: u32| (sum >> 1) ^ (0xEDB8_8320 & (sum & 1).wrapping_neg());
+    let sum = text.iter().fold(u32::MAX, |sum, byte| {
+        (0..8).fold(sum ^ u32::from(*byte), |sum, _| of_bit(sum))
+    });
+    !sum
+}
+
 /// What is cut together.
 pub(super) struct PageShare {
     /// Its name, and whether the wire runs on the other side of the drawn outline; nothing where the drawing is no pair.
@@ -24,7 +50,10 @@ pub(super) struct PageShare {
     paths: Vec<WirePath>,
     /// For each path the distance of the wire's centre from the contour, mm.
     corrections: Vec<f64>,
-    holes: Vec<StartHole>,
+    /// With their numbers.
+    holes: Vec<(usize, StartHole)>,
+    /// For each path the side of the part on which the wire runs.
+    sides: Vec<Role>,
     /// The totals of the paths, if there are any.
     pub(super) work: Option<Work>,
     /// The program, or why there is none.
@@ -41,6 +70,11 @@ impl PageShare {
         telling: Telling,
     ) -> Vec<PageShare> {
         let mut cuts = cuts.unwrap_or_default();
+        // The numbers of the holes go on from part to part, as in the picture.
+        let first = |name: &str| {
+            let before = cuts.iter().take_while(|cut| cut.name() != Some(name));
+            1 + before.map(|cut| cut.planned.holes.len()).sum::<usize>()
+        };
         let told = |refusal: Refusal| refusal.sentence(telling);
         if cuts.iter().any(|cut| cut.part.is_some()) {
             let made = job::programs(snapshot, findings, wanted, &());
@@ -48,27 +82,36 @@ impl PageShare {
                 Ok(made) => {
                     let of = made.into_iter().map(|(part, made)| {
                         let cut = cuts.iter().find(|cut| cut.name() == Some(&*part.name));
-                        PageShare::of(cut, made.map_err(told), wanted.format)
+                        PageShare::of(cut, first(&part.name), made.map_err(told), wanted.format)
                     });
                     of.collect()
                 }
                 Err(reason) => {
                     let cuts = cuts.iter();
-                    cuts.map(|cut| PageShare::of(Some(cut), Err(reason.clone()), wanted.format))
-                        .collect()
+                    cuts.map(|cut| {
+                        let first = cut.name().map_or(1, first);
+                        PageShare::of(Some(cut), first, Err(reason.clone()), wanted.format)
+                    })
+                    .collect()
                 }
             };
         }
         let made = job::generate(snapshot, findings.to_vec(), wanted, &()).map_err(told);
-        vec![PageShare::of(cuts.pop().as_ref(), made, wanted.format)]
+        vec![PageShare::of(cuts.pop().as_ref(), 1, made, wanted.format)]
     }
 
-    fn of(cut: Option<&Cut>, program: Result<Generated, String>, format: Format) -> PageShare {
+    fn of(
+        cut: Option<&Cut>,
+        first: usize,
+        program: Result<Generated, String>,
+        format: Format,
+    ) -> PageShare {
         let mut share = PageShare {
             part: None,
             paths: Vec::new(),
             corrections: Vec::new(),
             holes: Vec::new(),
+            sides: Vec::new(),
             work: None,
             program,
         };
@@ -88,15 +131,25 @@ impl PageShare {
             (Format::Milling, Err(_)) => None,
             _ => (!paths.is_empty()).then(|| analysis::work(drawing, outlines, settings, paths)),
         };
-        let holes = drill::drilled(cut.planned.holes.clone());
-        let hole = |hole| StartHole::new(drawing, outlines, settings, hole);
+        let hole = |(number, hole): (usize, &_)| {
+            let hole: &toolpath::StartHole = hole;
+            let hole = StartHole::new(drawing, outlines, settings, hole);
+            (number, hole)
+        };
+        let side = |path: &WirePath| {
+            let outline = outlines.get(path.outline);
+            outline.map_or(Role::Both, |outline| outline.role)
+        };
         let correction = |path: &WirePath| path.offset(settings, unit_mm);
         share.part = cut
             .part
             .as_ref()
             .map(|part| (part.name.clone(), part.is_other_side));
         share.corrections = paths.iter().map(correction).collect();
-        share.holes = holes.iter().map(hole).collect();
+        share.holes = drill::numbered(&cut.planned.holes, first)
+            .map(hole)
+            .collect();
+        share.sides = paths.iter().map(side).collect();
         share.work = work.map(|work| Work::new(drawing, outlines, &work));
         share.paths.clone_from(paths);
         share
@@ -113,10 +166,11 @@ impl PageShare {
     }
 
     /// Its name and all of it.
-    pub(super) fn of_part(&self, format: Format, unit_mm: f64) -> String {
+    pub(super) fn of_part(&self, format: Format, unit_mm: f64, drawing: &str) -> String {
         let Some((name, is_other_side)) = &self.part else {
             return String::new();
         };
+        let file = format!("{drawing}-{name}");
         let title = part_title(name);
         let other = is_other_side.then(|| say!(the_wire_runs_on_the_other_side, &title));
         format!(
@@ -124,7 +178,7 @@ impl PageShare {
             text(&title),
             of_job::facts(other.as_slice()),
             self.way(format, unit_mm),
-            self.text(format, unit_mm)
+            self.text(format, unit_mm, &file)
         )
     }
 
@@ -143,8 +197,8 @@ impl PageShare {
     }
 
     /// The program under its heading.
-    pub(super) fn text(&self, format: Format, unit_mm: f64) -> String {
-        section(say!(head_program), self.program(format, unit_mm))
+    pub(super) fn text(&self, format: Format, unit_mm: f64, file: &str) -> String {
+        section(say!(head_program), self.program(format, unit_mm, file))
     }
 
     /// The path of the wire, pass by pass.
@@ -153,48 +207,71 @@ impl PageShare {
         if format == Format::Milling {
             return String::new();
         }
-        let mut passes: BTreeMap<(bool, usize), (f64, f64, usize)> = BTreeMap::new();
-        let paths = self.paths.iter().zip(&self.corrections);
+        let mut passes: BTreeMap<(bool, usize), Pass> = BTreeMap::new();
+        let paths = self.paths.iter().zip(&self.corrections).zip(&self.sides);
         // What goes back along what has been cut has no minutes either.
-        for (path, correction) in paths.filter(|(path, _)| !path.is_way_back) {
-            let length: f64 = path
+        for ((path, correction), role) in paths.filter(|((path, _), _)| !path.is_way_back) {
+            let pass = passes.entry((path.cut_off, path.pass)).or_default();
+            pass.correction = *correction;
+            pass.count += 1;
+            pass.length += path
                 .segments
                 .iter()
                 .map(|segment| segment.geometry.length())
-                .sum();
-            let pass = passes.entry((path.cut_off, path.pass)).or_default();
-            *pass = (*correction, pass.1 + length, pass.2 + 1);
+                .sum::<f64>();
+            let side = match path.side {
+                Some(Side::Left) => "G41",
+                Some(Side::Right) => "G42",
+                None => contours::role(*role),
+            };
+            if !pass.sides.contains(&side) {
+                pass.sides.push(side);
+            }
+            pass.is_offset |= path.side.is_some();
         }
-        let mut minutes: BTreeMap<(bool, usize), f64> = BTreeMap::new();
         for cut in self.work.iter().flat_map(|work| &work.cuts) {
-            if let Some(own) = cut.minutes {
-                *minutes.entry((cut.cut_off, cut.pass)).or_default() += own;
+            if let (Some(own), Some(pass)) = (cut.minutes, passes.get_mut(&(cut.cut_off, cut.pass)))
+            {
+                *pass.minutes.get_or_insert(0.0) += own;
             }
         }
+        let program = self.program.as_ref().ok().map(|made| &made.program);
+        let offsets = program.map_or(&[][..], |program| &program.offsets);
         let heads = [
             say!(column_pass),
             say!(column_correction),
+            say!(column_register),
+            say!(column_offset),
+            say!(column_side),
             say!(column_contours),
             say!(column_length_with_leads),
-            say!(column_minutes),
+            say!(column_time),
         ];
-        let columns = heads.len() - usize::from(minutes.is_empty());
-        let row = |((cut_off, pass), (correction, length, count)): (_, (f64, f64, usize))| {
-            let name: String = match (cut_off, pass) {
-                (false, pass) => usize::to_string(&pass),
-                (true, pass) => say!(cut_off_in_pass, pass),
+        let has_times = passes.values().any(|pass| pass.minutes.is_some());
+        let columns = heads.len() - usize::from(!has_times);
+        let row = |((cut_off, number_of), pass): ((bool, usize), Pass)| {
+            let name: String = match (cut_off, number_of) {
+                (false, number) => number.to_string(),
+                (true, number) => say!(cut_off_in_pass, number),
             };
-            let minutes = minutes.get(&(cut_off, pass));
+            let offset = match offsets.len() {
+                1 => offsets.first(),
+                _ => offsets.get(number_of - 1),
+            };
+            let (register, offset) = match (pass.is_offset, offset) {
+                (true, Some((register, mm))) => (register.clone(), format!("{mm:.4}")),
+                (true, None) => (String::new(), format!("{:.4}", pass.correction)),
+                (false, _) => ("–".into(), say!(in_the_coordinates).into()),
+            };
             let mut cells = vec![
                 cell(name),
-                number(format!("{correction:.4}")),
-                number(count),
-                number(format!("{:.3}", length * unit_mm)),
-                number(
-                    minutes
-                        .map(|minutes| format!("{minutes:.2}"))
-                        .unwrap_or_default(),
-                ),
+                number(format!("{:.4}", pass.correction)),
+                cell(register),
+                cell(offset),
+                cell(pass.sides.join(" + ")),
+                number(pass.count),
+                number(format!("{:.3}", pass.length * unit_mm)),
+                number(pass.minutes.map(duration).unwrap_or_default()),
             ];
             cells.truncate(columns);
             cells
@@ -202,7 +279,12 @@ impl PageShare {
         table(&heads[..columns], passes.into_iter().map(row))
     }
 
-    fn program(&self, format: Format, unit_mm: f64) -> String {
+    /// Why it has no program.
+    pub(super) fn refusal(&self) -> Option<&str> {
+        self.program.as_ref().err().map(String::as_str)
+    }
+
+    fn program(&self, format: Format, unit_mm: f64, file: &str) -> String {
         match &self.program {
             Err(reason) => format!("<p class=\"error\">{}</p>\n", text(reason)),
             Ok(made) => {
@@ -236,10 +318,20 @@ impl PageShare {
                 let offsets = output::offsets(program);
                 let offsets = offsets.map(|line| format!("<p>{}</p>\n", text(line)));
                 let lines: Vec<String> = program.text.lines().take(MOST_LINES).map(text).collect();
-                let left_out = more(program.text.lines().count(), MOST_LINES);
+                let count = program.text.lines().count();
+                let left_out = more(count, MOST_LINES);
+                let open = if count <= PRINTED_LINES { " open" } else { "" };
+                let ending = format.endings().first().copied().unwrap_or_default();
+                let named = say!(
+                    a_program_by_its_checksum,
+                    format!("{file}.{ending}"),
+                    say!(lines, count),
+                    format!("{:08X}", crc32(program.text.as_bytes()))
+                );
                 format!(
-                    "<p>{}</p>\n{}<p class=\"faint\">{}</p>\n<details><summary>{}</summary>\n<pre>{}</pre>\n{left_out}</details>\n",
+                    "<p>{}</p>\n<p>{}</p>\n{}<p class=\"faint\">{}</p>\n<details{open}><summary>{}</summary>\n<pre>{}</pre>\n{left_out}</details>\n",
                     text(facts),
+                    text(named),
                     offsets.unwrap_or_default(),
                     text(finished.unwrap_or_default()),
                     text(say!(its_text)),
@@ -247,5 +339,15 @@ impl PageShare {
                 )
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::crc32;
+
+    #[test]
+    fn the_checksum_is_that_of_zip() {
+        assert_eq!(crc32(b"123456789"), 0xCBF4_3926);
     }
 }

@@ -33,6 +33,8 @@ declare! {
     warning => "warning";
     information => "information";
     hint => "hint";
+    minutes(minutes) => "{minutes:.2} min";
+    hours_and_minutes(hours, minutes) => "{hours} h {minutes:02} min";
     line_number(line) => "line {line}";
     segment_by_number(index) => "segment {index}";
     segments_from_to(first, last) => "segments {first} to {last}";

@@ -186,7 +186,7 @@ declare! {
     the_holes_are_in_a_new_drawing => "the input is no DXF text: this is a new drawing with new handles; what is not cut, such as hatches and dimensions, is not in it, and ellipses and splines are arcs";
     the_holes_are_written(heading, target, holes) => "{heading} {target}: {holes}";
     upper_end_at(x, y) => "upper end {x:.3}, {y:.3}";
-    the_cut_takes(length, minutes, cost) => "cut: {length:.3} mm in {minutes:.2} min{cost}";
+    the_cut_takes(length, time, cost) => "cut: {length:.3} mm in {time}{cost}";
     which_costs(cost) => ", which costs {cost:.2}";
     the_cut_of_a_pass_takes(contour, pass, length, minutes) => "  contour {contour}, pass {pass}: {length:.3} mm, {minutes:.2} min";
     the_tab_takes(contour, pass, length, minutes) => "  tab of contour {contour}, pass {pass}: {length:.3} mm, {minutes:.2} min";

@@ -81,7 +81,7 @@ declare! {
     its_line_ends_the_program(text) => "its line `{text}` ends the program before all of it is cut: expected it in end";
     its_line_tilts_the_wire(text) => "its line `{text}` tilts the wire, and this program is one for a wire that stands upright";
     its_line_leads_elsewhere(text, word) => "its line `{text}` leads what follows elsewhere than it says, by {word}";
-    the_word_before_the_tab_does_not_stop(word) => "program.tab-stop is {word}, which does not stop the machine in this language: the tab would be cut off without a stop";
+    a_word_does_not_stop(key, word) => "{key} is {word}, which does not stop the machine in this language";
     its_line_cannot_be_read_again(text) => "its line `{text}` cannot be read again";
     its_line_moves_the_wire(text) => "its line `{text}` moves the wire";
     a_written_move_does_not_move(to) => "a written move to {to} does not move";

@@ -60,12 +60,15 @@ declare! {
     a_register_of_two_corrections(key, word, correction, other, before) => "{key} is {word}, in which {correction} would have to stand, and so is {other} for {before}: expected a register of its own for each correction";
     the_wire_and_its_gap_cut_beyond(key, correction, half, beyond) => "{key} is {correction}, and the wire with its gap takes {half:.4} mm to either side: it would cut {beyond:.4} mm beyond the contour; expected at least that, or pair.clearance where it is meant";
     a_stop_that_ends(key, word) => "{key} is {word}, which ends the program: what stands would never be cut off";
+    a_text_on_one_line(most) => "a text of at most {most} characters on one line";
+    a_pause_that_ends(key, word) => "{key} is {word}, which ends the program: the passes behind it would never be cut";
     a_stop_that_does_not_stop(key, word, pause) => "{key} is {word}, which stops no machine: expected M00 or M01 in ISO, {pause} in 3B";
     the_control_runs_beside_the_drawn_contour(key, other) => "{key} is constant-stock, but {other} is controller: each pass would run beside the drawn contour, as with sharp; expected path as {other}, or sharp";
     a_lead_within_the_kerf(key, length, correction) => "{key} is {length}, below the correction {correction}: the wire would be threaded within the kerf of its own cut; expected at least the correction";
     passes_on_the_drawn_line(key, other, count) => "{key} lists {count} passes, but {other} is none: the wire runs once along the drawn line itself, and the others have no effect";
     registers_need_the_control(key, other) => "{key} has no effect while {other} is path: the program holds the path of the wire itself, and names no place of a correction";
     a_stock_needs_skims(key, other) => "{key} is constant-stock, which has no effect on one pass: expected {other} of several";
+    a_pause_needs_passes(key, other) => "{key} has no effect on one pass: expected {other} of several";
     a_stop_needs_a_tab(key, other) => "{key} has no effect without {other}: nothing is left standing";
     a_step_needs_linear_feed(key, other) => "{key} has no effect unless {other} is linear";
     a_hole_narrower_than_the_wire(key, hole, other, wire) => "{key} is {hole}, expected more than {other}, {wire}: the wire does not go through the hole";

@@ -33,6 +33,8 @@ translate! {
     warning => "警告";
     information => "信息";
     hint => "提示";
+    minutes(minutes) => "{minutes:.2} 分钟";
+    hours_and_minutes(hours, minutes) => "{hours} 小时 {minutes:02} 分";
     line_number(line) => "第 {line} 行";
     segment_by_number(index) => "段 {index}";
     segments_from_to(first, last) => "段 {first} 到 {last}";

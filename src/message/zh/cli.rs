@@ -186,7 +186,7 @@ translate! {
     the_holes_are_in_a_new_drawing => "输入不是 DXF 文本：写出的是新图形，句柄也是新的；填充、标注等不切割的内容不在其中，椭圆和样条成为圆弧";
     the_holes_are_written(heading, target, holes) => "{heading} {target}：{holes}";
     upper_end_at(x, y) => "上端 {x:.3}, {y:.3}";
-    the_cut_takes(length, minutes, cost) => "切割：{length:.3} mm，{minutes:.2} min{cost}";
+    the_cut_takes(length, time, cost) => "切割：{length:.3} mm，用时 {time}{cost}";
     which_costs(cost) => "，费用 {cost:.2}";
     the_cut_of_a_pass_takes(contour, pass, length, minutes) => "  轮廓 {contour}，第 {pass} 次：{length:.3} mm，{minutes:.2} min";
     the_tab_takes(contour, pass, length, minutes) => "  轮廓 {contour} 的暂留段，第 {pass} 次：{length:.3} mm，{minutes:.2} min";

@@ -286,6 +286,7 @@ pub(in crate::message) const HELP: &[(&str, &str)] = &[
     ("heading Program", "程序"),
     ("heading Words", "代码"),
     ("heading Pair", "凸凹模"),
+    ("heading Job", "工件"),
     ("heading Options", "选项"),
     ("heading Arguments", "参数"),
     ("heading Commands", "命令"),

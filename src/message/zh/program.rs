@@ -81,7 +81,7 @@ translate! {
     its_line_ends_the_program(text) => "其行 `{text}` 在全部切完之前就结束程序：应放在 end 中";
     its_line_tilts_the_wire(text) => "其行 `{text}` 使电极丝倾斜，而本程序用于直立的电极丝";
     its_line_leads_elsewhere(text, word) => "其行 `{text}` 中的 {word} 使其后的程序走到别处";
-    the_word_before_the_tab_does_not_stop(word) => "program.tab-stop 为 {word}，在此语言中不停机：暂留段会不停机就被切断";
+    a_word_does_not_stop(key, word) => "{key} 为 {word}，在此语言中不停机";
     its_line_cannot_be_read_again(text) => "它的行 `{text}` 不能再读入";
     its_line_moves_the_wire(text) => "它的行 `{text}` 会移动电极丝";
     a_written_move_does_not_move(to) => "写出的到 {to} 的移动没有移动";

@@ -64,12 +64,15 @@ translate! {
     a_register_of_two_corrections(key, word, correction, other, before) => "{key} 是 {word}，其中应存 {correction}，而 {other} 也是它，应存 {before}：每个补偿量应有自己的补偿号";
     the_wire_and_its_gap_cut_beyond(key, correction, half, beyond) => "{key} 是 {correction}，而电极丝连同放电间隙每侧切去 {half:.4} mm：会切过轮廓 {beyond:.4} mm；不应小于它，有意如此时请设 pair.clearance";
     a_stop_that_ends(key, word) => "{key} 是 {word}，它结束程序：暂留段永远不会切断";
+    a_text_on_one_line(most) => "一行文字，不超过 {most} 个字符";
+    a_pause_that_ends(key, word) => "{key} 是 {word}，它结束程序：其后的各次切割永远不会执行";
     a_stop_that_does_not_stop(key, word, pause) => "{key} 是 {word}，它不使机床停下：ISO 应为 M00 或 M01，3B 应为 {pause}";
     the_control_runs_beside_the_drawn_contour(key, other) => "{key} 是 constant-stock，而 {other} 是 controller：每次切割都会沿图中轮廓走，与 sharp 一样；{other} 应为 path，或应为 sharp";
     a_lead_within_the_kerf(key, length, correction) => "{key} 是 {length}，小于补偿量 {correction}：穿丝处会落在自身的切缝内；应至少为补偿量";
     passes_on_the_drawn_line(key, other, count) => "{key} 列出 {count} 次切割，而 {other} 是 none：丝只沿图中的线本身走一次，其余各次不起作用";
     registers_need_the_control(key, other) => "{other} 是 path 时 {key} 不起作用：程序写的就是丝的轨迹，不引用补偿寄存器";
     a_stock_needs_skims(key, other) => "{key} 是 constant-stock，只切一次时不起作用：{other} 应列出多次切割";
+    a_pause_needs_passes(key, other) => "只切一次时 {key} 不起作用：{other} 应列出多次切割";
     a_stop_needs_a_tab(key, other) => "没有 {other}，{key} 不起作用：没有暂留段";
     a_step_needs_linear_feed(key, other) => "{other} 不是 linear 时，{key} 不起作用";
     a_hole_narrower_than_the_wire(key, hole, other, wire) => "{key} 是 {hole}，应大于 {other} {wire}：丝穿不过这个孔";

@@ -1,6 +1,7 @@
 //! Passes without a stop between them: the control's correction is switched off and on again on the way from one to the
-//! next.
+//! next, or the wire comes back to where it began.
 
+use crate::geometry::Bounds;
 use crate::program::path::{self, Cut, Step, Trace};
 use std::ops::Range;
 
@@ -22,7 +23,10 @@ pub(super) fn parted(trace: &Trace, all: bool) -> Parted {
     for cut in path::cuts(trace) {
         let steps = trace.steps.get(cut.steps.clone()).unwrap_or_default();
         let has_stops = steps.iter().any(|step| !step.moves());
-        let pieces = pieces(steps, cut.steps.start);
+        let pieces = match steps.iter().any(|step| step.side.is_some()) {
+            true => pieces(steps, cut.steps.start),
+            false => returns(steps, cut.steps.start),
+        };
         if cut.is_way || pieces.len() < 2 {
             parted.cuts.push(without_correction(trace, cut, all));
             continue;
@@ -66,6 +70,31 @@ fn pieces(steps: &[Step], first: usize) -> Vec<Range<usize>> {
     }
     pieces.push(first + begun..first + end);
     pieces
+}
+
+/// The steps from one return to the beginning to the next, where each goes round beside the others: passes of coordinates.
+fn returns(steps: &[Step], first: usize) -> Vec<Range<usize>> {
+    let Some(begin) = steps.iter().find(|step| step.moves()) else {
+        return Vec::new();
+    };
+    let mut pieces: Vec<(Range<usize>, Bounds)> = Vec::new();
+    let (mut begun, mut bounds) = (0, Bounds::EMPTY);
+    for (index, step) in steps.iter().enumerate() {
+        bounds.merge(&Bounds::of_points(&[step.start, step.end]));
+        if (step.end - begin.start).norm() < 1.0 && step.moves() {
+            pieces.push((first + begun..first + index + 1, bounds));
+            (begun, bounds) = (index + 1, Bounds::EMPTY);
+        }
+    }
+    let is_whole = begun == steps.len();
+    let mut boxes = pieces.iter().map(|(_, own)| own);
+    let are_passes = boxes
+        .next()
+        .is_some_and(|one| boxes.all(|other| path::lie_beside(one, other)));
+    match is_whole && are_passes {
+        true => pieces.into_iter().map(|(piece, _)| piece).collect(),
+        false => Vec::new(),
+    }
 }
 
 /// The cut, its way out beginning where the correction is switched off, and its way in ending where it is switched on:

@@ -75,6 +75,7 @@ fn lines_of(profile: &Profile) -> impl Iterator<Item = &String> {
         &profile.contour_begin,
         &profile.contour_end,
         &profile.pause,
+        &profile.pause_between_passes,
         &profile.end,
     ]
     .into_iter()

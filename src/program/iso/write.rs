@@ -17,8 +17,8 @@ use crate::program::grid::Node;
 use crate::program::notes::Notes;
 use crate::program::path::Step;
 use crate::program::write::{
-    MOST_BLOCKS, Piece, ProofError, Proved, ProvedProgram, Writer, cuts, does_not_stop,
-    nothing_to_write, push_number, push_places, room, walk, way,
+    BETWEEN_PASSES, MOST_BLOCKS, Piece, ProofError, Proved, ProvedProgram, TAB_STOP, Writer, cuts,
+    does_not_stop, nothing_to_write, push_number, push_places, room, walk, way,
 };
 use crate::settings::{Coordinates, Effective, LineEnd, NumberUnit, Profile, Zero};
 use crate::toolpath::{Source, WirePath, each};
@@ -194,19 +194,23 @@ impl Writer for Lines<'_> {
         self.fixed(&self.profile.pause, at)
     }
 
-    fn stop_before_tab(&mut self, at: Node, word: Option<&str>) -> Proved {
-        let before = self.pauses;
+    fn between_passes(&mut self, at: Node, word: Option<&str>) -> Proved {
         match word {
-            Some(word) => {
-                let made = self.fixed(&[word.to_owned()], at);
-                made.map_err(|_| does_not_stop(word))?;
-            }
-            None => self.fixed(&self.profile.pause, at)?,
+            Some("") => Ok(()),
+            Some(word) => self.stop_by(BETWEEN_PASSES, word, at),
+            None => self.fixed(&self.profile.pause_between_passes, at),
         }
-        match (self.pauses - before, word) {
-            (1, _) => Ok(()),
-            (_, Some(word)) => Err(does_not_stop(word)),
-            (_, None) => Err(self.refused(say!(its_pause_has_to_stop_before_a_tab))),
+    }
+
+    fn stop_before_tab(&mut self, at: Node, word: Option<&str>) -> Proved {
+        if let Some(word) = word {
+            return self.stop_by(TAB_STOP, word, at);
+        }
+        let before = self.pauses;
+        self.fixed(&self.profile.pause, at)?;
+        match self.pauses - before {
+            1 => Ok(()),
+            _ => Err(self.refused(say!(its_pause_has_to_stop_before_a_tab))),
         }
     }
 
@@ -272,6 +276,17 @@ impl<'a> Lines<'a> {
             notes: None,
             room: MOST_BLOCKS,
         })
+    }
+
+    /// A stop by the word that is set under `key`.
+    fn stop_by(&mut self, key: &str, word: &str, at: Node) -> Proved {
+        let before = self.pauses;
+        let made = self.fixed(&[word.to_owned()], at);
+        made.map_err(|_| does_not_stop(key, word))?;
+        match self.pauses - before {
+            1 => Ok(()),
+            _ => Err(does_not_stop(key, word)),
+        }
     }
 
     /// The program along the paths.

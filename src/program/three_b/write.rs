@@ -16,8 +16,8 @@ use crate::program::grid::point_of;
 use crate::program::notes::Notes;
 use crate::program::path::{Kind, Step, is_tight_in_four_b};
 use crate::program::write::{
-    CutCorner, Piece, ProofError, Proved, ProvedProgram, Writer, cuts, does_not_stop,
-    nothing_to_write, room, scaled, walk, way,
+    BETWEEN_PASSES, CutCorner, Piece, ProofError, Proved, ProvedProgram, TAB_STOP, Writer, cuts,
+    does_not_stop, nothing_to_write, room, scaled, walk, way,
 };
 use crate::settings::Effective;
 use crate::toolpath::{Finished, PathSegment, Source, WirePath, each};
@@ -284,10 +284,20 @@ impl Writer for Blocks<'_> {
         self.push_word(self.words.pause, Word::Pause)
     }
 
-    fn stop_before_tab(&mut self, _: Node, word: Option<&str>) -> Proved {
-        let own = word.unwrap_or(self.words.pause);
-        self.push_word(own, Word::Pause)
-            .map_err(|error| word.map_or(error, does_not_stop))
+    /// In 4B the correction of the next pass is set at the machine.
+    fn between_passes(&mut self, at: Node, word: Option<&str>) -> Proved {
+        match word {
+            Some("") if self.part.is_none() => Ok(()),
+            None | Some("") => self.stop(at),
+            Some(word) => self.stop_by(BETWEEN_PASSES, word),
+        }
+    }
+
+    fn stop_before_tab(&mut self, at: Node, word: Option<&str>) -> Proved {
+        match word {
+            None => self.stop(at),
+            Some(word) => self.stop_by(TAB_STOP, word),
+        }
     }
 
     fn move_over(&mut self, from: Node, to: Node) -> Proved {
@@ -332,6 +342,12 @@ impl<'a> Blocks<'a> {
             made: ProvedProgram::default(),
             proof: Proof::default(),
         }
+    }
+
+    /// A stop by the word that is set under `key`.
+    fn stop_by(&mut self, key: &str, word: &str) -> Proved {
+        let made = self.push_word(word, Word::Pause);
+        made.map_err(|_| does_not_stop(key, word))
     }
 
     /// Reads lines back, compares them with the path, and notes what they do.

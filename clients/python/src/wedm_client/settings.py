@@ -31,6 +31,12 @@ class Job(TypedDict, total=False):
     thickness: float
     slug_limit: float
     machine_rate: float
+    title: str
+    part: str
+    material: str
+    machine: str
+    revision: str
+    programmer: str
 
 
 class Pair(TypedDict, total=False):
@@ -80,6 +86,7 @@ class ProgramSettings(TypedDict, total=False):
     profile: str
     end: str
     pause: str
+    pause_between_passes: str
 
 
 class Profile(TypedDict, total=False):
@@ -101,6 +108,7 @@ class Profile(TypedDict, total=False):
     contour_begin: Sequence[str]
     contour_end: Sequence[str]
     pause: Sequence[str]
+    pause_between_passes: Sequence[str]
     end: Sequence[str]
 
 

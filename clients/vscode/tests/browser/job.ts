@@ -27,7 +27,7 @@ export async function job(checks: Checks): Promise<void> {
       await window.command("Wire EDM: Save Drill List");
       await window.path(join(host.folder, "holes.csv"));
       const list = text("holes.csv");
-      const rows = /^drawing,x_mm,y_mm,diameter_mm,contour,hole\n(plate.dxf,[\d.-]+,[\d.-]+,2,2[AB],found\n){2}$/;
+      const rows = /^drawing,x_mm,y_mm,diameter_mm,contour,hole,number\n(plate.dxf,[\d.-]+,[\d.-]+,2,2[AB],found,[12]\n){2}$/;
       await expectSoon("two holes", async () => rows.test(await list()), list);
       await window.tab("holes.csv");
       await window.turnTo("plate.dxf");
