@@ -83,14 +83,14 @@ fn table(fit: &Fit) -> String {
     }
     for place in &fit.places {
         let Xy(x, y) = place.at;
-        let um = format!("{:+.1}", place.clearance * 1e3);
-        let um = match place.clearance < 0.0 {
-            true => styled(output::ERROR, format!("{um:>10}")),
-            false => format!("{um:>10}"),
+        let left = format!("{:+.4}", place.clearance);
+        let left = match place.clearance < 0.0 {
+            true => styled(output::ERROR, format!("{left:>10}")),
+            false => format!("{left:>10}"),
         };
         let _ = writeln!(
             text,
-            "{um}  {} {:<10} {:>7}  {x:.4}, {y:.4}",
+            "{left}  {} {:<10} {:>7}  {x:.4}, {y:.4}",
             output::flush_left(&readable(&part_title(&place.of)), 10),
             readable(&place.handle),
             place.segment
@@ -112,14 +112,14 @@ pub(super) fn of_least(fit: &Fit, verdict: &str) -> String {
     if fit.compares_nothing() {
         return say!(no_contour_is_of_a_pair).into();
     }
-    let (least, wanted) = (fit.least * 1e3, fit.clearance * 1e3);
+    let (least, wanted) = (fit.least, fit.clearance);
     let places = say!(places, fit.places.len());
     let mut sentence = match least < 0.0 {
         true => say!(verdict_of_an_overlap, verdict, -least, wanted, places),
         false => say!(verdict_of_the_fit, verdict, least, wanted, places),
     };
     // As it is printed.
-    if least - wanted >= 0.1 {
+    if least - wanted >= 1e-4 {
         sentence += &say!(everywhere_more_is_left, least - wanted);
     }
     sentence

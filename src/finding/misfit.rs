@@ -36,8 +36,8 @@ pub(crate) enum Cause {
 
 impl Misfit {
     pub(super) fn sentence(&self, telling: Telling) -> String {
-        let um = |length: f64| length * telling.unit_mm * 1e3;
-        let (depth, wanted) = (um(-self.clearance), um(self.wanted));
+        let mm = |length: f64| length * telling.unit_mm;
+        let (depth, wanted) = (mm(-self.clearance), mm(self.wanted));
         let (of, partner) = (&self.of, &self.partner);
         match &self.cause {
             Cause::Corner(corner_of) => {

@@ -38,13 +38,13 @@ pub(crate) fn fit_svg(drawing: &Drawing, fit: &Fit, unit_mm: f64) -> String {
     let enlarged = head(&worst, MOST);
     let lenses_top = frame.bottom + 40.0;
     let legend_top = lenses_top + WINDOWS.height_of(enlarged.len());
-    let um = |length: f64| length * unit_mm * 1e3;
+    let mm = |length: f64| length * unit_mm;
     let title = match fit.fits() {
         true => say!(the_parts_fit),
         false => say!(the_parts_do_not_fit),
     };
     let mut sheet = style::opening(legend_top + 48.0, title);
-    let (least, wanted, places) = (um(fit.least()), um(fit.clearance), worst.len());
+    let (least, wanted, places) = (mm(fit.least()), mm(fit.clearance), worst.len());
     let facts = match least < 0.0 {
         true => say!(facts_of_parts_that_bind, -least, wanted, places),
         false => say!(facts_of_the_fit, least, wanted, places),
@@ -161,10 +161,10 @@ fn lens(sheet: &mut Sheet, fit: &Fit, spot: &Spot, lens: &Window, unit_mm: f64) 
         }
     }
     sheet.circle(r#"class="dot""#, (0.0, 0.0), 2.6, "");
-    let [left, wanted] = [spot.clearance, fit.clearance].map(|length| length * unit_mm * 1e3);
+    let [left, wanted] = [spot.clearance, fit.clearance].map(|length| length * unit_mm);
     let figures = match left < 0.0 {
-        true => say!(binds_by_um_of_um, -left, wanted),
-        false => say!(um_left_of_um, left, wanted),
+        true => say!(binds_by, -left, wanted),
+        false => say!(left_of_the_clearance, left, wanted),
     };
     let place = say!(the_corner_of_a_part, spot.of, spot.partner);
     lens.close(sheet, &figures, &place);

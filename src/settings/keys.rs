@@ -58,7 +58,7 @@ tables! {
         units: UnitSetting = UnitSetting::Mm => name;
         /// mm added to the correction when a fix chooses its radius.
         margin: f64 = 0.001 => number in Range::FROM_ZERO;
-        /// What is smaller than this, mm, nobody can measure on the part. A shorter segment (up to 0.005) is no part of any contour,
+        /// Deviations below this (mm) are not reported. A shorter segment (up to 0.005) is no part of any contour,
         /// and the corner that it hides counts as that corner; `gap`, `near-tangent`, `sharp-corner` and `overlap` say nothing of less.
         resolution: f64 = 0.001 => number in Range::FROM_ZERO;
         /// Several passes.
@@ -96,7 +96,7 @@ tables! {
         pair: PairSettings => table;
         /// Milling by an electrode.
         milling: MillingSettings => table;
-        /// Parts that are drawn in one place and never meet in one rule, each by its name with the layers it is drawn on; what is on no layer
+        /// Parts drawn over each other that are not checked against each other, each by its name with the layers it is drawn on; what is on no layer
         /// of them is a part of its own. With `pair.clearance`, parts are compared with each other:
         /// [`does-not-fit`](rules/does-not-fit.md).
         workpieces: BTreeMap<String, Vec<String>> => layers_by_name;
@@ -232,15 +232,15 @@ tables! {
         machine_rate: f64 => number in Range::FROM_ZERO;
         /// Heading of the page of `wedm report`. Not set: the part, else the name of the drawing.
         title: String => label;
-        /// Name or number of the part, for the head of that page.
+        /// Name or number of the part, for the head of the page of `wedm report`.
         part: String => label;
-        /// Material of the workpiece, for the same.
+        /// Material of the workpiece, for the head of that page.
         material: String => label;
-        /// The machine that cuts it, for the same.
+        /// The machine that cuts it, for the head of that page.
         machine: String => label;
-        /// Revision of the drawing, for the same.
+        /// Revision of the drawing, for the head of that page.
         revision: String => label;
-        /// Who has made the program, for the same.
+        /// Who made the program, for the head of that page.
         programmer: String => label;
     }
 

@@ -114,10 +114,10 @@ fn the_drill_list_names_the_part_of_each_hole() {
         0,
         &[
             "contour,hole,part,number\n",
-            "twice/a.dxf,10.0000,-3.0000,,2A,found,punch\n",
-            "twice/a.dxf,10.0000,3.0000,,2A,found,plate\n",
-            ",2B,found,DIE\n",
-            "drawn/a.dxf,10.0000,-3.0000,,2A,found,STAMP\n",
+            "twice/a.dxf,10.0000,-3.0000,,2A,found,punch,1\n",
+            "twice/a.dxf,10.0000,3.0000,,2A,found,plate,2\n",
+            ",2B,found,DIE,1\n",
+            "drawn/a.dxf,10.0000,-3.0000,,2A,found,STAMP,2\n",
         ],
     );
     check(

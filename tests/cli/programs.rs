@@ -292,13 +292,13 @@ fn a_pair_is_held_in_each_other_and_its_programs_are_written_once() {
     assert!(
         bound
             .stdout
-            .contains("does not fit: the parts overlap by 6.6 µm"),
+            .contains("does not fit: the parts overlap by 0.0066 mm"),
         "{bound:?}"
     );
     let svg = String::from_utf8(desk.read("fit.svg")).unwrap();
     assert!(
-        svg.contains("binds by 6.6 µm, 10.0 wanted")
-            && svg.contains("the parts bind by 6.6 µm where it is tightest")
+        svg.contains("binds by 0.0066 mm, 0.0100 wanted")
+            && svg.contains("the parts bind by 0.0066 mm where it is tightest")
             && svg.ends_with("</svg>\n"),
         "{svg}"
     );
@@ -462,8 +462,7 @@ fn what_a_program_leaves_out_is_said() {
     let end = clean.rfind("0\nENDSEC").expect("entities");
     let hatched = format!("{}{line}{}", &clean[..end], &clean[end..]);
     desk.write("hatched.dxf", hatched);
-    let says =
-        "left out: 1 entity is drawn to be read, and not cut: 1 lone line within closed contours";
+    let says = "left out: 1 entity is ignored as annotation: 1 lone line within closed contours";
     for (options, is_said) in [("", true), ("--handle 2A", false)] {
         let ended = desk.run(&format!("generate hatched.dxf --side opening {options}"));
         assert_eq!(ended.code, Some(0), "{ended:?}");

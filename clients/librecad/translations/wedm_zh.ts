@@ -91,11 +91,11 @@
     </message>
     <message>
         <source>The wire path is taken away.</source>
-        <translation>已清除切割路线。</translation>
+        <translation>已清除切割轨迹。</translation>
     </message>
     <message>
         <source>No wire path is drawn.</source>
-        <translation>没有画出切割路线。</translation>
+        <translation>没有画出切割轨迹。</translation>
     </message>
     <message>
         <source>what is there cannot take it, write it there yourself</source>
@@ -111,11 +111,11 @@
     </message>
     <message>
         <source>The drawing has changed while the path was on its way; nothing was drawn. Ask for it again.</source>
-        <translation>等待切割路线期间图形已改变，未画出任何内容。请重新要求。</translation>
+        <translation>等待切割轨迹期间图形已改变，未画出任何内容。请重新要求。</translation>
     </message>
     <message>
         <source>The wire path is on the layer %1: cut %2 mm, jumps %3 mm. It is never checked, and saved with the drawing until it is cleared.</source>
-        <translation>切割路线在图层 %1 上：切割 %2 mm，空走 %3 mm。它不参与检查，清除之前随图形保存。</translation>
+        <translation>切割轨迹在图层 %1 上：切割 %2 mm，跳步 %3 mm。它不参与检查，清除之前随图形保存。</translation>
     </message>
     <message>
         <source>A thread hole is kept in wedm.toml beside the drawing: save the drawing first.</source>
@@ -340,11 +340,11 @@
     </message>
     <message>
         <source>Wire path</source>
-        <translation>切割路线</translation>
+        <translation>切割轨迹</translation>
     </message>
     <message>
         <source>Draw the path of the wire on the layer WEDM_PATH, which is never checked</source>
-        <translation>在图层 WEDM_PATH 上画出切割路线，该图层不参与检查</translation>
+        <translation>在图层 WEDM_PATH 上画出切割轨迹，该图层不参与检查</translation>
     </message>
     <message>
         <source>Clear path</source>
@@ -352,7 +352,7 @@
     </message>
     <message>
         <source>Take the path of the wire away</source>
-        <translation>清除切割路线</translation>
+        <translation>清除切割轨迹</translation>
     </message>
     <message>
         <source>Take the circles away</source>
@@ -520,7 +520,7 @@
     </message>
     <message>
         <source>There is no path of the wire: %1.</source>
-        <translation>没有切割路线：%1。</translation>
+        <translation>没有切割轨迹：%1。</translation>
     </message>
     <message>
         <source>The server is not there; nothing was drawn.</source>
@@ -571,11 +571,11 @@
     </message>
     <message>
         <source>Draw wire path</source>
-        <translation>画出切割路线</translation>
+        <translation>画出切割轨迹</translation>
     </message>
     <message>
         <source>Clear wire path</source>
-        <translation>清除切割路线</translation>
+        <translation>清除切割轨迹</translation>
     </message>
 </context>
 <context>
@@ -621,7 +621,7 @@
     <name>wedm::programs</name>
     <message>
         <source>Written: %1, %2 blocks, cut %3 mm, jumps %4 mm. Every block was decoded again: at most %5 µm from the path.</source>
-        <translation>已写出：%1，%2 段，切割 %3 mm，空走 %4 mm。每段均已重新解码：偏离路线最多 %5 µm。</translation>
+        <translation>已写出：%1，%2 段，切割 %3 mm，跳步 %4 mm。每段均已重新解码：偏离路线最多 %5 µm。</translation>
     </message>
     <message>
         <source>Rounding of J, added up: %1, %2 µm.</source>

@@ -419,7 +419,7 @@ export interface Settings {
    */
   margin?: number;
   /**
-   * What is smaller than this, mm, nobody can measure on the part. A shorter segment (up to 0.005) is no part of any contour, and the corner that it hides counts as that corner; `gap`, `near-tangent`, `sharp-corner` and `overlap` say nothing of less.
+   * Deviations below this (mm) are not reported. A shorter segment (up to 0.005) is no part of any contour, and the corner that it hides counts as that corner; `gap`, `near-tangent`, `sharp-corner` and `overlap` say nothing of less.
    */
   resolution?: number;
   /**
@@ -487,7 +487,7 @@ export interface Settings {
    */
   milling?: MillingSettings;
   /**
-   * Parts that are drawn in one place and never meet in one rule, each by its name with the layers it is drawn on; what is on no layer of them is a part of its own. With `pair.clearance`, parts are compared with each other: `does-not-fit`.
+   * Parts drawn over each other that are not checked against each other, each by its name with the layers it is drawn on; what is on no layer of them is a part of its own. With `pair.clearance`, parts are compared with each other: `does-not-fit`.
    */
   workpieces?: {
     [k: string]: string[];
@@ -666,6 +666,10 @@ export interface ProgramSettings {
    * Word of letters and digits that stops the machine so that the wire can be cut or threaded.
    */
   pause?: string;
+  /**
+   * Word that stops the machine between the passes of a contour; empty: they follow each other without a stop, except in 4B, whose correction is set at the machine. Not set: the profile's `pause-between-passes` in ISO, `pause` in 3B and 4B.
+   */
+  pauseBetweenPasses?: string;
 }
 /**
  * The workpiece.
@@ -683,6 +687,30 @@ export interface JobSettings {
    * What an hour of the machine costs, in whatever money: the time of `passes.rates` has its price then.
    */
   machineRate?: number;
+  /**
+   * Heading of the page of `wedm report`. Not set: the part, else the name of the drawing.
+   */
+  title?: string;
+  /**
+   * Name or number of the part, for the head of the page of `wedm report`.
+   */
+  part?: string;
+  /**
+   * Material of the workpiece, for the head of that page.
+   */
+  material?: string;
+  /**
+   * The machine that cuts it, for the head of that page.
+   */
+  machine?: string;
+  /**
+   * Revision of the drawing, for the head of that page.
+   */
+  revision?: string;
+  /**
+   * Who made the program, for the head of that page.
+   */
+  programmer?: string;
 }
 /**
  * A punch and its plate: corrections that follow from their clearance, and the fit.
@@ -811,6 +839,10 @@ export interface ProfileSettings {
    * Lines at which the wire is taken out or threaded, between contours.
    */
   pause?: string[];
+  /**
+   * Lines between the passes of a contour, where the wire stays threaded.
+   */
+  pauseBetweenPasses?: string[];
   /**
    * Lines at the end.
    */

@@ -49,7 +49,7 @@ pub(crate) fn session(
     };
     narrator.diagnostic(diagnostic, Behind::Nothing);
     let least = fit(narrator, client, false)?;
-    holds(least < 0.0, || say!(the_fit_is_of, least * 1e3))?;
+    holds(least < 0.0, || say!(the_fit_is_of, least))?;
 
     let edit = ask_for_edit(narrator, client, diagnostic, (URI, 1))?;
     change(client, (URI, 2), edit["changes"].clone())?;
@@ -81,14 +81,10 @@ fn fit(narrator: &mut Narrator, client: &mut Client, fits: bool) -> Result<f64, 
     let fit: Value = client.request("wedm/fit", json!({ "uri": URI }))?;
     let number = |key: &str| fit[key].as_f64().unwrap_or(f64::NAN);
     let (least, clearance) = (number("least"), number("clearance"));
-    holds(fit["fits"] == fits, || say!(the_fit_is_of, least * 1e3))?;
+    holds(fit["fits"] == fits, || say!(the_fit_is_of, least))?;
     narrator.say(&match least < 0.0 {
-        true => say!(
-            the_parts_overlap_of_a_clearance,
-            -least * 1e3,
-            clearance * 1e3
-        ),
-        false => say!(what_is_left_of_the_clearance, least * 1e3, clearance * 1e3),
+        true => say!(the_parts_overlap_of_a_clearance, -least, clearance),
+        false => say!(what_is_left_of_the_clearance, least, clearance),
     });
     Ok(least)
 }

@@ -20,7 +20,11 @@ pub(super) fn stem_of(name: &str) -> &str {
 }
 
 /// What a set-up sheet has on top. What is not set can be written by hand.
-pub(super) fn head(settings: &Effective, format: Format, path: &Path) -> Vec<(&'static str, String)> {
+pub(super) fn head(
+    settings: &Effective,
+    format: Format,
+    path: &Path,
+) -> Vec<(&'static str, String)> {
     let job = &settings.job;
     let mm = |length: Option<f64>| length.map_or_else(String::new, |mm| format!("{mm} mm"));
     let name = output::name(path);

@@ -112,7 +112,7 @@ pub(super) fn fit_part(fit: &Result<Fit, String>) -> String {
         .collect();
     let rows = fit.places.iter().take(MOST).map(|place| {
         vec![
-            number(format!("{:+.1}", place.clearance * 1e3)),
+            number(format!("{:+.4}", place.clearance)),
             cell(part_title(&place.of)),
             cell(&place.handle),
             number(place.segment),

@@ -108,7 +108,7 @@ Exit codes: 0 no error found, 1 errors in the drawing, 2 could not read, or wron
     ("demo/", "Opens the drawing of a cutting plate, edits it as a designer would, shows each diagnostic as it arrives, applies the fixes, asks for the 3B program, decodes it again, and writes demo.dxf, demo.3b, demo.svg and wedm.toml. Ends with 0 only when all of its claims were found to be true. Files of these names that no demonstration has written are only overwritten with --overwrite."),
     ("demo folder", "Folder for the files"),
     ("serve", "Speak the language server protocol on stdin and stdout (the same as without a command)"),
-    ("stdio", "Accepted for editors that pass it; there is no other way"),
+    ("stdio", "Ignored; accepted for compatibility"),
     ("no_parent_watch", "Go on when the process that the client names has died: in a container its number means nothing"),
     ("completions", "Print the completions for a shell"),
     ("completions shell", "The shell"),

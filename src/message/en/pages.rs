@@ -66,7 +66,7 @@ declare! {
     field_date => "date";
     field_correction => "correction";
     column_slug => "slug g";
-    column_left => "µm left";
+    column_left => "mm left";
     column_part => "part";
     the_cut_is_long(length) => "cut: {length:.3} mm";
     the_jumps_are_long(length) => "jumps: {length:.3} mm";

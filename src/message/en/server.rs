@@ -110,13 +110,13 @@ declare! {
     generating_the_programs => "Generating the programs";
     the_parts_fit => "The parts fit";
     the_parts_do_not_fit => "The parts do not fit";
-    facts_of_parts_that_bind(depth, wanted, places) => "the parts bind by {depth:.1} µm where it is tightest, {wanted:.1} µm of clearance are wanted · clearance missing at {places} places";
-    facts_of_the_fit(least, wanted, places) => "{least:.1} µm of {wanted:.1} µm left where it is tightest · clearance missing at {places} places";
+    facts_of_parts_that_bind(depth, wanted, places) => "the parts bind by {depth:.4} mm where it is tightest, {wanted:.4} mm of clearance are wanted · clearance missing at {places} places";
+    facts_of_the_fit(least, wanted, places) => "{least:.4} mm of {wanted:.4} mm left where it is tightest · clearance missing at {places} places";
     the_plate_as_it_is_left => "plate, as the wire leaves it";
     the_punch_as_it_is_left => "punch, as the wire leaves it";
     clearance_is_missing => "clearance is missing";
-    um_left_of_um(left, wanted) => "{left:.1} µm left of {wanted:.1}";
-    binds_by_um_of_um(depth, wanted) => "binds by {depth:.1} µm, {wanted:.1} wanted";
+    left_of_the_clearance(left, wanted) => "{left:.4} mm left of {wanted:.4}";
+    binds_by(depth, wanted) => "binds by {depth:.4} mm, {wanted:.4} wanted";
     the_corner_of_a_part(of, partner) => "corner of the {of}, against the {partner}";
     laying_the_wires_path => "Laying the wire's path";
     drawing_the_picture => "Drawing the picture";

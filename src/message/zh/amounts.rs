@@ -25,7 +25,7 @@ translate! {
     vertices(count: usize) => { format!("{count} 个顶点") };
     warnings(count: usize) => { format!("{count} 个警告") };
     cut_length(mm) => "切割 {mm:.1} mm";
-    jumps_length(mm) => "空走 {mm:.1} mm";
+    jumps_length(mm) => "跳步 {mm:.1} mm";
     comma => "，";
     semicolon => "；";
     and => " 和 ";

@@ -14,7 +14,7 @@ translate! {
     two_segments_are_nearly_tangent_but_not_quite => "两段线接近相切，但不相切";
     a_contour_touches_or_crosses_itself_or_another => "轮廓与自身或其他轮廓相碰、相交";
     an_arc_drawn_as_short_lines => "圆弧画成了短直线";
-    no_path_of_the_wire_holds_its_proof_here => "此处的切割路线通不过校核";
+    no_path_of_the_wire_holds_its_proof_here => "此处的切割轨迹通不过校核";
     a_punch_does_not_go_into_its_plate => "凸模装不进凹模";
     a_start_hole_has_no_room_beside_the_contours => "穿丝孔离轮廓太近，放不下";
     the_lead_in_is_too_short_or_crosses_a_contour => "引入线太短，或与轮廓相交";
@@ -50,7 +50,7 @@ translate! {
     a_block_that_moves_nothing => "程序段没有移动";
     a_number_with_more_digits_than_the_controller_has => "数字位数超过控制器的允许位数";
     coordinates_that_are_not_where_the_block_ends => "注明的坐标与程序段终点不符";
-    a_path_that_goes_through_itself => "切割路线穿过自身";
+    a_path_that_goes_through_itself => "切割轨迹穿过自身";
     a_cut_that_does_not_close => "切割不封闭";
     a_program_without_its_end => "程序没有结束码";
     text_behind_the_end_of_a_program => "程序结束码后还有内容";
@@ -63,7 +63,7 @@ translate! {
 
     the_block_does_not_follow_its_drawing(segment, handle, drawing, off) => "该程序段不沿 {drawing} 中 {handle} 的第 {segment} 段：终点偏离图形位置 {off} mm";
     the_contour_does_not_begin_where_its_drawing_has_it(handle, drawing, off) => "轮廓的起点偏离 {drawing} 中的位置 {off} mm（{handle}）";
-    the_way_does_not_lead_where_its_drawing_has_it(drawing, off) => "引线或轮廓之间的空走线偏离 {drawing} 及其设置给出的位置 {off} mm";
+    the_way_does_not_lead_where_its_drawing_has_it(drawing, off) => "引线或轮廓之间的跳步线偏离 {drawing} 及其设置给出的位置 {off} mm";
     the_coordinates_are_not_where_its_drawing_has_the_end(drawing, off) => "程序段后的坐标偏离 {drawing} 给出的终点 {off} mm";
     the_correction_is_on_another_side(said, meant, drawing) => "此处按 {said} 切割，而 {drawing} 及其设置需要 {meant}";
     the_correction_is_that_of_another_pass(said, meant, drawing) => "补偿号为 {said}，而 {drawing} 其他轮廓的同一次切割为 {meant}：用了另一次切割的补偿";
@@ -290,7 +290,7 @@ translate! {
     for_milling(finding) => "铣削 [milling]：{finding}";
     arc_r_mm_is_below_the_correction_mm(radius, required, pass) => "圆弧 R {radius} mm 小于补偿量 {required} mm{pass}";
     the_wire_overcuts_the_contour_by_mm(overcut, tool) => "：{tool}过切轮廓 {overcut} mm";
-    or_leaves_stock(stock_left) => "，或在控制系统修剪处残留 {stock_left} mm";
+    or_leaves_stock(stock_left) => "；控制系统若修剪该拐角，则残留 {stock_left} mm 余量";
     the_later_passes_find_mm_more_stock(stock) => "：后几次切割在此多 {stock} mm 余量";
     the_later_passes_find_more_stock => "：后几次切割在此余量更多";
     the_control_loses_the_arc => "：控制系统会丢掉这段圆弧";
@@ -301,12 +301,12 @@ translate! {
     no_neighbours_for_a_larger_arc => "；两侧没有能与更大圆弧相切的相邻段";
     repair_it_in_the_drawing_and_make_the_program_again => "；请在图形中修好，再重新生成程序";
     it_is_part_of_an_entity_that_cannot_be_edited_here => "；它属于此处不能修改的图元";
-    the_parts_bind_here(of, partner, depth, corner_of, wanted) => "{of} 与 {partner} 在此卡住 {depth:.1} µm：{corner_of} 的这个角残留过多，留不出 {wanted:.1} µm 的间隙";
-    the_parts_bind_along_a_wall(of, partner, depth, wanted) => "{of} 与 {partner} 在此沿壁卡住 {depth:.1} µm，这里应有 {wanted:.1} µm 的间隙：改角的半径无济于事；是这段壁画得、或其丝走得离配对件太近";
+    the_parts_bind_here(of, partner, depth, corner_of, wanted) => "{of} 与 {partner} 在此卡住 {depth:.4} mm：{corner_of} 的这个角残留过多，留不出 {wanted:.4} mm 的间隙";
+    the_parts_bind_along_a_wall(of, partner, depth, wanted) => "{of} 与 {partner} 在此沿壁卡住 {depth:.4} mm，这里应有 {wanted:.4} mm 的间隙：改角的半径无济于事；是这段壁画得、或其丝走得离配对件太近";
     its_corner_is_sharp(of) => "{of} 的角是尖的";
     its_corner_has_a_radius(of, radius) => "{of} 的角是 R {radius} mm";
-    a_corner_is_sharper_than_its_partner(of, partner, depth, corner, other, rounder, wanted) => "{of} 与 {partner} 在此卡住 {depth:.1} µm：{corner}，旁边是 {rounder} 的 R {other} mm，太尖而留不出 {wanted:.1} µm 的间隙";
-    the_parts_bind_along_an_arc(of, partner, depth, own, other, wanted) => "{of} 与 {partner} 在此沿圆弧卡住 {depth:.1} µm：{of} 的 R {own} mm 旁边是 {partner} 的 R {other} mm，两者应相差 {wanted:.1} µm 的间隙";
+    a_corner_is_sharper_than_its_partner(of, partner, depth, corner, other, rounder, wanted) => "{of} 与 {partner} 在此卡住 {depth:.4} mm：{corner}，旁边是 {rounder} 的 R {other} mm，太尖而留不出 {wanted:.4} mm 的间隙";
+    the_parts_bind_along_an_arc(of, partner, depth, own, other, wanted) => "{of} 与 {partner} 在此沿圆弧卡住 {depth:.4} mm：{of} 的 R {own} mm 旁边是 {partner} 的 R {other} mm，两者应相差 {wanted:.4} mm 的间隙";
     lies_within_its_partner_and_is_no_opening(handle) => "轮廓 {handle} 位于配对轮廓之内，应是凸模，却设成了型孔";
     lies_about_its_partner_and_is_no_punch(handle) => "轮廓 {handle} 包围配对轮廓，应是型孔，却设成了凸模";
     the_contour_has_no_partner(of) => "{of} 的这个轮廓在五倍间隙内没有其他工件的轮廓与它并行：没有配对";

@@ -55,7 +55,7 @@ translate! {
     // of programs: where a step leads
     pause => "暂停";
     end => "结束";
-    way_to(place) => "空走到 {place}";
+    way_to(place) => "跳步到 {place}";
     block_that_leads_nowhere => "没有去向的程序段";
     line_to(place) => "直线到 {place}";
     circle_r(radius) => "整圆 R {radius}";
@@ -70,7 +70,7 @@ translate! {
     step_at(name, what, place) => "**{name}{what}**，位于 {place} mm";
     step_leads_nowhere(name, place) => "**{name}没有去向的程序段**：机床停在 {place} mm";
     step_to(name, what, place) => "**{name}{what}**，到 {place} mm";
-    way_without_the_wire => "空走";
+    way_without_the_wire => "跳步";
     from_length_and_direction(place, length, direction) => "从 {place} 起，长 {length} mm，方向 {direction}";
     circle => "整圆";
     step_about(name, what, turn, centre, radius, sweep) => "**{name}{what}** {turn}，圆心 {centre} mm，R {radius} mm，{sweep}";

@@ -3,8 +3,8 @@
 translate! {
     no_contour_that_is_cut_is_on_the_layer(layer) => "图层“{layer}”上没有要切割的轮廓";
     an_error_stands_in_the_drawing => "图形中有错误";
-    the_path_was_given_up => "切割路线已放弃计算";
-    laying_the_path => "正在计算切割路线";
+    the_path_was_given_up => "切割轨迹已放弃计算";
+    laying_the_path => "正在计算切割轨迹";
     writing_and_proving => "正在写出并校核程序";
     the_program_does_not_hold_its_proof(reason) => "程序没有通过校核：{reason}";
     no_program_of_this_drawing(reason) => "此图形得不出通过校核的程序：{reason}";

@@ -66,10 +66,10 @@ translate! {
     field_date => "日期";
     field_correction => "补偿量";
     column_slug => "落料 g";
-    column_left => "剩余 µm";
+    column_left => "剩余 mm";
     column_part => "零件";
     the_cut_is_long(length) => "切割：{length:.3} mm";
-    the_jumps_are_long(length) => "空走：{length:.3} mm";
+    the_jumps_are_long(length) => "跳步：{length:.3} mm";
     cut_off_in_pass(pass) => "切断，第 {pass} 次";
     a_program_and_its_proof(language, blocks, contours, length, deviation) => "{language}：{blocks}，{contours}，{length}；反解校核，偏离路线不超过 {deviation:.2} µm";
     all_drawings => "全部图形";

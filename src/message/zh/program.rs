@@ -75,7 +75,7 @@ translate! {
     its_contour_begin_does_not_switch_the_correction_on => "contour-begin 没有建立补偿：应有一行含 {side}";
     no_moves_within_tolerance_lead_from_to(from, to) => "从 {from} 到 {to} 没有符合公差的移动";
     the_cut_begins_at_and_ends_at(first, last) => "切割从 {first} 开始，到 {last} 结束";
-    its_pause_has_to_stop_the_machine => "不空走时暂停码必须停机：应为 M00";
+    its_pause_has_to_stop_the_machine => "不跳步时暂停码必须停机：应为 M00";
     its_pause_has_to_stop_before_a_tab => "其暂停行没有停机一次，暂留段会不停机就被切断：此处应为 M00，或设置 program.tab-stop";
     its_register_is_of_two_corrections(word, held, own) => "控制器在 {word} 处既要找到 {held} 又要找到 {own}：每个补偿量应有自己的补偿号";
     its_line_ends_the_program(text) => "其行 `{text}` 在全部切完之前就结束程序：应放在 end 中";
@@ -89,7 +89,7 @@ translate! {
     the_correction_is_not_in_force_along_the_contour => "沿轮廓补偿没有生效";
     the_ends_of_the_arc_lie_apart_from_its_centre(to, start, end) => "到 {to} 的圆弧两端离圆心 {start:.3} 和 {end:.3} µm";
     the_arc_to_a_place_has_no_radius(to) => "到 {to} 的圆弧没有半径";
-    the_move_runs_beside_the_path(to, aside) => "到 {to} 的移动偏离切割路线 {aside:.3} µm";
+    the_move_runs_beside_the_path(to, aside) => "到 {to} 的移动偏离切割轨迹 {aside:.3} µm";
     the_program_is_not_text => "程序不是文本";
     merge_collinear_blocks => "合并共线的程序段";
     leave_the_block_numbers_out => "去掉段号";
@@ -153,7 +153,7 @@ translate! {
     a_written_block_reads_otherwise(line, block) => "写出的程序段 {line} 读出来不是 {block}";
     a_block_cannot_be_decoded(block) => "{block} 无法解码";
     a_block_ends_beside_its_node(block, distance, to) => "{block} 终点偏离节点 {to} 有 {distance:.3} µm";
-    a_block_runs_beside_the_path(block, aside, from) => "{block} 在 {from} 偏离切割路线 {aside:.3} µm";
+    a_block_runs_beside_the_path(block, aside, from) => "{block} 在 {from} 偏离切割轨迹 {aside:.3} µm";
     a_controller_that_counts_j_drifts_more_than_allowed(drift, allowed) => "按 J 计数的控制器累计偏差 {drift:.3} µm，允许 {allowed:.0} µm";
     apply_the_correction_inside(correction) => "向内补偿 {correction:.3} mm（型孔）";
     apply_the_correction_outside(correction) => "向外补偿 {correction:.3} mm（凸模）";
@@ -196,7 +196,7 @@ translate! {
     the_correction_was_switched_on_for_another_contour => "补偿是在前面另一个轮廓处打开的";
     the_arcs_would_not_tell_how_i_and_j_are_meant => "从圆弧就看不出 I、J 的写法了";
     the_new_block_reads_otherwise => "新程序段读出来与原意不同";
-    the_block_does_not_run_along_its_piece => "程序段没有沿着它那段切割路线走";
+    the_block_does_not_run_along_its_piece => "程序段没有沿着它那段切割轨迹走";
     a_word_takes_the_coordinates(line) => "第 {line} 行：有代码把坐标当作机床位置";
     of_profile(name, why) => "profile {name}：{why}";
     its_lines_change_heights(line) => "它的行改变了 {line:?} 中高度的含义";

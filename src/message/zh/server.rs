@@ -2,7 +2,7 @@
 
 translate! {
     the_document_has_changed_meanwhile => "文档在此期间已改变";
-    no_path_can_be_made => "得不出切割路线";
+    no_path_can_be_made => "得不出切割轨迹";
     internal_error(panic_text) => "内部错误：{panic_text}";
     there_is_no_such_drawing_open => "没有打开这样的图形";
     internal_error_the_document_could_not_be_judged => "内部错误：文档未能检查；文本已保留，下次修改时再试";
@@ -79,19 +79,19 @@ translate! {
     segment_stock(handle, segment, stock) => "{handle} 第 {segment} 段，余量 {stock:.3}";
     segment_overcut(handle, segment, overcut) => "{handle} 段 {segment}，过切 {overcut:.3}";
     the_drawing_has_no_lines => "图形中没有直线、圆弧或圆";
-    contour_and_wire_path => "轮廓和切割路线";
+    contour_and_wire_path => "轮廓和切割轨迹";
     n1_arc_is_too_tight => "1 处圆弧半径小于补偿量";
     arcs_are_too_tight(count) => "{count} 处圆弧半径小于补偿量";
     the_cut_begins_here => "由此开始切割";
     contours_and_electrode_path => "轮廓和电极路线";
     contours_without_an_electrode_path => "轮廓，无电极路线";
-    contours_without_a_wire_path => "轮廓，无切割路线";
+    contours_without_a_wire_path => "轮廓，无切割轨迹";
     no_electrode_path_because(why) => "无电极路线：{why}";
-    no_wire_path_because(why) => "无切割路线：{why}";
+    no_wire_path_because(why) => "无切割轨迹：{why}";
     contour_length(mm) => "轮廓 {mm:.1} mm";
     extents_mm(width, height) => "{width:.3} × {height:.3} mm";
     where_it_ends(x, y) => "终点距起点 {x:.0}, {y:.0} µm";
-    the_jump => "空走";
+    the_jump => "跳步";
     the_material => "材料";
     the_picture_cannot_be_written(error) => "图片不能写出：{error}";
     it_is_too_large => "太大";
@@ -101,8 +101,8 @@ translate! {
     it_would_change_nothing => "不会有任何改变：程序已经如此";
     start_of_a_contour => "轮廓的起点";
     path_of_the_electrode => "电极路线";
-    path_of_the_wire => "切割路线";
-    way_without_a_cut_mm(length) => "空走，{length:.3} mm";
+    path_of_the_wire => "切割轨迹";
+    way_without_a_cut_mm(length) => "跳步，{length:.3} mm";
     leads_nowhere => "没有去向";
     listing_radii => "正在列出半径";
     listing_contours => "正在列出轮廓";
@@ -110,15 +110,15 @@ translate! {
     generating_the_programs => "正在生成各零件的程序";
     the_parts_fit => "能够配合";
     the_parts_do_not_fit => "不能配合";
-    facts_of_parts_that_bind(depth, wanted, places) => "最紧处卡住 {depth:.1} µm，应有间隙 {wanted:.1} µm · {places} 处间隙不足";
-    facts_of_the_fit(least, wanted, places) => "最紧处 {wanted:.1} µm 间隙剩 {least:.1} µm · {places} 处间隙不足";
+    facts_of_parts_that_bind(depth, wanted, places) => "最紧处卡住 {depth:.4} mm，应有间隙 {wanted:.4} mm · {places} 处间隙不足";
+    facts_of_the_fit(least, wanted, places) => "最紧处 {wanted:.4} mm 间隙剩 {least:.4} mm · {places} 处间隙不足";
     the_plate_as_it_is_left => "切出的凹模";
     the_punch_as_it_is_left => "切出的凸模";
     clearance_is_missing => "间隙不足";
-    um_left_of_um(left, wanted) => "{wanted:.1} µm 剩 {left:.1}";
-    binds_by_um_of_um(depth, wanted) => "卡住 {depth:.1} µm，应有间隙 {wanted:.1}";
+    left_of_the_clearance(left, wanted) => "{wanted:.4} mm 剩 {left:.4}";
+    binds_by(depth, wanted) => "卡住 {depth:.4} mm，应有间隙 {wanted:.4}";
     the_corner_of_a_part(of, partner) => "{of} 的角，对 {partner}";
-    laying_the_wires_path => "正在计算切割路线";
+    laying_the_wires_path => "正在计算切割轨迹";
     drawing_the_picture => "正在画图";
     generating_the_program => "正在生成程序";
     following_the_program => "正在模拟程序";
@@ -128,7 +128,7 @@ translate! {
     convert_to_dxf => "转换为 DXF";
     and_more_marked_in_the_drawing(count) => "另有 {count} 个，已在图中标出";
     cut_of(contours, length, jumps, minutes) => "切割 {contours}：{length:.3} mm{jumps}{minutes}";
-    and_jumps(length) => "，空走 {length:.3} mm";
+    and_jumps(length) => "，跳步 {length:.3} mm";
     and_minutes(minutes) => "，{minutes:.2} 分钟";
     largest_wire_by_a_narrow_place(diameter, width) => "最粗可用电极丝 Ø {diameter:.3} mm，由宽 {width:.3} mm 的窄处决定";
     largest_wire(diameter, radius) => "最粗可用电极丝 Ø {diameter:.3} mm，由 R {radius:.3} mm 决定";

@@ -2,7 +2,7 @@
 
 translate! {
     the_lead_in_cuts_through_contour(x, y, x1, y1, crossed) => "从穿丝孔 ({x:.3}, {y:.3}) 到 ({x1:.3}, {y1:.3}) 的引入线切穿轮廓 {crossed}";
-    the_way_cuts_into_contour(x, y, x1, y1, contour) => "从 ({x:.3}, {y:.3}) 到 ({x1:.3}, {y1:.3}) 的空走会切入轮廓 {contour}：profile 的暂停码不停机，电极丝没有拆下";
+    the_way_cuts_into_contour(x, y, x1, y1, contour) => "从 ({x:.3}, {y:.3}) 到 ({x1:.3}, {y1:.3}) 的跳步会切入轮廓 {contour}：profile 的暂停码不停机，电极丝没有拆下";
     contour_has_no_length(handle) => "轮廓 {handle} 没有长度";
     contour_is_open_and_cannot_be_entered_at(handle, x, y) => "轮廓 {handle} 不封闭，不能从 ({x}, {y}) 切入，应从它的一个端点切入";
     contour_is_open_the_side_of_the_wire_is_not_known(handle) => "轮廓 {handle} 不封闭：不知道电极丝在哪一侧；请封闭轮廓，或把 compensation 设为 none 按图线切割";
@@ -31,7 +31,7 @@ translate! {
     no_start_hole_at_all_fits_in(diameter, handle, depth) => "轮廓 {handle} 放不下 Ø {diameter:.3} mm 的穿丝孔：最深处距最近的轮廓 {depth:.3} mm；请在别处给出穿丝孔";
     no_start_hole_fits_beside(diameter, x, y, least, why) => "切入点 ({x:.3}, {y:.3}) 旁放不下 Ø {diameter:.3} mm 的穿丝孔{why}：引线应不短于 {least:.3} mm，或换一个切入点，或给出穿丝孔";
     no_arc_fits_at(length, least, x, y, why) => "({x:.3}, {y:.3}) 处放不下从 {length:.3} mm 起、圆弧不小于 R {least:.3} mm 的引线{why}：请给出穿丝孔，或换一个切入点";
-    no_arc_leads_from_to(least, x, y, x1, y1, why) => "从穿丝孔 ({x:.3}, {y:.3}) 到切割路线 ({x1:.3}, {y1:.3}) 放不下不小于 R {least:.3} mm 的圆弧引线{why}";
+    no_arc_leads_from_to(least, x, y, x1, y1, why) => "从穿丝孔 ({x:.3}, {y:.3}) 到切割轨迹 ({x1:.3}, {y1:.3}) 放不下不小于 R {least:.3} mm 的圆弧引线{why}";
     the_lead_in_does(x, y, x1, y1, does) => "从穿丝孔 ({x:.3}, {y:.3}) 到 ({x1:.3}, {y1:.3}) 的引入线{does}";
     the_way_back_does(x, y, x1, y1, does) => "从轮廓终点 ({x:.3}, {y:.3}) 到穿丝孔 ({x1:.3}, {y1:.3}) 的直线返回段{does}";
     no_lead_in_fits_at(length, correction, x, y, why) => "({x:.3}, {y:.3}) 处放不下长 {length:.3} mm 直至等于补偿量 {correction:.3} mm 的引入线{why}：请给出穿丝孔，或换一个切入点";
