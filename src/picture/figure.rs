@@ -2,6 +2,7 @@
 
 use super::areas;
 use super::marks::{self, Spot};
+use super::numbers::number;
 use super::room::Room;
 use super::sheet::{Frame, Sheet, escaped, named, path_data};
 use super::style::class_of;
@@ -52,6 +53,7 @@ pub(super) fn figure(
         .for_each(|other| other.draw(sheet, frame));
     contours(sheet, frame, subject);
     wire(sheet, frame, subject);
+    datum(sheet, frame, subject);
     let is_fault = |other: &&Other| !is_hint(other);
     others
         .iter()
@@ -78,6 +80,16 @@ pub(super) fn figure(
     marks::thread_holes(sheet, frame, subject, room);
     sheet.line(format_args!("</g>"));
     others.into_iter().map(|other| other.spot).collect()
+}
+
+/// The drawing's zero, where it is in the picture: x to the right and y up.
+fn datum(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
+    if subject.shows_zero() {
+        let (x, y) = frame.local(Point::origin());
+        let [left, low, x, y] = [x - 8.0, y - 8.0, x, y].map(number);
+        let data = format!("M{left} {y}h32M{x} {low}v32");
+        sheet.path(r#"class="datum""#, &data, say!(the_zero_of_the_drawing));
+    }
 }
 
 /// Notes the lines of contours and paths.

@@ -112,6 +112,7 @@ pub fn svg(view: &View) -> String {
         tabs: paths.iter().any(|path| path.cut_off),
         kerf: subject.half_kerfs.iter().any(Option::is_some),
         lost: findings.iter().any(leaves_some),
+        zero: subject.shows_zero(),
     };
     let entries = style::entries(&shown);
     let mut sheet = style::opening(legend_top + style::height_of(&entries), &title);

@@ -38,6 +38,7 @@ text{font-family:system-ui,'Segoe UI',Helvetica,Arial,'DejaVu Sans',sans-serif;f
 .correction{stroke:#57606a;stroke-width:1.5;stroke-dasharray:6 4}
 .middle{fill:#57606a}
 .window{stroke:#d0d7de}
+.datum{fill:none;stroke:#8250df;stroke-width:1.6}
 .thread,.hole{fill:none;stroke:#1a7f37;stroke-width:1.3}
 .hole{stroke-width:.9}
 .order{font-size:11px;font-weight:700;fill:#1a7f37}
@@ -68,6 +69,7 @@ text{fill:#e6edf3}
 .jump,.correction{stroke:#9da7b3}
 .middle{fill:#9da7b3}
 .window{stroke:#30363d}
+.datum{stroke:#bc8cff}
 .thread,.hole{stroke:#57d364}
 .order{fill:#57d364}
 .arrow{fill:#58a6ff}
@@ -152,6 +154,7 @@ pub(super) struct Shown {
     pub(crate) lost: bool,
     pub(crate) jumps: bool,
     pub(crate) tabs: bool,
+    pub(crate) zero: bool,
 }
 
 /// A sample of a mark, and its meaning.
@@ -172,6 +175,10 @@ pub(super) fn entries(shown: &Shown) -> Vec<Entry> {
     if shown.part {
         let part = r#"<rect class="part" x="2" y="-7" width="20" height="14" rx="2"/>"#;
         entries.push((part, say!(the_material)));
+    }
+    if shown.zero {
+        let zero = r#"<path class="datum" d="M0 4h24M6 8v-16"/>"#;
+        entries.push((zero, say!(the_zero)));
     }
     if shown.paths && shown.mills {
         entries.extend([

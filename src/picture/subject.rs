@@ -155,6 +155,12 @@ impl<'a> Subject<'a> {
         }
     }
 
+    /// The drawing's zero is in the picture.
+    pub(crate) fn shows_zero(&self) -> bool {
+        let zero = Bounds::of_points(&[Point::origin()]);
+        self.bounds.merged(&zero) == self.bounds
+    }
+
     pub(crate) fn mm(&self, length: f64) -> f64 {
         length * self.unit_mm
     }

@@ -14,9 +14,10 @@ pub(super) fn titled(settings: &Effective, path: &Path) -> String {
     stated.unwrap_or_else(|| output::name(path))
 }
 
-/// The name of a file without its ending.
-pub(super) fn stem_of(name: &str) -> &str {
-    name.rsplit_once('.').map_or(name, |(stem, _)| stem)
+/// The name of a file without its folder and its ending.
+pub(super) fn stem_of(name: &str) -> String {
+    let stem = Path::new(name).file_stem().unwrap_or_default();
+    stem.to_string_lossy().into_owned()
 }
 
 /// What a set-up sheet has on top. What is not set can be written by hand.

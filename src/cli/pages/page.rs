@@ -129,7 +129,7 @@ impl Page {
         let missing = parts.iter().filter_map(|part| part.work.as_ref());
         let mut missing: Vec<String> = missing.flat_map(|work| work.missing.clone()).collect();
         missing.dedup();
-        missing.retain(|key| key != "job.machine-rate");
+        missing.retain(|key| ["job.thickness", "passes.rates"].contains(&key.as_str()));
         let minutes = |part: &PageShare| part.work.as_ref()?.minutes;
         // Of a pair whose parts do not all have a program no sum is told.
         let blocks: Option<usize> = parts.iter().map(|part| part.blocks()).sum();
@@ -188,10 +188,10 @@ impl Page {
             section(say!(head_milling), of_job::facts(&self.milling)),
             section(say!(head_contours), self.contour_table()),
             section(say!(head_radius_list), self.radius_list()),
-            self.of_all(|part| part.text(self.format, self.unit_mm, stem)),
+            self.of_all(|part| part.text(self.format, self.unit_mm, &stem)),
             self.parts
                 .iter()
-                .map(|part| part.of_part(self.format, self.unit_mm, stem))
+                .map(|part| part.of_part(self.format, self.unit_mm, &stem))
                 .collect(),
         ];
         let title = match self.title == *name {

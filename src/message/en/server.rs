@@ -92,6 +92,8 @@ declare! {
     extents_mm(width, height) => "{width:.3} × {height:.3} mm";
     where_it_ends(x, y) => "ends {x:.0}, {y:.0} µm from its start";
     the_jump => "jump";
+    the_zero => "zero of the drawing";
+    the_zero_of_the_drawing => "the drawing's zero: x to the right, y up";
     the_material => "material";
     the_picture_cannot_be_written(error) => "the picture cannot be written: {error}";
     it_is_too_large => "it is too large";

@@ -92,6 +92,8 @@ translate! {
     extents_mm(width, height) => "{width:.3} × {height:.3} mm";
     where_it_ends(x, y) => "终点距起点 {x:.0}, {y:.0} µm";
     the_jump => "跳步";
+    the_zero => "图形原点";
+    the_zero_of_the_drawing => "图形原点：x 向右，y 向上";
     the_material => "材料";
     the_picture_cannot_be_written(error) => "图片不能写出：{error}";
     it_is_too_large => "太大";
