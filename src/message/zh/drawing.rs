@@ -2,7 +2,7 @@
 
 translate! {
     this_kind_is_not_cut => "这类图元不作为轮廓";
-    it_lies_in_paper_space => "它在图形空间";
+    it_lies_in_paper_space => "它在布局空间";
     its_plane_is_tilted => "它所在平面相对图形平面倾斜";
     its_points_differ_in_z => "各点的 Z 不同";
     it_is_the_frame_of_a_text => "它是文字的边框";
