@@ -49,7 +49,7 @@ pub(crate) struct Evidence {
     pub(crate) corrections: u32,
     /// How far those under G91 lead, added up.
     pub(crate) travel: u64,
-    /// How many numbers with a point, noughts left out, have each number of decimals.
+    /// How many numbers with a point, `0.` left out, have each number of decimals.
     pub(crate) places: [u32; 8],
     /// How many numbers with each number of decimals end in a 0 behind the point.
     pub(crate) ending_in_zero: [u32; 8],
@@ -125,8 +125,15 @@ pub(crate) struct UsualDecimals {
 impl UsualDecimals {
     /// True of a number to which a digit was added, or from which one was taken.
     pub(crate) fn is_odd(&self, number: Number) -> bool {
-        number.point && number.mantissa != 0 && !(self.least..=self.most).contains(&number.decimals)
+        number.point
+            && !is_short_nought(number)
+            && !(self.least..=self.most).contains(&number.decimals)
     }
+}
+
+/// `0.`
+fn is_short_nought(number: Number) -> bool {
+    number.mantissa == 0 && number.decimals == 0
 }
 
 const RULES: [CenterRule; 3] = [
@@ -277,8 +284,8 @@ impl Evidence {
             self.numbers += 1;
             self.with_point += u32::from(number.point);
             self.fine += u32::from(number.decimals >= 4);
-            // A nought says the same however it is written: `X0.` stands among numbers of three decimals.
-            if number.point && number.mantissa != 0 {
+            // `X0.` stands among numbers of three decimals, and says nothing of them.
+            if number.point && !is_short_nought(number) {
                 let places = usize::from(number.decimals).min(7);
                 self.places[places] += 1;
                 self.ending_in_zero[places] += u32::from(places > 0 && number.mantissa % 10 == 0);
