@@ -22,6 +22,7 @@ use crate::program;
 use crate::settings::{self, Effective};
 use crate::text::{Again, SourceText};
 use crate::{dxf, finding::Severity};
+use rustc_hash::FxHashMap;
 use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
@@ -55,6 +56,8 @@ struct Asked {
     beside: OnceLock<Arc<[Finding]>>,
     findings: OnceLock<Arc<[Finding]>>,
     fix_all: OnceLock<Option<Edit>>,
+    /// The number of each entity's contour.
+    numbers: OnceLock<FxHashMap<EntityId, usize>>,
 }
 
 /// The data for comparing the document with others, whatever lies beside it.
@@ -281,6 +284,28 @@ impl Document {
                 .map(|fix| fix.map(Edit::Text))
                 .collect(),
         }
+    }
+
+    /// The findings at a segment of a drawing that another one may stand for, each by itself, with its repairs.
+    pub(crate) fn each_at(&self, at: (EntityId, usize)) -> Vec<Finding> {
+        self.drawing()
+            .map_or_else(Vec::new, |drawing| self.analysis.each_at(drawing, at))
+    }
+
+    /// The number of the contour that an entity belongs to, from 1 in machining order.
+    pub(crate) fn contour_number(&self, entity: EntityId) -> Option<usize> {
+        let numbers = self.asked.numbers.get_or_init(|| {
+            let outlines = self
+                .drawing()
+                .map(|drawing| self.analysis.outlines(drawing));
+            let numbered = outlines.into_iter().flat_map(|all| (1..).zip(all.iter()));
+            let pieces = numbered.flat_map(|(number, outline)| {
+                let pieces = outline.contour.pieces.iter();
+                pieces.map(move |piece| (piece.entity, number))
+            });
+            pieces.collect()
+        });
+        numbers.get(&entity).copied()
     }
 
     /// The repairs of a finding in a drawing that consist of settings.

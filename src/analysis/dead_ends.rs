@@ -1,7 +1,7 @@
 //! `lost-pocket`: what the wire leaves beyond its dead ends.
 
 use super::Analysis;
-use super::ends::{Asked, EndsOf, Runs};
+use super::ends::{Asked, DeadEnds, EndsOf, Runs};
 use super::pair_findings::FacingWalls;
 use super::pairs::Pairs;
 use super::report::Report;
@@ -103,17 +103,41 @@ impl Analysis {
     }
 
     /// Adds a finding for each place that the wire does not reach. A contour that crosses itself has no sides.
-    pub(super) fn report_dead_ends(&self, drawing: &Drawing, report: &mut Report) {
+    /// Where nobody has said on which side the wire runs, it may never come near a dead end: that is no error.
+    pub(super) fn report_dead_ends(
+        &self,
+        drawing: &Drawing,
+        side_of: &dyn Fn(ContourKey) -> Option<Side>,
+        report: &mut Report,
+    ) {
         let Some(ends) = &self.pairs.ends else {
             return;
         };
         let has_sides = |key: ContourKey| !self.pairs.seen.crossings.contains_key(&key);
+        let is_known = |key: ContourKey| has_sides(key) && side_of(key).is_some();
+        let is_unknown = |key: ContourKey| has_sides(key) && side_of(key).is_none();
         // The wire follows a contour that is its own path.
         let mildest = report.is_for_a_path().then_some(Severity::Warning);
-        report.count(Rule::LostPocket, mildest, ends.count(has_sides));
+        self.report_ends(drawing, ends, (mildest, &is_known), report);
+        self.report_ends(
+            drawing,
+            ends,
+            (Some(Severity::Warning), &is_unknown),
+            report,
+        );
+    }
+
+    fn report_ends(
+        &self,
+        drawing: &Drawing,
+        ends: &DeadEnds,
+        (mildest, holds): (Option<Severity>, &dyn Fn(ContourKey) -> bool),
+        report: &mut Report,
+    ) {
+        report.count(Rule::LostPocket, mildest, ends.count(holds));
         // Only the first ones are reported.
         let most = report.room(Rule::LostPocket, mildest);
-        for (key, walls, left) in ends.first(most, has_sides) {
+        for (key, walls, left) in ends.first(most, holds) {
             if let Some(outlook) = self.outlook(drawing, key)
                 && let Some(place) = outlook.place(left.index)
             {

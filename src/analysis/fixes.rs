@@ -3,7 +3,7 @@
 use super::Analysis;
 use super::repair::{self, Wanted};
 use crate::drawing::{Drawing, DrawingEdit, EntityId};
-use crate::finding::{Detail, Finding, Fix, FixKind, Place, Rule};
+use crate::finding::{Finding, Fix, FixKind, Place, Rule};
 use crate::rules::{CONTOUR_RULES, LOCAL_RULES, Observation, PAIR_RULES, Wall, small_radius};
 
 impl Analysis {
@@ -72,11 +72,6 @@ impl Analysis {
         let (key, index) = self.chains.index_of(at.0, at.1)?;
         let outlook = self.outlook(drawing, key)?;
         if let Some(rule) = LOCAL_RULES.iter().find(|local| local.rule == finding.rule) {
-            // A hint that stands for many corners is not the place to mend one of them.
-            if matches!(finding.detail, Detail::SharpCorner { count: Some(count), .. } if count > 1)
-            {
-                return None;
-            }
             return Some((rule.fixes)(&outlook, Observation::at(index)));
         }
         if let Some(rule) = CONTOUR_RULES.iter().find(|rule| rule.rule == finding.rule) {

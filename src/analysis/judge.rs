@@ -2,7 +2,7 @@
 
 use super::notable::{Counted, Kind, Notability, TightArc};
 use super::report::{Report, Tally};
-use super::{Analysis, electrode};
+use super::{Analysis, electrode, together};
 use crate::drawing::{ContourKey, Drawing, EntityId, Role};
 use crate::finding::{Detail, Finding, NoFix, Place, Rule, Severity, Side, SmallRadius};
 use crate::rules::{CONTOUR_RULES, ContourRule, Outlook, units};
@@ -64,7 +64,17 @@ impl Analysis {
     }
 
     pub(super) fn report(&mut self, drawing: &Drawing, limit: usize) -> Report {
-        let mut report = Report::new(self.settings.clone(), limit);
+        self.gathered(drawing, Report::new(self.settings.clone(), limit))
+    }
+
+    /// Every finding by itself, where one may stand for several.
+    pub(super) fn each_finding(&mut self, drawing: &Drawing) -> Vec<Finding> {
+        let mut report = Report::new(self.settings.clone(), usize::MAX);
+        report.name_each();
+        self.gathered(drawing, report).finish().0
+    }
+
+    fn gathered(&mut self, drawing: &Drawing, mut report: Report) -> Report {
         if self.is_vast(drawing) {
             report.doubt_unit();
         }
@@ -105,7 +115,7 @@ impl Analysis {
         );
         self.pairs = pairs;
         self.report_fits(drawing, &mut report);
-        self.report_dead_ends(drawing, &mut report);
+        self.report_dead_ends(drawing, &|key| side_of(self, key), &mut report);
         self.report_set_aside(drawing, &mut report);
         if self.settings.side != SideSetting::Both || self.stated > 0 {
             let ordered = self.in_machining_order(drawing).to_vec();
@@ -173,6 +183,9 @@ impl Analysis {
         let of_rules = told
             .clone()
             .map(|(key, it)| (key, it, &it.counts.local[..]));
+        for (&(rule, mildest), &count) in &sums.stood_for {
+            report.stand_for(rule, mildest, count);
+        }
         tell(&sums.local, of_rules, report, |key, counted, report| {
             if let Some((known, outlook)) = self.known.get(&key).zip(self.outlook(drawing, key)) {
                 known.report(&outlook, counted.side, report);
@@ -216,7 +229,8 @@ impl Analysis {
             && !is_middle
             && let Some(known) = self.known.get(&key)
         {
-            counted.counts.local = known.counts(&outlook, side, open_is_an_error);
+            (counted.counts.local, counted.counts.stood_for) =
+                known.counts(&outlook, side, open_is_an_error);
         }
         // An open contour with a side is meant to be open.
         if what.as_a_whole && side.is_none() {
@@ -245,6 +259,19 @@ impl Analysis {
         let doubled = self.pairs.doubled(&outlook);
         for rule in CONTOUR_RULES {
             let mildest = (rule.mildest)(&self.settings);
+            let in_all = sums.get(&(rule.rule, mildest)).copied().unwrap_or(0);
+            if in_all >= rule.many && doubled.is_empty() && !report.names_each() {
+                let met = keys.clone().filter_map(outlook);
+                let met: Vec<Outlook> = met.filter(|outlook| holds(rule, outlook)).collect();
+                report.count(rule.rule, mildest, 1);
+                report.weigh(rule.rule, mildest, in_all.saturating_sub(1));
+                if !report.is_full(rule.rule, mildest)
+                    && let Some((place, detail, related)) = together::of_contours(rule, &met)
+                {
+                    report.add(rule.rule, mildest, place, detail, related);
+                }
+                continue;
+            }
             // A contour that is drawn twice is reported as a duplicate.
             let is_doubled = |outlook: &Outlook| {
                 let mut pieces = outlook.contour.pieces.iter();

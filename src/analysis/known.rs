@@ -2,8 +2,9 @@
 
 use super::notable::Kind;
 use super::report::Report;
+use super::together::of_observations;
 use crate::drawing::{Contour, ContourIndex, Drawing, Role};
-use crate::finding::{Finding, Severity, Side};
+use crate::finding::{Detail, Finding, Place, Rule, Severity, Side};
 use crate::rules::lost_pocket::Checked;
 use crate::rules::{AtHand, LOCAL_RULES, Limits, LocalRule, Observation, Outlook};
 use crate::settings::Effective;
@@ -161,21 +162,51 @@ impl Known {
         !observations.all(Vec::is_empty)
     }
 
-    /// The number of findings of each kind, rule by rule. `open_is_an_error` where an open contour is reported as one.
+    /// The number of findings of each kind, rule by rule; and of those that another one of the contour stands for.
+    /// `open_is_an_error` where an open contour is reported as one.
     pub(crate) fn counts(
         &self,
         outlook: &Outlook,
         wire_side: Option<Side>,
         open_is_an_error: bool,
-    ) -> Vec<(Kind, usize)> {
+    ) -> (Vec<(Kind, usize)>, Vec<(Kind, usize)>) {
+        let (mut own, mut stood_for) = (Vec::new(), Vec::new());
         let of_rules = self.of_rules(outlook, wire_side, open_is_an_error);
-        let counts = of_rules.filter(|of_rule| of_rule.count > 0);
-        counts
-            .map(|of_rule| {
-                let count = if of_rule.is_one { 1 } else { of_rule.count };
-                ((of_rule.rule.rule, of_rule.mildest), count)
-            })
-            .collect()
+        for of_rule in of_rules.filter(|of_rule| of_rule.count > 0) {
+            let kind = (of_rule.rule.rule, of_rule.mildest);
+            let is_one = of_rule.is_one || of_rule.rule.together.is_some();
+            own.push((kind, if is_one { 1 } else { of_rule.count }));
+            if !of_rule.is_one && is_one && of_rule.count > 1 {
+                stood_for.push((kind, of_rule.count - 1));
+            }
+        }
+        (own, stood_for)
+    }
+
+    /// What the local rules of which one finding stands for many have seen at a segment: each by itself.
+    pub(crate) fn each_at(
+        &self,
+        outlook: &Outlook,
+        wire_side: Option<Side>,
+        index: usize,
+    ) -> Vec<(Rule, Place, Detail)> {
+        let of_rules = self.of_rules(outlook, wire_side, false);
+        let together = of_rules.filter(|of_rule| of_rule.rule.together.is_some());
+        let mut found = Vec::new();
+        for of_rule in together {
+            let run = self.index.runs_over(index..index + 1).next();
+            let observations = run.and_then(|run| of_rule.observations.get(run));
+            let here = observations.into_iter().flatten().find(|one| {
+                one.index as usize == index
+                    && is_of(wire_side, one)
+                    && holds(of_rule.rule, outlook, one)
+            });
+            found.extend(here.and_then(|&one| {
+                let detail = (of_rule.rule.detail)(outlook, one, of_rule.is_one.then_some(1))?;
+                Some((of_rule.rule.rule, outlook.place(index)?, detail))
+            }));
+        }
+        found
     }
 
     /// Adds the findings of the local rules in this contour, which have been counted, rule by rule, in order of travel.
@@ -192,6 +223,20 @@ impl Known {
             let concerned = observations.iter().flatten().filter(|observation| {
                 is_of(wire_side, observation) && holds(rule, outlook, observation)
             });
+            if let Some(together) = rule.together
+                && !is_one
+                && count > 1
+                && !report.names_each()
+            {
+                let concerned: Vec<Observation> = concerned.copied().collect();
+                if let Some((place, detail, related)) =
+                    of_observations(outlook, rule, together, concerned)
+                    && !report.is_full(rule.rule, mildest)
+                {
+                    report.add(rule.rule, mildest, place, detail, related);
+                }
+                continue;
+            }
             for &observation in concerned.take(if is_one { 1 } else { usize::MAX }) {
                 if report.is_full(rule.rule, mildest) {
                     break;

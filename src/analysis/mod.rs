@@ -34,6 +34,7 @@ mod said_twice;
 mod search;
 mod splice;
 mod suppressed;
+mod together;
 mod told;
 mod twice;
 mod within;

@@ -56,6 +56,8 @@ pub(super) struct TightArc {
 pub(super) struct Counts<T> {
     pub(super) arcs: T,
     pub(super) local: T,
+    /// Those of local rules that another finding of the contour stands for.
+    pub(super) stood_for: T,
     pub(super) whole: T,
 }
 
@@ -75,6 +77,7 @@ impl Sums {
         for (sums, counts) in [
             (&mut self.arcs, &counted.counts.arcs),
             (&mut self.local, &counted.counts.local),
+            (&mut self.stood_for, &counted.counts.stood_for),
             (&mut self.whole, &counted.counts.whole),
         ] {
             for &(kind, count) in counts {

@@ -186,6 +186,9 @@ impl Analysis {
             None => self.clone().findings(drawing, usize::MAX).0.into(),
         };
         for rule in rules {
+            let each = rule == Rule::ArcAsChords;
+            let each = each.then(|| self.clone().each_finding(drawing));
+            let findings = each.as_deref().unwrap_or(&findings);
             let of_rule = findings.iter().filter(|finding| finding.rule == rule);
             let fixes = of_rule.filter_map(|finding| {
                 let crate::finding::Place::Segment { entity, segment } = finding.place else {

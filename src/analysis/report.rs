@@ -14,6 +14,7 @@ pub(crate) struct Report {
     count: usize,
     tally: Tally,
     unit_is_in_doubt: bool,
+    names_each: bool,
 }
 
 /// The numbers of findings, by severity and by rule.
@@ -95,6 +96,24 @@ impl Report {
             count: 0,
             tally: Tally::default(),
             unit_is_in_doubt: false,
+            names_each: false,
+        }
+    }
+
+    /// Has every finding named by itself: no other one of its contour stands for it.
+    pub(crate) fn name_each(&mut self) {
+        self.names_each = true;
+    }
+
+    pub(crate) fn names_each(&self) -> bool {
+        self.names_each
+    }
+
+    /// Counts findings that another one stands for, or that are named by themselves, too.
+    pub(crate) fn stand_for(&mut self, rule: Rule, mildest: Option<Severity>, count: usize) {
+        match self.names_each {
+            true => self.count(rule, mildest, count),
+            false => self.weigh(rule, mildest, count),
         }
     }
 

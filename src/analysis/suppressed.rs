@@ -39,7 +39,7 @@ impl Analysis {
     }
 
     pub(super) fn judged(&mut self, drawing: &Drawing) -> Judged {
-        let (mut all, _) = self.report(drawing, usize::MAX).finish();
+        let mut all = self.each_finding(drawing);
         self.give_reasons(drawing, &mut all);
         let mut used: BTreeSet<(String, Rule)> = BTreeSet::new();
         let mut used_marks: BTreeSet<(EntityId, Rule)> = BTreeSet::new();
@@ -71,7 +71,7 @@ impl Analysis {
             .chain(self.useless_marks(drawing, &used_marks))
             .collect();
         Judged {
-            findings,
+            findings: self.together_again(drawing, findings),
             suppressed,
             useless,
         }

@@ -9,11 +9,16 @@ use crate::dxf;
 use crate::job::Target;
 use crate::picture::Image;
 use crate::program::{Format, Language};
+use crate::settings::Effective;
 use std::path::Path;
 
-/// The format of a program: the stated one, else that of the target's ending, else 3B. An error where the ending is
-/// that of another kind of file.
-pub(super) fn format(stated: Option<Format>, target: Option<&Path>) -> Result<Format, Failure> {
+/// The format of a program: the stated one, else that of the target's ending, else that of the settings, else 3B. An
+/// error where the ending is that of another kind of file.
+pub(super) fn format(
+    stated: Option<Format>,
+    target: Option<&Path>,
+    settings: &Effective,
+) -> Result<Format, Failure> {
     let ending = target.map(ending_of).unwrap_or_default();
     let stated = stated.or_else(|| Format::of_ending(&ending));
     if let (None, Some(target)) = (stated, target) {
@@ -24,11 +29,16 @@ pub(super) fn format(stated: Option<Format>, target: Option<&Path>) -> Result<Fo
             .collect();
         expect(target, say!(a_program), &endings)?;
     }
-    let format = stated.unwrap_or(Format::ThreeB);
+    let format = stated.unwrap_or_else(|| of_settings(settings));
     match target {
         Some(target) => expect(target, format.title(), format.endings()).map(|()| format),
         None => Ok(format),
     }
+}
+
+/// The format of programs where nothing else says it.
+pub(super) fn of_settings(settings: &Effective) -> Format {
+    settings.format.map_or(Format::ThreeB, Format::from)
 }
 
 /// An error where the ending of a conversion's target is that of something else.

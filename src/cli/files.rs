@@ -5,15 +5,16 @@ use super::report::Row;
 use super::{Failure, output};
 use crate::disk::{self, Seen, Unchanged, ending_of, plain};
 use crate::document::{Document, FileKind, Snapshot};
-use crate::drawing::Unit;
+use crate::drawing::{Role, Unit};
 use crate::finding;
 use crate::finding::{Detail, Finding, Place, Severity};
 use crate::message::readable;
 use crate::program::{self, Language};
 use crate::protocol::FindingData;
 use crate::settings;
-use crate::settings::{Effective, Settings, SettingsError};
+use crate::settings::{Effective, Origin, Origins, Settings, SettingsError};
 use crate::text::{Again, SourceText, Writing};
+use std::collections::BTreeMap;
 use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -103,6 +104,9 @@ fn kind_and_settings(
 ) -> Result<(FileKind, Arc<Effective>, Vec<Row>), Failure> {
     if path.is_dir() {
         return Err(Failure::of(path, say!(a_folder_is_no_file)));
+    }
+    if let Err(error) = std::fs::metadata(path) {
+        return Err(Failure::of(path, plain(&error)));
     }
     let kind = match kind_of(path, common) {
         Ok(kind) => kind,
@@ -199,6 +203,30 @@ impl Opened {
     }
 }
 
+/// What a drawing without any contour that is cut holds, in words; `None` for all others. An open contour that waits for its side
+/// is one, and has a finding.
+pub(crate) fn holds_no_contour(document: &Document) -> Option<String> {
+    let snapshot = document.snapshot()?;
+    if snapshot
+        .outlines
+        .iter()
+        .any(|outline| outline.role != Role::Ignore)
+    {
+        return None;
+    }
+    let mut kinds: BTreeMap<&str, usize> = BTreeMap::new();
+    for (_, entity) in snapshot.drawing.entities() {
+        *kinds.entry(entity.kind.name()).or_default() += 1;
+    }
+    let listed: Vec<String> = (kinds.iter())
+        .map(|(kind, count)| format!("{count} {kind}"))
+        .collect();
+    Some(match listed.is_empty() {
+        true => say!(no_entity_that_could_be_cut).into(),
+        false => say!(no_contour_among, listed.join(say!(comma))),
+    })
+}
+
 /// How much of a file is read to find its kind.
 const HEAD: u64 = 64 * 1024;
 
@@ -262,9 +290,10 @@ fn settings_for(
     last: &Settings,
 ) -> Result<(Effective, Vec<Row>), Failure> {
     let mut settings = Settings::default();
-    let (mut rows, mut sources) = (Vec::new(), Vec::new());
-    let project = project_file(path);
-    for file in project.iter().chain(&common.config) {
+    let (mut rows, mut sources, mut levels) = (Vec::new(), Vec::new(), Vec::new());
+    let project = project_file(path).map(|file| (file, Origin::File));
+    let config = common.config.clone().map(|file| (file, Origin::Config));
+    for (file, origin) in project.iter().chain(&config) {
         let bytes = settings::read_file(file).map_err(|reason| Failure::of(file, reason))?;
         let (bytes, writing) = Writing::read(bytes);
         say_encoding(writing);
@@ -276,6 +305,7 @@ fn settings_for(
         let by_itself = errors.into_iter().filter(|error| !error.of_levels);
         rows.extend(by_itself.map(|error| settings_row(file, &source, error)));
         sources.push((file, text, source));
+        levels.push((level, *origin));
     }
     let of_files = settings.contradictions(&|_| None);
     let settings = settings.overlaid(last);
@@ -301,7 +331,16 @@ fn settings_for(
     let name = path
         .file_name()
         .map(|name| name.to_string_lossy().into_owned());
-    Ok((Effective::of_document(&settings, name), rows))
+    let levels = levels.iter().map(|(level, origin)| (level, *origin));
+    let origins = Origins::of(levels.chain([(last, Origin::Option)]));
+    let effective = Effective::of_document(&settings, name);
+    Ok((
+        Effective {
+            origins,
+            ..effective
+        },
+        rows,
+    ))
 }
 
 /// An error in what options have set; what may not be meant is only said, once for all files.

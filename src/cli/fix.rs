@@ -7,9 +7,10 @@ use super::report::{self, Row};
 use super::{Failure, Verdict, ending, files};
 use crate::disk::Seen;
 use crate::document::{Document, Source};
-use crate::finding::{Edit, Finding, Fix, Place, Rule, Severity};
+use crate::finding::{Detail, Edit, Finding, Fix, FixKind, Place, Rule, Severity};
 use crate::job::{self, Repairs};
 use crate::message::{readable, said};
+use crate::protocol::FindingData;
 use crate::text::Writing;
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -19,14 +20,17 @@ use std::path::{Path, PathBuf};
 Examples:
   wedm fix plate.dxf --diff                what would change
   wedm fix plate.dxf -o fixed.dxf
+  wedm fix --in-place drawings/
   wedm fix plate.dxf --in-place --correction 0.12")]
 pub(crate) struct Arguments {
-    #[arg(value_name = "PATH")]
-    path: PathBuf,
+    #[arg(value_name = "PATH", required = true)]
+    paths: Vec<PathBuf>,
     #[command(flatten)]
     target: Target,
     #[arg(long, requires = "output")]
     overwrite: bool,
+    #[arg(short, long)]
+    quiet: bool,
     #[command(flatten)]
     common: Common,
 }
@@ -64,8 +68,33 @@ const LISTED: usize = 100;
 /// If more findings than this are left, they are counted by rule.
 const LEFT: usize = 8;
 
+/// At most this many repairs have a line of their own: each is worked out once more for it.
+const LINES: usize = 40;
+
 pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
-    let path = &arguments.path;
+    let found = files::search(&arguments.paths, &files::Search::default());
+    let mut verdict = Verdict::Clean;
+    for Failure(sentence) in &found.failures {
+        output::complain(sentence);
+        verdict = Verdict::Failed;
+    }
+    if let ([_, _, ..], Some(_)) = (&found.files[..], &arguments.target.output) {
+        let files = say!(files, found.files.len());
+        return Err(Failure(say!(several_files_for_one_output, files)));
+    }
+    for path in &found.files {
+        match fix(path, arguments) {
+            Ok(own) => verdict = verdict.max(own),
+            Err(Failure(sentence)) => {
+                output::complain_once(&sentence);
+                verdict = Verdict::Failed;
+            }
+        }
+    }
+    Ok(verdict)
+}
+
+fn fix(path: &Path, arguments: &Arguments) -> Result<Verdict, Failure> {
     if arguments.target.in_place {
         output::refuse_irregular(path)?;
     }
@@ -79,10 +108,16 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     if let Some(target) = &arguments.target.output {
         ending::as_read(&opened, target)?;
     }
+    let input = path;
     let path = files::shown(path);
-    let repair = repair(path, opened.document)?;
-    deliver(arguments, &repair, opened.seen.as_ref(), opened.writing)?;
-    summarise(path, &repair);
+    let repair = repair(path, opened.document, !arguments.quiet)?;
+    let target = (input, arguments);
+    deliver(target, &repair, opened.seen.as_ref(), opened.writing)?;
+    if !arguments.quiet {
+        summarise(path, &repair);
+        go_on(target, &repair);
+        output::say_against(&repair.document);
+    }
     let errors_left = repair
         .after
         .iter()
@@ -103,6 +138,8 @@ struct Repair {
     /// The findings of a program that several repairs explain equally well: the line of each, and the repairs.
     choices: Vec<(usize, String)>,
     rounds: usize,
+    /// A line for each repair, as far as they were worked out.
+    made: Vec<String>,
 }
 
 impl Repair {
@@ -116,7 +153,7 @@ impl Repair {
 }
 
 /// Applies all fixes until none is left, and proves that the result is no worse.
-fn repair(path: &Path, mut document: Document) -> Result<Repair, Failure> {
+fn repair(path: &Path, mut document: Document, lists: bool) -> Result<Repair, Failure> {
     if let Source::Dxf(text) = document.source()
         && text.is_binary()
     {
@@ -127,6 +164,10 @@ fn repair(path: &Path, mut document: Document) -> Result<Repair, Failure> {
         .text()
         .map_or_else(Vec::new, |text| text.bytes().to_vec());
     let mut rounds = 0;
+    let planned = match lists {
+        true => planned(path, &document),
+        false => Vec::new(),
+    };
     if let Some(Repairs::OfText {
         repaired,
         rounds: of_all,
@@ -138,6 +179,24 @@ fn repair(path: &Path, mut document: Document) -> Result<Repair, Failure> {
     let after = report::rows(path, &mut document);
     let refused = refused(path, &document);
     let choices = choices(&document);
+    let name = |row: &Row| {
+        let FindingData {
+            handle, segment, ..
+        } = &row.data;
+        let line = handle.is_none().then_some(row.span.line);
+        (
+            row.rule,
+            handle.clone(),
+            *segment,
+            line,
+            row.message.clone(),
+        )
+    };
+    let left: Vec<_> = after.iter().map(name).collect();
+    let made = planned
+        .into_iter()
+        .filter(|(row, _)| !left.contains(&name(row)));
+    let made = made.map(|(_, line)| line).collect();
     let repair = Repair {
         bytes_before,
         before,
@@ -146,6 +205,7 @@ fn repair(path: &Path, mut document: Document) -> Result<Repair, Failure> {
         refused,
         choices,
         rounds,
+        made,
     };
     let errors = |rows: &[Row]| {
         rows.iter()
@@ -159,6 +219,62 @@ fn repair(path: &Path, mut document: Document) -> Result<Repair, Failure> {
         ));
     }
     Ok(repair)
+}
+
+/// What will be repaired, as a line for each: the place, and what becomes of it.
+fn planned(path: &Path, document: &Document) -> Vec<(Row, String)> {
+    let findings = document.all_findings();
+    let is_of_program = document.program().is_some();
+    let may_go = |finding: &&Finding| {
+        let mut rules = repaired_rules().into_iter();
+        is_of_program || rules.any(|(rule, _)| rule == finding.rule)
+    };
+    let line = |finding: &Finding| {
+        let fixes = document.fixes(finding);
+        let fix = fixes
+            .into_iter()
+            .find(|fix| fix.preferred && fix.in_fix_all)?;
+        let row = report::row(path, document, finding);
+        let unit_mm = document.unit_mm();
+        let place = match (&row.data.handle, row.data.segment) {
+            (Some(handle), Some(segment)) => say!(segment, readable(handle), segment),
+            (Some(handle), None) => readable(handle).into_owned(),
+            _ => say!(line_of_a_repair, row.span.line),
+        };
+        let what = match (&fix.kind, &finding.detail) {
+            (FixKind::Refillet { radius, moved, .. }, Detail::SmallRadius(numbers)) => say!(
+                an_arc_becomes_larger,
+                numbers.radius * unit_mm,
+                radius * unit_mm,
+                moved * unit_mm
+            ),
+            _ => fix.kind.title(unit_mm),
+        };
+        Some((row, say!(says, place, what)))
+    };
+    findings
+        .iter()
+        .filter(may_go)
+        .take(LINES)
+        .filter_map(line)
+        .collect()
+}
+
+/// The command that comes next, with the name of the file that was written.
+fn go_on((input, arguments): (&Path, &Arguments), repair: &Repair) {
+    let written = arguments.target.output.as_deref();
+    let stdout = Path::new(output::STDIN);
+    let file = written.or(arguments.target.in_place.then_some(input));
+    let Some(file) = file.filter(|file| *file != stdout) else {
+        return;
+    };
+    let has_errors = (repair.after.iter()).any(|row| row.severity == Severity::Error);
+    let word = output::word(file);
+    let next = match has_errors || repair.document.program().is_some() {
+        true => say!(next_is_checking, word),
+        false => say!(next_is_the_program, word),
+    };
+    output::say(&styled(output::NOTE, next));
 }
 
 /// Findings with a safe fix that the text cannot take, each with the reason.
@@ -227,24 +343,19 @@ fn choices(document: &Document) -> Vec<(usize, String)> {
 }
 
 fn deliver(
-    arguments: &Arguments,
+    (path, arguments): (&Path, &Arguments),
     repair: &Repair,
     seen: Option<&Seen>,
     writing: Writing,
 ) -> Result<(), Failure> {
     let target = &arguments.target;
     if target.diff {
-        return print_diff(
-            &arguments.path,
-            &repair.bytes_before,
-            repair.bytes(),
-            writing,
-        );
+        return print_diff(path, &repair.bytes_before, repair.bytes(), writing);
     }
     let bytes = writing.written(repair.bytes());
     match &target.output {
         Some(path) => output::write(Some(path), &bytes, arguments.overwrite),
-        None if repair.is_changed() => output::write_over(&arguments.path, seen, &bytes),
+        None if repair.is_changed() => output::write_over(path, seen, &bytes),
         None => Ok(()),
     }
 }
@@ -255,6 +366,7 @@ fn summarise(path: &Path, repair: &Repair) {
         // One finding stands for all that lie in one place.
         let count = |row: &Row| match rule {
             Rule::DuplicateEntity => row.related.len().max(1),
+            Rule::ArcAsChords => row.related.len() + 1,
             _ => 1,
         };
         let own = rows.iter().filter(|row| row.rule == rule);
@@ -269,6 +381,9 @@ fn summarise(path: &Path, repair: &Repair) {
         .iter()
         .all(|&(rule, _)| of_rule(&repair.before, rule) == 0);
     let name = output::name(path);
+    for line in &repair.made {
+        output::say(&say!(says, name, line));
+    }
     if !repaired.is_empty() {
         let rounds = if repair.rounds > 1 {
             say!(in_rounds, repair.rounds)

@@ -50,9 +50,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     if let Some(target) = target {
         output::refuse_input(target, path)?;
     }
-    let format = ending::format(arguments.format, target)?;
     let (mut opened, mut snapshot) =
         files::drawing_to_use(&arguments.path, target, &arguments.common, &last)?;
+    let format = ending::format(arguments.format, target, &snapshot.settings)?;
     // Where a wire is set, too, all that is said is about the electrode.
     if format == Format::Milling
         && let Ok(milled) = opened.document.settings().milled()
@@ -116,6 +116,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
             finished.overcut
         ));
     }
+    output::say_against(document);
     Ok(Verdict::Clean)
 }
 

@@ -1,7 +1,7 @@
 //! `wedm init`: a commented `wedm.toml`, from flags or from questions.
 
 use super::{Failure, Verdict, output};
-use crate::settings::{self, FILE_NAME, shipped_profiles};
+use crate::settings::{self, Effective, FILE_NAME, shipped_profiles};
 use clap::Args;
 use std::fmt::Write;
 use std::io::{BufRead, IsTerminal};
@@ -11,7 +11,7 @@ use std::path::PathBuf;
 #[command(after_help = "\
 Examples:
   wedm init
-  wedm init --wire 0.18 --gap 0.01 --machine 3b
+  wedm init --wire 0.18 --gap 0.01 --side auto --machine 3b
   wedm init --wire 0.25 --gap 0.03 --passes 3 --machine robofil drawings")]
 pub(crate) struct Arguments {
     #[arg(value_name = "DIR", default_value = ".")]
@@ -26,11 +26,16 @@ pub(crate) struct Arguments {
     stock: f64,
     #[arg(long, value_name = "N", value_parser = passes)]
     passes: Option<u8>,
+    #[arg(long, value_name = "SIDE", value_parser = SIDES)]
+    side: Option<String>,
     #[arg(long, value_parser = machines())]
     machine: Option<String>,
     #[arg(long)]
     overwrite: bool,
 }
+
+/// Where the wire runs, the first one offered.
+const SIDES: [&str; 4] = ["auto", "opening", "punch", "both"];
 
 fn passes(text: &str) -> Result<u8, String> {
     let count = text.parse().ok().filter(|count| (1..=9).contains(count));
@@ -66,11 +71,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         defaults.wire_diameter(),
     )?;
     let gap = number(arguments.gap, say!(spark_gap_mm), defaults.gap())?;
-    let passes = match arguments.passes {
-        Some(passes) => passes,
-        None if asks => ask(say!(passes_along_each_contour), "1", passes)?,
-        None => 1,
-    };
     let names: Vec<&str> = std::iter::once("3b").chain(shipped_profiles()).collect();
     let machine = match &arguments.machine {
         Some(machine) => machine.clone(),
@@ -84,10 +84,30 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         )?,
         None => "3b".into(),
     };
+    let side = match &arguments.side {
+        Some(side) => Some(side.clone()),
+        None if asks => Some(ask(
+            &say!(side_of_the_wire, SIDES.join(", ")),
+            SIDES[0],
+            |text| {
+                let known = SIDES.contains(&text).then(|| text.to_owned());
+                known.ok_or_else(|| SIDES.join(", "))
+            },
+        )?),
+        None => None,
+    };
+    let passes = match arguments.passes {
+        Some(passes) => passes,
+        None if asks => ask(say!(passes_along_each_contour), "1", passes)?,
+        None => 1,
+    };
     let mut set = vec![
         ("wire-diameter", wire.to_string()),
         ("gap", gap.to_string()),
     ];
+    if let Some(side) = side {
+        set.push(("side", format!("\"{side}\"")));
+    }
     if passes > 1 {
         let fine_gap = arguments.fine_gap.unwrap_or(gap / 2.0);
         let skims = usize::from(passes - 1);
@@ -99,6 +119,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         set.push(("passes.gaps", list(&gaps)));
     }
     if machine != "3b" {
+        set.push(("program.format", "\"iso\"".to_owned()));
         set.push(("program.profile", format!("\"{machine}\"")));
     }
     let schema = arguments.folder.join(SCHEMA_NAME);
@@ -107,7 +128,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         false => String::new(),
     };
     let text = head + &file(&set);
-    let (_, errors) = settings::from_toml(&text);
+    let (written, errors) = settings::from_toml(&text);
     if let Some(error) = errors.first() {
         return Err(Failure(say!(
             not_written_as_it_would_be_refused,
@@ -116,6 +137,25 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     }
     output::write(Some(&path), text.as_bytes(), true)?;
     output::say(&say!(written_file, output::name(&path)));
+    let is_given = [arguments.wire.is_some(), arguments.gap.is_some()];
+    for ((key, value), given) in set
+        .iter()
+        .zip(is_given.into_iter().chain(std::iter::repeat(true)))
+    {
+        let why = match (given, asks) {
+            (true, false) => say!(an_option),
+            (_, true) => say!(as_answered),
+            (false, false) => say!(the_default),
+        };
+        output::say(&say!(a_key_and_its_value, key, value, why));
+    }
+    let effective = Effective::of(&written);
+    let corrections = effective.each_correction();
+    let listed: Vec<String> = corrections.iter().map(|mm| format!("{mm:.4}")).collect();
+    output::say(&match listed.len() {
+        1 => say!(the_correction_that_follows, listed.join(" / "), wire, gap),
+        _ => say!(the_corrections_that_follow, listed.join(" / ")),
+    });
     Ok(Verdict::Clean)
 }
 
@@ -147,27 +187,51 @@ fn ask<T>(
     }
 }
 
-/// Every key with its meaning; set keys with their value, the others commented out with their default.
+/// The keys that are set on top, each with its meaning; the others behind them, short, commented out with their default.
 fn file(set: &[(&str, String)]) -> String {
     let mut text = format!("# {}\n", say!(settings_of_wedm));
-    let mut section = "";
     let rows = settings::rows();
-    for row in rows.iter().filter(|row| !row.key.contains("NAME")) {
-        let (of, key) = row.key.rsplit_once('.').unwrap_or(("", &row.key));
-        if of != section {
-            section = of;
+    let rows: Vec<_> = rows
+        .iter()
+        .filter(|row| !row.key.contains("NAME"))
+        .collect();
+    let parts = |key: &str| {
+        let (of, key) = key.rsplit_once('.').unwrap_or(("", key));
+        (of.to_owned(), key.to_owned())
+    };
+    let mut sections: Vec<String> = Vec::new();
+    for row in &rows {
+        let (section, _) = parts(&row.key);
+        if !sections.contains(&section) {
+            sections.push(section);
+        }
+    }
+    let is_set = |section: &str| set.iter().any(|(key, _)| parts(key).0 == section);
+    // Those that hold something come first; keys of no table stand before all tables.
+    sections.sort_by_key(|section| (!section.is_empty(), !is_set(section)));
+    for section in sections {
+        if !section.is_empty() {
             let _ = write!(text, "\n[{section}]\n");
         }
-        let value = set.iter().find(|(name, _)| *name == row.key);
-        let _ = match (value, &row.default) {
-            (Some((_, value)), _) => {
-                write!(text, "\n# {}\n{key} = {value}\n", row.first_sentence())
-            }
-            (None, Some(default)) => {
-                write!(text, "\n# {}\n# {key} = {default}\n", row.first_sentence())
-            }
-            (None, None) => write!(text, "\n# {key}: {}\n", row.first_sentence()),
+        let of_section = || rows.iter().filter(|row| parts(&row.key).0 == section);
+        let value = |key: &str| {
+            set.iter()
+                .find(|(name, _)| *name == key)
+                .map(|(_, value)| value)
         };
+        for row in of_section() {
+            if let Some(value) = value(&row.key) {
+                let key = parts(&row.key).1;
+                let _ = write!(text, "# {}\n{key} = {value}\n", row.first_sentence());
+            }
+        }
+        for row in of_section().filter(|row| value(&row.key).is_none()) {
+            let key = parts(&row.key).1;
+            let _ = match &row.default {
+                Some(default) => writeln!(text, "# {key} = {default}"),
+                None => writeln!(text, "# {key}: {}", row.first_sentence()),
+            };
+        }
     }
     text
 }

@@ -12,7 +12,7 @@ use crate::finding::Severity;
 use crate::geometry::Bounds;
 use crate::message::readable;
 use crate::protocol::{
-    Contours, ContoursContour, InspectedEntity, InspectedSegment, Inspection, SegmentKind,
+    Against, Contours, ContoursContour, InspectedEntity, InspectedSegment, Inspection, SegmentKind,
 };
 use clap::Args;
 use serde::Serialize;
@@ -41,6 +41,8 @@ struct Printed {
     #[serde(flatten)]
     inspection: Inspection,
     diagnostics: Vec<Row>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    against: Option<Against>,
     #[serde(skip)]
     contours: Vec<Measured>,
     /// Which wire is thin enough, for people.
@@ -128,6 +130,7 @@ impl Printed {
         Printed {
             inspection: inspection.unwrap_or(nothing),
             diagnostics,
+            against: None,
             contours: Vec::new(),
             wire: None,
         }
@@ -180,6 +183,7 @@ fn inspected(arguments: &Arguments, mut opened: Opened) -> Printed {
     let wire = largest.or_else(|| needs_gap.then(|| say!(the_largest_wire_needs_the_gap).into()));
     let mut printed = Printed {
         wire,
+        against: Against::of(&opened.document),
         ..Printed::of(inspection, diagnostics)
     };
     if arguments.output == Form::Text
@@ -266,7 +270,15 @@ fn table(printed: &Printed) -> String {
     } else {
         say!(in_mm_whatever_the_drawing_s_unit, unit)
     };
-    text + &say!(all_in_units, entities, segments, units, result) + "\n"
+    push_line(
+        &mut text,
+        say!(all_in_units, entities, segments, units, result),
+    );
+    if let Some(against) = &printed.against {
+        let line = say!(judged_against, against.on_a_terminal());
+        push_line(&mut text, styled(output::FAINT, line));
+    }
+    text
 }
 
 fn heading(entity: &InspectedEntity) -> String {

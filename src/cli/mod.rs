@@ -13,6 +13,7 @@ mod convert;
 mod demo;
 mod draw;
 mod ending;
+mod excerpt;
 mod explain;
 mod files;
 mod fit;
@@ -32,7 +33,9 @@ mod report;
 mod serve;
 mod simulate;
 
-use crate::message::{Asker, Language, help_beside, is_hidden, readable, speak};
+use crate::disk::ending_of;
+use crate::document::FileKind;
+use crate::message::{Asker, Language, help_beside, is_hidden, readable, speak, speak_of_options};
 use clap::builder::PossibleValue;
 use clap::error::ErrorKind;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
@@ -163,6 +166,13 @@ fn command() -> clap::Command {
     help::explained(CommandLine::command())
 }
 
+/// A file where a command is expected.
+fn file_for_a_command(words: &[OsString]) -> Option<&Path> {
+    let first = Path::new(words.get(1)?);
+    let is_file = FileKind::of_ending(&ending_of(first)).is_some() || first.is_file();
+    is_file.then_some(first)
+}
+
 /// Runs the command of this process.
 pub fn run() -> ExitCode {
     let words = words();
@@ -177,6 +187,12 @@ pub fn run() -> ExitCode {
             let code = output::print(shown).map_or(Verdict::Failed, |()| Verdict::Clean);
             std::process::exit(code.code().into());
         }
+        if let Some(file) =
+            file_for_a_command(&words).filter(|_| error.kind() == ErrorKind::InvalidSubcommand)
+        {
+            output::complain(&say!(a_file_is_no_command, output::word(file)));
+            std::process::exit(Verdict::Failed.code().into());
+        }
         let translated = help::refusal(&error).filter(|_| error.use_stderr());
         // Words in the message may be file names that a shell has put there.
         let has_hidden = std::env::args_os().any(|word| word.to_string_lossy().contains(is_hidden));
@@ -188,6 +204,9 @@ pub fn run() -> ExitCode {
         }
         error.exit()
     });
+    if !matches!(arguments.command, None | Some(Command::Serve(_))) {
+        speak_of_options();
+    }
     let outcome = match arguments.command {
         None if arguments.server.is_asked_by_nobody() => {
             output::print(help_beside(command().render_help().ansi().to_string()))

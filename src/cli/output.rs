@@ -2,9 +2,11 @@
 
 use super::Failure;
 use crate::disk;
+use crate::document::Document;
 use crate::finding::{Finding, Rule, Severity, Telling, sentence};
 use crate::message::{columns, is_hidden, readable};
 use crate::program::ProvedProgram;
+use crate::protocol::Against;
 use crate::toolpath::StartHole;
 use anstyle::{AnsiColor, Style};
 use serde::Serialize;
@@ -142,6 +144,14 @@ pub(crate) fn say_what_holds(warnings: &[Finding], telling: Telling) {
 /// True for the information how the tabs of a program hold.
 pub(crate) fn is_what_holds(finding: &Finding) -> bool {
     finding.rule == Rule::LeadIn && finding.severity == Severity::Information
+}
+
+/// What a drawing was judged against, or cut with, to stderr.
+pub(crate) fn say_against(document: &Document) {
+    if let Some(against) = Against::of(document) {
+        let line = say!(judged_against, against.on_a_terminal());
+        say(&styled(FAINT, line));
+    }
 }
 
 /// The failure, to stderr.

@@ -20,8 +20,8 @@ Examples:
 pub(super) struct Arguments {
     #[arg(value_name = "PATH")]
     path: PathBuf,
-    #[arg(long, default_value = "3b", value_parser = Format::of)]
-    format: Format,
+    #[arg(long, value_parser = Format::of)]
+    format: Option<Format>,
     #[arg(short, long, value_name = "FOLDER")]
     output: Option<PathBuf>,
     #[arg(long)]
@@ -48,12 +48,14 @@ pub(super) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         .beside(&arguments.common.settings_with(&arguments.program));
     let (mut opened, snapshot) =
         files::drawing_to_use(&arguments.path, None, &arguments.common, &last)?;
-    if let (Err(missing), true) = (snapshot.settings.fit(), arguments.format != Format::Milling) {
+    let format = arguments.format;
+    let format = format.unwrap_or_else(|| ending::of_settings(&snapshot.settings));
+    if let (Err(missing), true) = (snapshot.settings.fit(), format != Format::Milling) {
         return Err(Failure::of(path, say!(a_pair_needs, missing.listed())));
     }
     let document = &opened.document;
     let wanted = Wanted {
-        format: arguments.format,
+        format,
         handles: (!arguments.handle.is_empty()).then_some(&arguments.handle),
         layers: None,
         force: arguments.force,
@@ -71,7 +73,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         (None, Some(folder)) => folder.to_path_buf(),
         (None, None) => PathBuf::new(),
     };
-    let target = |part: &str| folder.join(file_name(path, part, arguments.format));
+    let target = |part: &str| folder.join(file_name(path, part, format));
     let targets: Vec<PathBuf> = made.iter().map(|part| target(&part.part)).collect();
     let parts: Vec<&str> = made.iter().map(|part| &*part.part).collect();
     refuse_one_file_for_two(&parts, &targets)?;
@@ -136,6 +138,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
             ));
         }
     }
+    output::say_against(document);
     Ok(Verdict::Clean)
 }
 

@@ -1,12 +1,13 @@
 //! Findings as rows: a file, a place in it, a rule, a sentence; each row as text with its excerpt, or as JSON.
 
-use super::output::complain;
+use super::excerpt::{Excerpt, excerpt, place};
+use super::output::{complain, styled};
 use super::{Failure, Verdict, output};
 use crate::document::Document;
 use crate::finding;
 use crate::finding::{Detail, Finding, Fix, Keep, Place, Rule, Severity};
 use crate::job::{self, Refusal};
-use crate::message::{is_hidden, readable};
+use crate::message::readable;
 use crate::program::Whereabouts;
 use crate::protocol::FindingData;
 use crate::settings;
@@ -74,6 +75,9 @@ pub(crate) struct Row {
     /// mm of the unit of `data`.
     #[serde(skip)]
     unit_mm: f64,
+    /// Of a drawing: its text says nothing to those who draw. The layer and the number of the contour.
+    #[serde(skip)]
+    drawn: Option<String>,
 }
 
 /// Another place of a finding, in the same file.
@@ -84,18 +88,6 @@ pub(crate) struct RelatedRow {
     pub(crate) span: Span,
     pub(crate) message: String,
 }
-
-/// The lines that show the fault in its context.
-#[derive(Clone, Debug)]
-struct Excerpt {
-    first_line: usize,
-    text: String,
-    /// Bytes of `text` at fault.
-    span: Range<usize>,
-}
-
-/// Longer lines (100 MB of zeros make one) are shown from near the fault on.
-const LONGEST_LINE: usize = 100;
 
 fn rule_name<S: serde::Serializer>(rule: &Rule, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_str(rule.name())
@@ -143,8 +135,7 @@ pub(crate) fn suppressed(path: &Path, document: &Document) -> Vec<Row> {
 /// Findings to stderr.
 pub(crate) fn say(path: &Path, document: &Document, findings: &[Finding]) {
     for finding in findings.iter().take(MOST) {
-        let row = row(path, document, finding).rendered();
-        output::say(&format!("{row}\n"));
+        output::say(&row(path, document, finding).shown());
     }
 }
 
@@ -224,6 +215,15 @@ fn row_at(
         data,
     );
     row.unit_mm = document.unit_mm();
+    row.drawn = document.drawing().map(|drawing| {
+        let entity = finding.place.entity().map(|(entity, _)| entity);
+        let layer = entity.and_then(|entity| drawing.get(entity));
+        let layer = layer.map(|entity| say!(on_the_layer, readable(&entity.layer)));
+        let contour = entity.and_then(|entity| document.contour_number(entity));
+        let contour = contour.map(|number| say!(contour_by_number, number));
+        let places: Vec<String> = layer.into_iter().chain(contour).collect();
+        places.join(say!(comma))
+    });
     row.related = finding
         .related
         .iter()
@@ -273,7 +273,43 @@ impl Row {
             keeps: Vec::new(),
             excerpt: text.and_then(|text| excerpt(text, &range)),
             unit_mm: 1.0,
+            drawn: None,
         }
+    }
+
+    /// True for a finding of a drawing.
+    pub(crate) fn is_drawn(&self) -> bool {
+        self.drawn.is_some()
+    }
+
+    /// For a person: of a drawing one line, of a text with the lines at fault.
+    pub(crate) fn shown(&self) -> String {
+        let Some(drawn) = &self.drawn else {
+            return self.rendered() + "\n";
+        };
+        let (style, name) = match self.severity {
+            Severity::Error => (output::ERROR, say!(error)),
+            Severity::Warning => (output::WARNING, say!(warning)),
+            Severity::Information => (output::NOTE, say!(information)),
+            Severity::Hint => (output::NOTE, say!(hint)),
+        };
+        let head = styled(style, format!("{name}[{}]", self.rule.name()));
+        let places = [drawn.clone()].into_iter().filter(|it| !it.is_empty());
+        // Where the sentence names the place already, the segment there says nothing more.
+        let is_named = self
+            .point()
+            .is_some_and(|point| self.message.contains(&point));
+        let whereabouts = self.whereabouts().filter(|_| !is_named);
+        let places: Vec<String> = places.chain(whereabouts).collect();
+        let said = match places.is_empty() {
+            true => self.message.clone(),
+            false => say!(with_its_places, self.message, places.join(say!(comma))),
+        };
+        let suppressed =
+            (self.suppressed.iter()).map(|reason| say!(suppressed_since, readable(reason)));
+        let said = std::iter::once(said).chain(suppressed);
+        let said = said.collect::<Vec<_>>().join(say!(semicolon));
+        say!(says, readable(&self.path), say!(says, head, said))
     }
 
     /// The row for a person: rule, sentence, place, and the lines at fault; with colours, which a stream may strip.
@@ -340,137 +376,14 @@ impl Row {
             let of_segment = |segment| say!(segment, handle, segment);
             data.segment.map_or_else(|| handle.to_string(), of_segment)
         });
-        let point = data.at.or(data.start).or(data.center);
-        let unit_mm = self.unit_mm;
-        let point = point.map(|point| say!(at_point, point.0 * unit_mm, point.1 * unit_mm));
-        let places: Vec<String> = entity.into_iter().chain(point).collect();
+        let places: Vec<String> = entity.into_iter().chain(self.point()).collect();
         (!places.is_empty()).then(|| places.join(say!(comma)))
     }
-}
 
-/// Line and column from 1; the column counts characters, and an invalid byte as one.
-fn place(text: &SourceText, offset: usize) -> (usize, usize) {
-    let line = text.line_of(offset);
-    let start = text.line_range(line).start;
-    let before = text.slice(start..offset.max(start)).unwrap_or_default();
-    (
-        line + 1,
-        String::from_utf8_lossy(before).chars().count() + 1,
-    )
-}
-
-/// The lines from the one above the fault (in DXF the group code of the number) to its end, at most six.
-fn excerpt(text: &SourceText, range: &Range<usize>) -> Option<Excerpt> {
-    let stands_for_all = range.end == 0;
-    if stands_for_all || range.start > range.end || range.end > text.len() {
-        return None;
-    }
-    let fault_line = text.line_of(range.start);
-    let last_line = text
-        .line_of(range.start.max(range.end - 1))
-        .min(fault_line + 4);
-    let has_code = fault_line > 0 && is_group_code(text.line(fault_line - 1));
-    let first_line = if has_code { fault_line - 1 } else { fault_line };
-    let bytes = |range| text.slice(range).unwrap_or_default();
-    let mut shown = String::new();
-    let mut span = 0..0;
-    for line in first_line..=last_line {
-        let whole = text.line_range(line);
-        let from = if line == fault_line {
-            whole
-                .start
-                .max(range.start.saturating_sub(LONGEST_LINE / 2))
-        } else {
-            whole.start
-        };
-        let to = whole.end.min(from + LONGEST_LINE);
-        let fault = range.start.clamp(from, to)..range.end.clamp(from, to);
-        if line > first_line {
-            shown.push('\n');
-        }
-        push_readable(&mut shown, bytes(from..fault.start));
-        if line == fault_line {
-            span.start = shown.len();
-        }
-        push_readable(&mut shown, bytes(fault.clone()));
-        if !fault.is_empty() {
-            span.end = shown.len();
-        }
-        push_readable(&mut shown, bytes(fault.end..to));
-    }
-    span.end = span.end.max(span.start);
-    Some(Excerpt {
-        first_line: first_line + 1,
-        text: shown,
-        span,
-    })
-}
-
-fn is_group_code(line: &[u8]) -> bool {
-    let trimmed = line.trim_ascii();
-    !trimmed.is_empty()
-        && trimmed.len() <= 5
-        && trimmed
-            .iter()
-            .all(|byte| byte.is_ascii_digit() || *byte == b'-')
-}
-
-/// Bytes as text that a terminal can show: invalid UTF-8 and control characters become U+FFFD.
-fn push_readable(shown: &mut String, bytes: &[u8]) {
-    let text = String::from_utf8_lossy(bytes);
-    shown.extend(text.chars().map(|character| {
-        if is_hidden(character) && character != '\t' {
-            '\u{fffd}'
-        } else {
-            character
-        }
-    }));
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn shown(text: &[u8], range: Range<usize>) -> Option<(usize, String, String)> {
-        let excerpt = excerpt(&SourceText::new(text.to_vec()), &range)?;
-        let fault = excerpt.text[excerpt.span].to_string();
-        Some((excerpt.first_line, excerpt.text, fault))
-    }
-
-    #[test]
-    fn an_excerpt_holds_the_group_code_and_the_value() {
-        let text = b"  0\r\nLWPOLYLINE\r\n 42\r\n0.414\r\n 10\r\n";
-        assert_eq!(
-            shown(text, 22..27),
-            Some((3, " 42\n0.414".into(), "0.414".into()))
-        );
-        assert_eq!(
-            shown(b"B1B2B3GXL1\nB\n", 2..4),
-            Some((1, "B1B2B3GXL1".into(), "B2".into()))
-        );
-    }
-
-    #[test]
-    fn an_excerpt_of_anything_can_be_shown() {
-        assert_eq!(shown(b"", 0..0), None);
-        assert_eq!(shown(b"a = \nb", 4..4), Some((1, "a = ".into(), "".into())));
-        assert_eq!(shown(b"abc", 1..9), None);
-        assert_eq!(
-            shown(b" 1\n\xff\x1b[31m\xfe", 4..5),
-            Some((
-                1,
-                " 1\n\u{fffd}\u{fffd}[31m\u{fffd}".into(),
-                "\u{fffd}".into()
-            ))
-        );
-        let (_, text, fault) = shown(&vec![0; 5000], 1000..4000).unwrap();
-        assert!(text.chars().count() <= LONGEST_LINE && !fault.is_empty());
-    }
-
-    #[test]
-    fn places_count_characters_from_one() {
-        let text = SourceText::new("a\näöü 1\n".as_bytes().to_vec());
-        assert_eq!(place(&text, 0), (1, 1));
-        assert_eq!(place(&text, 9), (2, 5));
+    /// Where it is, mm.
+    fn point(&self) -> Option<String> {
+        let (data, unit_mm) = (&self.data, self.unit_mm);
+        let point = data.at.or(data.start).or(data.center)?;
+        Some(say!(at_point, point.0 * unit_mm, point.1 * unit_mm))
     }
 }

@@ -16,8 +16,8 @@ pub(crate) struct Arguments {
 impl Arguments {
     /// True where there is no client: a person sits at the terminal and gave no options.
     pub(crate) fn is_asked_by_nobody(&self) -> bool {
-        let terminals = std::io::stdin().is_terminal() && std::io::stdout().is_terminal();
-        terminals && !self.stdio && !self.no_parent_watch
+        // What stdout is does not matter: `wedm | head` is typed by a person, too.
+        std::io::stdin().is_terminal() && !self.stdio && !self.no_parent_watch
     }
 }
 

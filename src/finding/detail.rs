@@ -35,6 +35,11 @@ told! {
                 say!(sharp_corners_that_the_wire_runs_inside, count, radius, telling.tool())
             }
         };
+    /// `count` inside corners of one contour, of which most stays at `at`.
+    SharpCorners { radius: f64, uncut: f64, at: Point, count: usize } => {
+        let at = at * telling.unit_mm;
+        say!(inside_corners_come_out_rounded, count, telling.mm(*radius), telling.mm(*uncut), at.x, at.y)
+    };
     /// Facing walls are `width` apart, the wire needs `required`. Those of two parts may lie on one another: 0. Of the two, `middles` are
     /// the middle of a milled slot.
     NarrowSlot { width: f64, required: f64, middles: usize } => {
@@ -72,6 +77,14 @@ told! {
     Unwritable(what: Unwritable) => what.sentence();
     /// The ends of a contour are `distance` apart.
     OpenContour { distance: f64 } => say!(contour_is_open_its_ends_are_mm, telling.mm(*distance));
+    /// So many that they are no slips, by layers.
+    OpenContours { count: usize, layers: Vec<(Arc<str>, usize)> } => {
+        let more = layers.len().saturating_sub(LISTED);
+        let named = layers.iter().take(LISTED);
+        let mut listed: Vec<String> = named.map(|(name, own)| say!(on_its_layer, name, own)).collect();
+        listed.extend((more > 0).then(|| say!(and_more_of_them, more)));
+        say!(open_contours_name_the_layer, count, listed.join(say!(comma)))
+    };
     /// Two ends that belong together are `distance` apart.
     Gap { distance: f64 } => say!(ends_do_not_meet, telling.mm(*distance));
     /// This many entities of a contour lie there more than once.
@@ -86,6 +99,11 @@ told! {
     /// Two segments meet at `turn` radians: nearly tangent, but not quite.
     NearTangent { turn: f64 }
         => say!(contour_kinks_by_degrees, turn.abs().to_degrees(), telling.tool());
+    /// `count` of one contour, the largest at `at`.
+    NearTangents { turn: f64, at: Point, count: usize } => {
+        let (turn, at) = (turn.abs().to_degrees(), at * telling.unit_mm);
+        say!(contour_kinks_in_several_places, count, turn, at.x, at.y, telling.tool())
+    };
     /// Segments cross, or only touch, at a point: the first of `count` along one of the two, where
     /// that one meets many.
     SelfIntersection { at: Point, touches: bool, count: usize } => {
@@ -99,13 +117,28 @@ told! {
         }
     };
     /// `chords` lines in a row lie on one circle, within `deviation`.
-    ArcAsChords { chords: usize, center: Point, radius: f64, deviation: f64 } => {
+    ArcAsChords {
+        chords: usize,
+        center: Point,
+        radius: f64,
+        deviation: f64,
+        /// How far the middle of the longest chord lies from the circle.
+        facet: f64
+    } => {
         // Less than a nanometre is rounding.
         let within = match deviation * telling.unit_mm < 1e-6 {
             true => String::new(),
             false => say!(within_mm, telling.mm(*deviation)),
         };
-        say!(chords_lie_on_one_arc, chords, telling.mm(*radius), within, telling.tool())
+        let facets = match facet * telling.unit_mm < FACET {
+            true => String::new(),
+            false => say!(the_wire_leaves_facets, telling.tool(), telling.mm(*facet)),
+        };
+        say!(chords_lie_on_one_arc, chords, telling.mm(*radius), within, facets)
+    };
+    /// So many runs of chords of one contour, with all their chords; the numbers are those of the longest.
+    ArcsAsChords { chords: usize, arcs: usize, center: Point, radius: f64, deviation: f64 } => {
+        say!(chords_lie_on_several_arcs, chords, arcs, telling.mm(*radius))
     };
     /// A fault in a block or contour of a program.
     Program(fault: Box<Fault>) => fault.sentence();
@@ -140,6 +173,12 @@ told! {
     Said(sentence: String) => sentence.as_str();
     More { count: usize } => say!(more_findings_are_not_shown, count);
 }
+
+/// The most layers that are named.
+const LISTED: usize = 6;
+
+/// mm; facets below this cannot be felt or measured.
+const FACET: f64 = 0.001;
 
 fn unseen(layer: &str, visibility: Visibility, count: usize) -> String {
     let entities = say!(entities, count);

@@ -36,6 +36,10 @@ pub(crate) fn related(
         Detail::SharpCorner { .. } | Detail::NearTangent { .. } => {
             say!(meets_this_one, place)
         }
+        Detail::SharpCorners { .. }
+        | Detail::NearTangents { .. }
+        | Detail::ArcsAsChords { .. }
+        | Detail::OpenContours { .. } => say!(one_more_of_them, place),
         _ => say!(the_other_one, place),
     }
 }

@@ -1,6 +1,6 @@
 //! The language of all sentences, and who chose it.
 
-use std::sync::atomic::{AtomicU16, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU16, Ordering};
 
 /// The languages in which sentences are made.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -79,6 +79,19 @@ pub(crate) fn speak(language: Language, asker: Asker) {
 pub(crate) fn spoken() -> Language {
     let index = usize::from(SPOKEN.load(Ordering::Relaxed) & 0xff);
     Language::ALL.get(index).copied().unwrap_or_default()
+}
+
+/// Whether sentences are read where options are typed: elsewhere a choice is clicked.
+static HAS_OPTIONS: AtomicBool = AtomicBool::new(false);
+
+/// Says that sentences are read on a command line.
+pub(crate) fn speak_of_options() {
+    HAS_OPTIONS.store(true, Ordering::Relaxed);
+}
+
+/// True where a sentence may name options.
+pub(crate) fn has_options() -> bool {
+    HAS_OPTIONS.load(Ordering::Relaxed)
 }
 
 #[cfg(test)]

@@ -30,7 +30,7 @@ mod readable;
 mod zh;
 
 pub(crate) use en::said;
-pub(crate) use language::{Asker, Language, speak, spoken};
+pub(crate) use language::{Asker, Language, has_options, speak, speak_of_options, spoken};
 pub(crate) use readable::{columns, is_hidden, readable};
 pub(crate) use readable::{duration, lengths};
 

@@ -302,12 +302,14 @@ fn other<'a>(
         | Detail::UnprovedPath { near: at }
         | Detail::DeadEnd { near: at, .. } => Some(at),
         // Shown at the start of the segment in the direction of travel.
-        Detail::SharpCorner { .. } | Detail::NearTangent { .. } | Detail::Gap { .. } => {
-            Some(match is_reversed {
-                true => geometry.end(),
-                false => geometry.start(),
-            })
-        }
+        Detail::SharpCorner { .. }
+        | Detail::SharpCorners { .. }
+        | Detail::NearTangent { .. }
+        | Detail::NearTangents { .. }
+        | Detail::Gap { .. } => Some(match is_reversed {
+            true => geometry.end(),
+            false => geometry.start(),
+        }),
         // Too short to be visible.
         _ if geometry.length() * frame.scale < TOO_SHORT => Some(geometry.point_at(0.5)),
         _ => None,

@@ -145,7 +145,10 @@ pub fn svg(view: &View) -> String {
 fn leaves_some(finding: &Finding) -> bool {
     matches!(
         finding.detail,
-        Detail::LostPocket { .. } | Detail::DeadEnd { .. } | Detail::SharpCorner { .. }
+        Detail::LostPocket { .. }
+            | Detail::DeadEnd { .. }
+            | Detail::SharpCorner { .. }
+            | Detail::SharpCorners { .. }
     )
 }
 
@@ -190,6 +193,11 @@ fn facts(subject: &Subject) -> String {
             .collect();
         if !listed.is_empty() {
             let said = say!(correction_mm, listed.join(" / "));
+            // The corrections of a pair are worked out.
+            let said = match part.title {
+                None => say!(with_its_origin, said, subject.origin),
+                Some(_) => said,
+            };
             facts.push(match part.title {
                 Some(title) => say!(of_a_part, title, said),
                 None => said,

@@ -32,6 +32,8 @@ pub(super) struct Subject<'a> {
     /// Its radius, drawing units.
     pub(crate) electrode: Option<f64>,
     pub(crate) unit_mm: f64,
+    /// Where the correction comes from.
+    pub(crate) origin: &'static str,
 }
 
 /// The paths of one part of a pair, or all that there are.
@@ -140,6 +142,7 @@ impl<'a> Subject<'a> {
             half_kerfs: paths.iter().map(half_kerf).collect(),
             drill,
             unit_mm,
+            origin: settings.origins.correction.title(),
         })
     }
 
@@ -270,7 +273,10 @@ pub(super) fn is_other(finding: &Finding) -> bool {
     let is_of_segment = matches!(finding.place, Place::Segment { .. });
     let is_of_one_place = matches!(
         finding.detail,
-        Detail::NearTangent { .. } | Detail::ArcAsChords { .. }
+        Detail::NearTangent { .. }
+            | Detail::NearTangents { .. }
+            | Detail::ArcAsChords { .. }
+            | Detail::ArcsAsChords { .. }
     );
     is_of_segment
         && (finding.severity <= Severity::Warning || is_of_one_place)

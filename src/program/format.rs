@@ -3,7 +3,7 @@
 use super::notes::Notes;
 use super::write::{Proved, ProvedProgram};
 use super::{Language, iso, three_b};
-use crate::settings::{Compensation, Effective};
+use crate::settings::{Compensation, Effective, ProgramFormat};
 use crate::toolpath::WirePath;
 use std::borrow::Cow;
 
@@ -15,6 +15,17 @@ pub enum Format {
     Iso,
     /// ISO with heights, layer by layer, for an electrode.
     Milling,
+}
+
+impl From<ProgramFormat> for Format {
+    fn from(format: ProgramFormat) -> Format {
+        match format {
+            ProgramFormat::ThreeB => Format::ThreeB,
+            ProgramFormat::FourB => Format::FourB,
+            ProgramFormat::Iso => Format::Iso,
+            ProgramFormat::Milling => Format::Milling,
+        }
+    }
 }
 
 impl Format {

@@ -133,6 +133,17 @@ impl FindingData {
                 data.uncut = Some(*uncut);
                 data.count = *count;
             }
+            Detail::SharpCorners {
+                radius,
+                uncut,
+                at,
+                count,
+            } => {
+                data.radius = Some(*radius);
+                data.uncut = Some(*uncut);
+                data.at = Some((*at).into());
+                data.count = Some(*count);
+            }
             Detail::NarrowSlot {
                 width, required, ..
             } => {
@@ -165,6 +176,12 @@ impl FindingData {
             }
             Detail::Size { size } => data.length = Some(*size),
             Detail::NearTangent { turn } => data.turn = Some(turn.to_degrees()),
+            Detail::NearTangents { turn, at, count } => {
+                data.turn = Some(turn.to_degrees());
+                data.at = Some((*at).into());
+                data.count = Some(*count);
+            }
+            Detail::OpenContours { count, .. } => data.count = Some(*count),
             Detail::SelfIntersection { at, count, .. } => {
                 data.at = Some((*at).into());
                 data.count = (*count > 1).then_some(*count);
@@ -174,6 +191,14 @@ impl FindingData {
                 center,
                 radius,
                 deviation,
+                ..
+            }
+            | Detail::ArcsAsChords {
+                chords,
+                center,
+                radius,
+                deviation,
+                ..
             } => {
                 data.count = Some(*chords);
                 data.center = Some((*center).into());

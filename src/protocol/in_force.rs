@@ -1,6 +1,6 @@
 //! `wedm/settings`: the settings that hold for a document, and which level the correction comes from.
 
-use crate::settings::{ContourSettings, SideSetting};
+use crate::settings::{ContourSettings, Origin, SideSetting};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -27,6 +27,10 @@ pub(crate) struct SettingsInForce {
     pub(crate) corrections: Vec<f64>,
     pub(crate) correction_from: CorrectionSource,
     pub(crate) side: SideSetting,
+    /// The level that the side comes from.
+    pub(crate) side_from: Origin,
+    /// Correction and side, each with where it comes from: a sentence to be shown.
+    pub(crate) said: String,
     /// URI of the `wedm.toml` that holds for the document, where there is one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) file: Option<String>,

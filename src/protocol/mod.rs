@@ -4,6 +4,7 @@
 //! these types, so that an editor is sent the same as `--output json` prints. Nothing here knows of
 //! transport or state.
 
+mod against;
 mod change;
 mod contours;
 mod data;
@@ -28,6 +29,7 @@ mod toolpath;
 mod vertex;
 mod work;
 
+pub(crate) use against::{Against, as_stated};
 pub(crate) use change::{DrawingChange, apply, changes_of};
 pub use contours::Contours;
 pub(crate) use contours::{ContourPiece, ContoursContour, Direction};

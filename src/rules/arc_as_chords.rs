@@ -21,6 +21,7 @@ pub(crate) const RULE: LocalRule = LocalRule {
     holds,
     detail,
     fixes,
+    together: Some(together),
     ..LocalRule::PLAIN
 };
 
@@ -208,13 +209,48 @@ fn sequence(outlook: &Outlook, first: usize) -> Option<(usize, Fit, Vec<Point>)>
 }
 
 fn detail(outlook: &Outlook, observation: Observation, _count: Option<usize>) -> Option<Detail> {
-    let (chords, fit, _) = sequence(outlook, observation.index as usize)?;
+    let (chords, fit, points) = sequence(outlook, observation.index as usize)?;
     Some(Detail::ArcAsChords {
+        facet: facet(&points, fit.radius),
         chords,
         center: fit.center,
         radius: fit.radius,
         deviation: fit.deviation,
     })
+}
+
+/// The longest run of chords stands for all; where they are too many to be followed, those that were.
+fn together(
+    _: &Outlook,
+    some: &[(Observation, Detail)],
+    _count: usize,
+) -> Option<(Observation, Detail)> {
+    let chords_of = |detail: &Detail| match detail {
+        Detail::ArcAsChords { chords, .. } => *chords,
+        _ => 0,
+    };
+    let longest = some.iter().max_by_key(|(_, detail)| chords_of(detail))?;
+    let Detail::ArcAsChords {
+        center,
+        radius,
+        deviation,
+        ..
+    } = longest.1
+    else {
+        return None;
+    };
+    let chords = some.iter().map(|(_, detail)| chords_of(detail)).sum();
+    let arcs = some.len();
+    Some((
+        longest.0,
+        Detail::ArcsAsChords {
+            chords,
+            arcs,
+            center,
+            radius,
+            deviation,
+        },
+    ))
 }
 
 fn fixes(outlook: &Outlook, observation: Observation) -> Vec<Fix> {
@@ -283,16 +319,21 @@ fn fixes(outlook: &Outlook, observation: Observation) -> Vec<Fix> {
 
 /// The distance of an arc from the chords that it replaces: at the middle of the longest chord, and at its ends.
 fn moved(points: &[Point], arc: &Arc) -> f64 {
-    let longest = points
-        .windows(2)
-        .map(|pair| (pair[1] - pair[0]).norm())
-        .fold(0.0, f64::max);
-    let half = (longest / (2.0 * arc.radius)).min(1.0).asin();
     let deviation = points
         .iter()
         .map(|point| ((point - arc.center).norm() - arc.radius).abs())
         .fold(0.0, f64::max);
-    arc.radius * (1.0 - half.cos()) + deviation
+    facet(points, arc.radius) + deviation
+}
+
+/// How far the middle of the longest chord lies from its circle.
+fn facet(points: &[Point], radius: f64) -> f64 {
+    let longest = points
+        .windows(2)
+        .map(|pair| (pair[1] - pair[0]).norm())
+        .fold(0.0, f64::max);
+    let half = (longest / (2.0 * radius)).min(1.0).asin();
+    radius * (1.0 - half.cos())
 }
 
 /// Each arc takes over the first vertex of its chords; the other vertices go.

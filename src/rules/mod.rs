@@ -217,6 +217,8 @@ pub(crate) struct Observation {
     pub(crate) side: Option<Side>,
     /// Silent where the wire side is not known.
     pub(crate) needs_side: bool,
+    /// How bad it is among those of its rule: where one finding stands for all of a contour, it is at the worst.
+    pub(crate) weight: f32,
 }
 
 impl Observation {
@@ -226,9 +228,15 @@ impl Observation {
             index: index as u32,
             side: None,
             needs_side: false,
+            weight: 0.0,
         }
     }
 }
+
+/// The place and the numbers of one finding that stands for this many observations, of which some are given, the worst
+/// first.
+pub(crate) type Together =
+    fn(&Outlook, &[(Observation, Detail)], usize) -> Option<(Observation, Detail)>;
 
 /// A rule on a segment and its near neighbours. `LOCAL_RULES` lists them all.
 pub(crate) struct LocalRule {
@@ -250,6 +258,8 @@ pub(crate) struct LocalRule {
     pub(crate) fixes: fn(&Outlook, Observation) -> Vec<Fix>,
     /// Where the wire side is not known: one hint for each contour instead of a finding for each observation.
     pub(crate) one_hint_when_side_unknown: bool,
+    /// How one finding stands for all of a contour; `None` for rules that name each.
+    pub(crate) together: Option<Together>,
     /// Where the case is milder than the rule.
     pub(crate) mildest: Option<Severity>,
 }
@@ -265,6 +275,7 @@ impl LocalRule {
         detail: |_, _, _| None,
         fixes: |_, _| Vec::new(),
         one_hint_when_side_unknown: false,
+        together: None,
         mildest: None,
     };
 }
@@ -302,6 +313,8 @@ pub(crate) struct ContourRule {
     pub(crate) detail: fn(&Outlook) -> Option<Detail>,
     /// Repairs, the preferred one first.
     pub(crate) fixes: fn(&Outlook) -> Vec<Fix>,
+    /// From this many contours on one finding stands for all of them.
+    pub(crate) many: usize,
 }
 
 /// Every rule on whole contours.

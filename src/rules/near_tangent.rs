@@ -4,7 +4,7 @@
 //! Fix: the arc at the joint becomes tangent, or two nearly collinear lines become one.
 
 use super::arc_as_chords::{self, are_between_chords};
-use super::sharp_corner::{CLEAR, inner_side, own_share};
+use super::sharp_corner::{CLEAR, inner_side, leaves_some};
 use super::small_radius::{Travel, center_side, drawing_edit, made_tangent};
 use super::{LocalRule, Observation, Outlook, other_at_joint};
 use crate::drawing::{Change, ContourSegment, DrawingEdit, Geometry};
@@ -19,6 +19,7 @@ pub(crate) const RULE: LocalRule = LocalRule {
     related: other_at_joint,
     detail,
     fixes,
+    together: Some(together),
     ..LocalRule::PLAIN
 };
 
@@ -40,10 +41,10 @@ fn check(outlook: &Outlook, range: Range<usize>, observations: &mut Vec<Observat
             }
             // Where the wire runs inside, the larger kinks are sharp corners if they leave enough
             // stock to count.
-            let uncut = own_share(outlook.limits.last_correction, turn);
-            let is_corner = uncut >= outlook.limits.tolerances.resolution;
+            let is_corner = leaves_some(outlook, turn);
             observations.push(Observation {
                 side: inner_side(turn).filter(|_| is_corner).map(Side::reversed),
+                weight: turn.abs() as f32,
                 ..Observation::at(index)
             });
         }
@@ -68,6 +69,28 @@ fn detail(outlook: &Outlook, observation: Observation, _count: Option<usize>) ->
     Some(Detail::NearTangent {
         turn: if reversed { -turn } else { turn },
     })
+}
+
+fn together(
+    outlook: &Outlook,
+    some: &[(Observation, Detail)],
+    count: usize,
+) -> Option<(Observation, Detail)> {
+    let (observation, Detail::NearTangent { turn }) = some.first()? else {
+        return None;
+    };
+    let at = outlook
+        .segment(observation.index as isize)?
+        .geometry
+        .start();
+    Some((
+        *observation,
+        Detail::NearTangents {
+            turn: *turn,
+            at,
+            count,
+        },
+    ))
 }
 
 /// The change that moves the contour least, and by less than the distance within which two places count as one.

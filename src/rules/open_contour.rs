@@ -15,7 +15,11 @@ pub(crate) const RULE: ContourRule = ContourRule {
     places,
     detail,
     fixes,
+    many: MANY,
 };
+
+/// So many open contours are no slips: the drawing holds more than what is cut, as a sheet of several views.
+const MANY: usize = 8;
 
 /// A gap below this share of the contour, or below this many join tolerances (1 mm), was most likely meant to be
 /// closed.

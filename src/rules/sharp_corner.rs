@@ -22,6 +22,7 @@ pub(crate) const RULE: LocalRule = LocalRule {
     detail,
     fixes,
     one_hint_when_side_unknown: true,
+    together: Some(together),
     ..LocalRule::PLAIN
 };
 
@@ -30,6 +31,9 @@ const LEAST: f64 = 1.0 * std::f64::consts::PI / 180.0;
 
 /// A joint below this is nearly tangent and left to `near-tangent`, unless the wire is known to run inside.
 pub(crate) const CLEAR: f64 = 2.0 * std::f64::consts::PI / 180.0;
+
+/// mm; what stays of a corner below this, nobody sees on a part.
+const LEAST_UNCUT: f64 = 0.005;
 
 /// The side on which the wire runs inside a corner that turns by `turn`; `None` where there is no corner.
 pub(crate) fn inner_side(turn: f64) -> Option<Side> {
@@ -43,8 +47,7 @@ fn check(outlook: &Outlook, range: Range<usize>, observations: &mut Vec<Observat
     for index in range.clone() {
         if let Some(turn) = outlook.turn_at(index)
             && let Some(side) = inner_side(turn)
-            && own_share(outlook.limits.last_correction, turn)
-                >= outlook.limits.tolerances.resolution
+            && leaves_some(outlook, turn)
         {
             let mut is_between = || {
                 between
@@ -58,6 +61,7 @@ fn check(outlook: &Outlook, range: Range<usize>, observations: &mut Vec<Observat
             observations.push(Observation {
                 side: Some(side),
                 needs_side: turn.abs() < CLEAR,
+                weight: turn.abs() as f32,
                 ..Observation::at(index)
             });
         }
@@ -78,6 +82,34 @@ fn detail(outlook: &Outlook, observation: Observation, count: Option<usize>) -> 
         uncut,
         count,
     })
+}
+
+/// The corner of which most stays stands for all.
+fn together(
+    outlook: &Outlook,
+    some: &[(Observation, Detail)],
+    count: usize,
+) -> Option<(Observation, Detail)> {
+    let uncut_of = |detail: &Detail| match detail {
+        Detail::SharpCorner { uncut, .. } => *uncut,
+        _ => 0.0,
+    };
+    let worst = some
+        .iter()
+        .max_by(|one, other| uncut_of(&one.1).total_cmp(&uncut_of(&other.1)))?;
+    let Detail::SharpCorner { radius, uncut, .. } = worst.1 else {
+        return None;
+    };
+    let at = outlook.segment(worst.0.index as isize)?.geometry.start();
+    Some((
+        worst.0,
+        Detail::SharpCorners {
+            radius,
+            uncut,
+            at,
+            count,
+        },
+    ))
 }
 
 /// How many segments on either side of a corner may hold the disc in it.
@@ -171,8 +203,15 @@ fn corner_depth(outlook: &Outlook, index: usize, radius: f64) -> Option<f64> {
     Some(least.min(own_share(radius, turned)))
 }
 
+/// Whether enough stays of a corner to be seen on the part.
+pub(crate) fn leaves_some(outlook: &Outlook, turn: f64) -> bool {
+    let limits = outlook.limits;
+    let least = (LEAST_UNCUT / limits.unit_mm).max(limits.tolerances.resolution);
+    own_share(limits.corner_radius, turn) >= least
+}
+
 /// What a wire that leaves `radius` leaves of a corner between long walls.
-pub(crate) fn own_share(radius: f64, turn: f64) -> f64 {
+fn own_share(radius: f64, turn: f64) -> f64 {
     radius * (1.0 / (turn / 2.0).cos() - 1.0)
 }
 

@@ -2,8 +2,8 @@
 
 use crate::finding::Severity;
 use crate::settings::{
-    Effective, FILE_NAME, Settings, SettingsError, from_json, from_toml, is_there, place_in,
-    read_file as read_settings,
+    Effective, FILE_NAME, Origin, Origins, Settings, SettingsError, from_json, from_toml, is_there,
+    place_in, read_file as read_settings,
 };
 use crate::text::SourceText;
 use ls_types::Uri;
@@ -112,7 +112,23 @@ impl Config {
 
     pub(crate) fn effective_for(&self, uri: &str, file: Option<&ProjectFile>) -> Arc<Effective> {
         let settings = self.settings_for(file);
-        Arc::new(Effective::of_document(&settings, name_of(uri)))
+        Arc::new(Effective {
+            origins: self.origins(file, None),
+            ..Effective::of_document(&settings, name_of(uri))
+        })
+    }
+
+    /// Where correction, side and unit come from; `options` are those of a request.
+    pub(crate) fn origins(
+        &self,
+        file: Option<&ProjectFile>,
+        options: Option<&Settings>,
+    ) -> Origins {
+        let of_client = self.settings_for(None);
+        let of_file = file.map(|file| (&file.settings, Origin::File));
+        let of_options = options.map(|options| (options, Origin::Option));
+        let levels = [Some((&of_client, Origin::Client)), of_file, of_options];
+        Origins::of(levels.into_iter().flatten())
     }
 
     /// The project's file for a document: upwards from it, or from the workspace folder where it is no file.

@@ -447,9 +447,9 @@ fn with_options(
     };
     match all.contradictions(&|_| None).iter().find(is_error) {
         Some(error) if !is_wrong_already() => misfit(error),
-        _ => Ok(Some(Arc::new(Effective::of_document(
-            &all,
-            config::name_of(uri),
-        )))),
+        _ => Ok(Some(Arc::new(Effective {
+            origins: state.config.origins(file.as_deref(), Some(&settings)),
+            ..Effective::of_document(&all, config::name_of(uri))
+        }))),
     }
 }

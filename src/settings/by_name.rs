@@ -47,6 +47,10 @@ impl<T: Copy> ByName<T> {
         self.written.keys().map(String::as_str)
     }
 
+    pub(super) fn values(&self) -> impl Iterator<Item = T> {
+        self.written.values().copied()
+    }
+
     pub(crate) fn is_empty(&self) -> bool {
         self.written.is_empty()
     }

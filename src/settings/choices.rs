@@ -46,6 +46,20 @@ choices! {
         Inch,
     }
 
+    /// What a program is written in.
+    ProgramFormat {
+        /// 3B programs.
+        #[serde(rename = "3b")]
+        ThreeB,
+        /// 4B: the part's contour, which the control offsets.
+        #[serde(rename = "4b")]
+        FourB,
+        /// ISO, by a profile.
+        Iso,
+        /// ISO for an electrode that mills.
+        Milling,
+    }
+
     #[derive(Default)]
     Layout {
         /// No spaces: `B9900B0B9900GXL1`.

@@ -3,8 +3,9 @@
 use super::by_name::ByName;
 use super::{
     Budget, Compensation, ContourSettings, Corner, Direction, JobSettings, Jumps, Layout, Lead,
-    LengthSetting, MillingSettings, NumberUnit, Order, PairSettings, Passes, PointSetting, Profile,
-    RuleSeverity, Sequence, Settings, SideSetting, SkimCorner, UnitSetting, Workpieces,
+    LengthSetting, MillingSettings, NumberUnit, Order, Origins, PairSettings, Passes, PointSetting,
+    Profile, ProgramFormat, RuleSeverity, Sequence, Settings, SideSetting, SkimCorner, UnitSetting,
+    Workpieces,
 };
 use crate::drawing::{Color, Role, Unit};
 use crate::finding::{Finding, Rule, Severity};
@@ -26,6 +27,8 @@ pub struct Effective {
     /// The settings of several passes.
     pub passes: Passes,
     pub side: SideSetting,
+    /// The levels that correction, side and unit come from.
+    pub origins: Origins,
     pub unit: Unit,
     /// Set by the user.
     pub states_unit: bool,
@@ -50,6 +53,8 @@ pub struct Effective {
     /// The rules whose severity the user has set.
     pub stated: BTreeSet<Rule>,
     pub docs_url: Option<String>,
+    /// What programs are written in, where set.
+    pub format: Option<ProgramFormat>,
     pub layout: Layout,
     /// The layout that the user has set; without one, formatting keeps the program's own.
     pub stated_layout: Option<Layout>,
@@ -187,6 +192,7 @@ impl Effective {
                 ..settings.passes.clone().unwrap_or_default()
             },
             side: settings.side(),
+            origins: Origins::default(),
             states_unit: settings.units.is_some(),
             states_order: program.order.is_some(),
             unit: match settings.units() {
@@ -221,6 +227,7 @@ impl Effective {
             severities: severities.into_iter().collect(),
             stated: Rule::ALL.into_iter().filter(is_stated).collect(),
             docs_url: settings.docs_url.clone(),
+            format: program.format,
             layout: program.layout(),
             stated_layout: program.layout,
             header: program

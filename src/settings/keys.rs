@@ -9,8 +9,8 @@ use super::table::{Overlay, as_toml, kebab_case};
 use super::value::Node;
 use super::{
     CenterRule, Compensation, Coordinates, Corner, Direction, DrawnAs, Jumps, Layout, Lead,
-    LengthSetting, LineEnd, NumberUnit, Order, PointSetting, RuleSeverity, Sequence, SideSetting,
-    SkimCorner, UnitSetting, WearCompensation, Zero,
+    LengthSetting, LineEnd, NumberUnit, Order, PointSetting, ProgramFormat, RuleSeverity, Sequence,
+    SideSetting, SkimCorner, UnitSetting, WearCompensation, Zero,
 };
 use crate::drawing::Role;
 use schemars::JsonSchema;
@@ -150,6 +150,8 @@ tables! {
 
     /// How a program is written.
     ProgramSettings() {
+        /// What `wedm generate`, `wedm pair` and `wedm report` write where neither `--format` nor the name of the file says it. Not set: 3B.
+        format: ProgramFormat => name;
         /// Form of the blocks. Programs that are formatted keep their own where none is set.
         layout: Layout = Layout::Compact => name;
         /// Whether 3B and 4B programs begin with `; Start Point = x , y`, the comment that says where the wire is threaded, mm; and ISO

@@ -16,11 +16,13 @@ mod keep;
 mod keys;
 mod level;
 mod milling;
+mod origins;
 mod pair;
 mod passes;
 mod profile;
 mod reader;
 mod row;
+mod said;
 mod shipped;
 mod spelling;
 mod toml_tree;
@@ -30,8 +32,8 @@ mod workpieces;
 pub use budget::Budget;
 pub use choices::{
     CenterRule, Compensation, Coordinates, Corner, Direction, DrawnAs, Jumps, Layout, Lead,
-    LineEnd, NumberUnit, Order, RuleSeverity, Sequence, SideSetting, SkimCorner, UnitSetting,
-    WearCompensation, Zero,
+    LineEnd, NumberUnit, Order, ProgramFormat, RuleSeverity, Sequence, SideSetting, SkimCorner,
+    UnitSetting, WearCompensation, Zero,
 };
 pub use effective::Effective;
 pub(crate) use effective::{NEAR, point_of};
@@ -46,6 +48,7 @@ pub(crate) use keys::{
 };
 pub use keys::{Settings, rows};
 pub use milling::Electrode;
+pub use origins::{Origin, Origins};
 pub(crate) use pair::{Partners, Use, part_title};
 pub(crate) use passes::{PassFault, pass_faults, passes_table};
 pub(crate) use row::LARGEST;

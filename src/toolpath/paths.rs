@@ -20,6 +20,7 @@ use super::rotated::Rotated;
 use crate::drawing::Contour;
 use crate::finding::{Finding, Rule, Severity};
 use crate::geometry::{Point, Side};
+use crate::message::has_options;
 use rustc_hash::FxHashMap;
 
 /// The offsets of a contour, before they have leads, all in the direction of the first pass.
@@ -301,6 +302,31 @@ impl Job<'_> {
         Ok(self.with_leads(index, 0.0, thread, path, contour.closed))
     }
 
+    /// Names the contour by its number, its first entity and the place where it begins.
+    fn without_side(&self, index: usize) -> Refusal {
+        let (contour, handle) = (&self.outlines[index].contour, self.name(index));
+        let number = (index + 1).to_string();
+        let name = match handle == number {
+            true => number,
+            false => say!(number_and_handle, number, handle),
+        };
+        let begin = contour
+            .segment(self.drawing, 0)
+            .map(|it| it.geometry.start());
+        let at = begin.unwrap_or_default() * self.unit_mm;
+        let (x, y) = (at.x, at.y);
+        Refusal::Sentence(match (contour.closed, has_options()) {
+            (true, true) => say!(side_of_contour_is_not_known_give_an_option, name, x, y),
+            (true, false) => say!(side_of_contour_is_not_known, name, x, y),
+            (false, _) => say!(
+                contour_is_open_the_side_of_the_wire_is_not_known,
+                name,
+                x,
+                y
+            ),
+        })
+    }
+
     /// The offsets of a contour, one for each pass.
     pub(super) fn compensated(
         &self,
@@ -309,13 +335,9 @@ impl Job<'_> {
         contours: &Contours,
     ) -> Result<Unled, Refusal> {
         let (outline, settings) = (&self.outlines[index], self.settings);
-        let handle = self.name(index);
         let closed = outline.contour.closed;
         let Some(own_side) = outline.wire_side() else {
-            return Err(Refusal::Sentence(match closed {
-                true => say!(side_of_contour_is_not_known, handle),
-                false => say!(contour_is_open_the_side_of_the_wire_is_not_known, handle),
-            }));
+            return Err(self.without_side(index));
         };
         let (contour, turned) = self.towards(index, wanted)?;
         let side = match turned {
@@ -383,7 +405,10 @@ impl Job<'_> {
                 Err(fault) => return Err(self.no_path(&fault, &walls, correction.abs()).into()),
             };
             let Some(at) = entry else {
-                return Err(Refusal::Sentence(say!(contour_has_no_length, handle)));
+                return Err(Refusal::Sentence(say!(
+                    contour_has_no_length,
+                    self.name(index)
+                )));
             };
             let (element, begin) = begin.ok_or_else(|| {
                 let fault = Fault::Unproved { wall: at.wall };

@@ -109,7 +109,7 @@ fn a_picture_says_what_it_is_in_which_order_and_how_long() {
         "{picture}"
     );
     assert!(
-        picture.contains("no wire path: side of contour 2A is not known"),
+        picture.contains("no wire path: side of contour 1 (2A) at"),
         "{picture}"
     );
 }

@@ -85,10 +85,8 @@ fn the_way_to_a_repair_is_told_where_all_rules_are_asked() {
     ] {
         let ended = desk.run(arguments);
         assert_eq!(ended.code, Some(0));
-        assert_eq!(
-            ended.stdout, "1 file checked: nothing found\n",
-            "{arguments}"
-        );
+        let first = ended.stdout.lines().next();
+        assert_eq!(first, Some("1 file checked: nothing found"), "{arguments}");
     }
 }
 
@@ -242,11 +240,14 @@ fn commands_in_hints_run() {
         said(&program),
         said(&["convert", "g41.iso", "-o", "g41.3b"]),
     ];
-    let mut run = 0;
+    let (mut run, mut known) = (0, std::collections::BTreeSet::new());
     for hint in &hints {
         for command in hint.split("wedm ").skip(1) {
             let end = command.find([')', '\n', ';', ',']).unwrap_or(command.len());
             let line = format!("wedm {}", command[..end].trim()).replace("OUT.dxf", "out.dxf");
+            if !known.insert(line.clone()) {
+                continue;
+            }
             let ended = shell(&line);
             assert!(ended.code == Some(0), "{line}: {ended:?}");
             run += 1;

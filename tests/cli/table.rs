@@ -25,7 +25,7 @@ fn commands_print_and_end_as_they_say() {
         ),
         ("check hole.3b --lang tlh", 2, &["!possible values: en"]),
         (
-            "check tight.dxf",
+            "check tight.dxf --output text",
             1,
             &[
                 "error[small-radius]: arc R 0.080 mm is below the correction 0.100 mm",
@@ -35,6 +35,15 @@ fn commands_print_and_end_as_they_say() {
                 "^^^^^^^^^^^^^^ 2A, segment 1, at 19.920, 0.000",
                 "1 file checked: 1 error",
                 "wedm fix tight.dxf --in-place",
+            ],
+        ),
+        (
+            "check tight.dxf",
+            1,
+            &[
+                "tight.dxf: error[small-radius]: arc R 0.080 mm is below the correction 0.100 mm",
+                "(layer DIE, contour 1, 2A, segment 1, at 19.920, 0.000)",
+                "against: correction 0.100 mm (default; wedm init), both sides (default), mm (drawing)",
             ],
         ),
         ("check tight.dxf --correction 0.07", 0, &["nothing found"]),
@@ -107,18 +116,18 @@ fn commands_print_and_end_as_they_say() {
             &["arc R 0.500 mm is below the correction 0.600 mm"],
         ),
         ("check tight.dxf --side punch", 0, &["nothing found"]),
-        (
-            "check chain.dxf",
-            1,
-            &["--> chain.dxf:40:1", "^^^^ 32, segment 0"],
-        ),
+        ("check chain.dxf", 1, &["chain.dxf: ", "32, segment 0"]),
         ("check inch.dxf", 1, &["arc R 0.080 mm"]),
         (
             "check narrow.dxf",
             1,
             &["narrow-slot", "2 errors, 1 warning"],
         ),
-        ("check no_unit.dxf", 0, &["information[units]", "2 notes"]),
+        (
+            "check no_unit.dxf --output concise",
+            0,
+            &["information[units]", "2 notes"],
+        ),
         ("check no_unit.dxf --deny warning", 0, &["2 notes"]),
         ("check clean.dxf --deny warning", 0, &[]),
         ("check garbage.dxf", 1, &["1 error\n"]),
@@ -132,7 +141,7 @@ fn commands_print_and_end_as_they_say() {
             2,
             &["2 files checked: 1 error", "!missing.dxf"],
         ),
-        ("check", 1, &["code_page.dxf:50:1"]),
+        ("check", 1, &["code_page.dxf: "]),
         ("check clean.dxf --correction -1", 2, &["!above 0"]),
         ("check clean.dxf --correction NaN", 2, &["!above 0"]),
         (

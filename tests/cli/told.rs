@@ -18,7 +18,6 @@ fn a_folder_is_called_one() {
         "contours",
         "convert -o x.iso",
         "simulate",
-        "fix --diff",
     ] {
         let (name, rest) = command.split_once(' ').unwrap_or((command, ""));
         for folder in ["parts", "parts.dxf"] {

@@ -145,8 +145,6 @@ fn what_is_below_the_resolution_is_not_said() {
     }
     let mut stub = corners.to_vec();
     stub.insert(1, (9.9995, 0.0, 0.0));
-    let mut flat = corners.to_vec();
-    flat.insert(1, (5.0, -0.2, 0.0));
     // R = c − 0.5 µm.
     let radius = 0.0995;
     let tight = [
@@ -165,10 +163,10 @@ fn what_is_below_the_resolution_is_not_said() {
             0.0004,
         ),
         (
-            closed(&flat).as_polyline(Some(Role::Opening)),
+            closed(&corners).as_polyline(Some(Role::Opening)),
             Rule::SharpCorner,
+            0.05,
             0.001,
-            0.00005,
         ),
     ] {
         assert!(

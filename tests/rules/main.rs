@@ -10,7 +10,7 @@ mod whole;
 use std::sync::Arc;
 use wedm::analysis::Analysis;
 use wedm::drawing::{Drawing, Entity, Geometry, Kind, Role, Vertex};
-use wedm::finding::{Finding, Rule, Severity};
+use wedm::finding::{Detail, Finding, Rule, Severity};
 use wedm::geometry::{Segment, positive_angle};
 use wedm::settings::{Effective, Settings};
 
@@ -164,8 +164,15 @@ fn severities(findings: &[Finding], rule: Rule) -> Vec<Severity> {
     of_rule.map(|finding| finding.severity).collect()
 }
 
+/// The places of a rule: one finding may stand for several.
 fn count(findings: &[Finding], rule: Rule) -> usize {
-    severities(findings, rule).len()
+    let places = |finding: &Finding| match finding.detail {
+        Detail::SharpCorners { count, .. } | Detail::NearTangents { count, .. } => count,
+        Detail::ArcsAsChords { arcs, .. } => arcs,
+        _ => 1,
+    };
+    let of_rule = findings.iter().filter(|finding| finding.rule == rule);
+    of_rule.map(places).sum()
 }
 
 /// The drawing after the first fix of a finding.
@@ -241,7 +248,12 @@ fn all_fixed(mut drawing: Drawing) -> Drawing {
         // An arc in the place of chords, whose kinks were none, may nearly be tangent at its ends.
         let left = |drawing: &Drawing| {
             let findings = analysed(drawing).1;
-            findings.len() - count(&findings, Rule::NearTangent)
+            let others = findings
+                .iter()
+                .filter(|finding| finding.rule != Rule::NearTangent);
+            let entities = drawing.entities();
+            let segments = entities.map(|(_, entity)| entity.geometry.segment_count());
+            (others.count(), segments.sum::<usize>())
         };
         let before = left(&drawing);
         drawing.apply(&edit).unwrap();

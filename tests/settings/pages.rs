@@ -232,6 +232,7 @@ fn example(key: &str) -> &'static str {
         "colors" => "{ red = \"punch\" }",
         "contours" => "{ 2A = \"punch\" }",
         "docs-url" => "\"https://edm.example/rules/{rule}.html\"",
+        "program.format" => "\"iso\"",
         "program.thread" => "[115.0, -10.0]",
         "program.entry" => "[105.0, -10.0]",
         "program.units" => "\"inch\"",

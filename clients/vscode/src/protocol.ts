@@ -1679,6 +1679,11 @@ export interface SettingsInForce {
   corrections: number[];
   correctionFrom: CorrectionSource;
   side: SideSetting;
+  sideFrom: Origin;
+  /**
+   * Correction and side, each with where it comes from: a sentence to be shown.
+   */
+  said: string;
   /**
    * URI of the `wedm.toml` that holds for the document, where there is one.
    */

@@ -15,6 +15,7 @@ use crate::document::FileKind;
 use crate::finding::{Rule, Severity};
 use crate::job;
 use crate::message::help;
+use crate::protocol::Against;
 use crate::settings::Settings;
 use crate::text::SourceText;
 use clap::{Args, ValueEnum};
@@ -37,8 +38,8 @@ Examples:
 pub(crate) struct Arguments {
     #[arg(value_name = "PATH", default_value = ".")]
     paths: Vec<PathBuf>,
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    output: Format,
+    #[arg(long, value_enum)]
+    output: Option<Format>,
     #[arg(long)]
     statistics: bool,
     #[arg(long, value_name = "RULE", value_delimiter = ',', value_parser = rule_name(), hide_possible_values = true)]
@@ -74,12 +75,12 @@ impl Arguments {
         !self.select.is_empty() || !self.ignore.is_empty()
     }
 
-    /// True for a selected rule. A file that could not be judged is always reported.
-    fn wants(&self, rule: Rule) -> bool {
-        let always = [Rule::Syntax, Rule::Settings, Rule::NotJudged, Rule::More];
-        let selected =
-            self.select.is_empty() || self.select.contains(&rule) || always.contains(&rule);
-        selected && !self.ignore.contains(&rule)
+    /// True for a finding of a selected rule, and for the error of a file that could not be judged.
+    fn wants(&self, row: &Row) -> bool {
+        let is_unread = row.severity == Severity::Error
+            && matches!(row.rule, Rule::Syntax | Rule::Settings | Rule::NotJudged);
+        let selected = self.select.is_empty() || self.select.contains(&row.rule) || is_unread;
+        selected && !self.ignore.contains(&row.rule)
     }
 }
 
@@ -113,6 +114,10 @@ struct Checked {
     failure: Option<Failure>,
     /// The address of the rules' pages.
     docs_url: Option<String>,
+    /// What a drawing was judged against.
+    against: Option<Against>,
+    /// What a drawing without contours holds.
+    empty: Option<String>,
 }
 
 /// The findings as JSON.
@@ -121,6 +126,15 @@ struct Printed<'a> {
     diagnostics: &'a [Row],
     #[serde(skip_serializing_if = "Option::is_none")]
     suppressed: Option<&'a Vec<Row>>,
+    against: Vec<PrintedAgainst<'a>>,
+}
+
+/// What one drawing was judged against.
+#[derive(Serialize)]
+struct PrintedAgainst<'a> {
+    path: String,
+    #[serde(flatten)]
+    against: &'a Against,
 }
 
 /// Everything that was checked.
@@ -133,6 +147,9 @@ struct Survey {
     fixable: Vec<PathBuf>,
     failures: Vec<Failure>,
     docs_url: Option<String>,
+    against: Vec<(PathBuf, Against)>,
+    /// Drawings without contours, and what they hold.
+    empty: Vec<(PathBuf, String)>,
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
@@ -151,16 +168,8 @@ fn report(arguments: &Arguments) -> Result<Verdict, Failure> {
         _ if arguments.statistics => {
             output::print(lines::statistics(&survey) + &text::summary(&survey))?
         }
-        Format::Text => output::print(text::render(&survey))?,
-        Format::Concise => output::print(lines::concise(&survey) + &text::summary(&survey))?,
-        Format::Grouped => output::print(lines::grouped(&survey) + &text::summary(&survey))?,
-        Format::Github => output::print(lines::github(&survey))?,
-        Format::Junit => output::print(lines::junit(&survey, limit(arguments.deny)))?,
-        Format::Json => output::print_json(&Printed {
-            diagnostics: &survey.rows,
-            suppressed: survey.shows_suppressed.then_some(&survey.suppressed),
-        })?,
-        Format::Sarif => output::print_json_text(&format!("{:#}\n", sarif::log(&survey)))?,
+        None => output::print(text::render(&survey))?,
+        Some(format) => printed(arguments, format, &survey)?,
     }
     survey
         .failures
@@ -175,6 +184,28 @@ fn report(arguments: &Arguments) -> Result<Verdict, Failure> {
         output::say(&say!(says, warning, sentence));
     }
     Ok(verdict(&survey, arguments.deny))
+}
+
+/// In one of the forms that can be chosen.
+fn printed(arguments: &Arguments, format: Format, survey: &Survey) -> Result<(), Failure> {
+    match format {
+        Format::Text => output::print(text::excerpts(survey)),
+        Format::Concise => output::print(lines::concise(survey) + &text::summary(survey)),
+        Format::Grouped => output::print(lines::grouped(survey) + &text::summary(survey)),
+        Format::Github => output::print(lines::github(survey)),
+        Format::Junit => output::print(lines::junit(survey, limit(arguments.deny))),
+        Format::Json => output::print_json(&Printed {
+            diagnostics: &survey.rows,
+            suppressed: survey.shows_suppressed.then_some(&survey.suppressed),
+            against: (survey.against.iter())
+                .map(|(path, against)| PrintedAgainst {
+                    path: path.display().to_string(),
+                    against,
+                })
+                .collect(),
+        }),
+        Format::Sarif => output::print_json_text(&format!("{:#}\n", sarif::log(survey))),
+    }
 }
 
 /// The slightest severity that the command ends with 1 for.
@@ -216,6 +247,8 @@ fn survey(arguments: &Arguments) -> Survey {
         fixable: Vec::new(),
         failures: found.failures,
         docs_url: None,
+        against: Vec::new(),
+        empty: Vec::new(),
     };
     for (path, file) in found.files.into_iter().zip(checked) {
         survey.files += usize::from(file.failure.is_none());
@@ -227,6 +260,9 @@ fn survey(arguments: &Arguments) -> Survey {
         survey.rows.extend(file.rows);
         survey.suppressed.extend(file.suppressed);
         survey.docs_url = survey.docs_url.or(file.docs_url);
+        let named = |path: &PathBuf| files::shown(path).to_path_buf();
+        (survey.against).extend(file.against.map(|against| (named(&path), against)));
+        (survey.empty).extend(file.empty.map(|holds| (named(&path), holds)));
         if file.fixable {
             survey.fixable.push(path);
         }
@@ -234,8 +270,8 @@ fn survey(arguments: &Arguments) -> Survey {
     // Several drawings may share one faulty settings file: it is reported once.
     let mut said = std::collections::HashSet::new();
     let of_settings = [Rule::Settings, Rule::PassOrder];
-    survey.rows.retain(|row| arguments.wants(row.rule));
-    survey.suppressed.retain(|row| arguments.wants(row.rule));
+    survey.rows.retain(|row| arguments.wants(row));
+    survey.suppressed.retain(|row| arguments.wants(row));
     survey.rows.retain(|row| {
         !of_settings.contains(&row.rule)
             || said.insert((row.path.clone(), row.span.line, row.message.clone()))
@@ -284,6 +320,8 @@ fn check(
             fixable: !stdin && !arguments.is_choosy() && document.can_be_fixed(all),
             failure: None,
             docs_url: document.settings().docs_url.clone(),
+            against: Against::of(&document),
+            empty: files::holds_no_contour(&document),
         };
         let is_lost = document.text().is_some_and(SourceText::is_lost);
         if is_last {

@@ -13,9 +13,10 @@ use super::{Failure, Verdict, ending, files};
 use crate::disk::ending_of;
 use crate::document::FileKind;
 use crate::program::Format;
+use crate::protocol::Against;
 use clap::Args;
 use page::Page;
-use std::collections::HashSet;
+use std::collections::{BTreeSet, HashSet};
 use std::path::{Path, PathBuf};
 
 #[derive(Args, Debug)]
@@ -32,8 +33,8 @@ pub(crate) struct Arguments {
     output: PathBuf,
     #[arg(long)]
     overwrite: bool,
-    #[arg(long, default_value = "3b", value_parser = Format::of)]
-    format: Format,
+    #[arg(long, value_parser = Format::of)]
+    format: Option<Format>,
     #[command(flatten)]
     program: Program,
     #[command(flatten)]
@@ -72,9 +73,14 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let last = arguments.common.settings_with(&arguments.program);
     let last = last.overlaid(&arguments.head.0);
     let mut lines = Vec::new();
+    let mut against: BTreeSet<String> = BTreeSet::new();
     for (path, name) in drawings {
-        let page = files::open_to_use(path, None, &arguments.common, &last)
-            .and_then(|opened| Page::of(opened, arguments.format));
+        let page = files::open_to_use(path, None, &arguments.common, &last).and_then(|opened| {
+            let settings = opened.document.settings();
+            let format = (arguments.format).unwrap_or_else(|| ending::of_settings(settings));
+            against.extend(Against::of(&opened.document).map(|own| own.on_a_terminal()));
+            Page::of(opened, format)
+        });
         match page {
             Ok(page) => {
                 output::write(Some(&folder.join(&name)), page.html().as_bytes(), true)?;
@@ -94,10 +100,16 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         say!(pages, lines.len()),
         output::name(&index)
     ));
+    for said in against.iter().take(SOME) {
+        output::say(&styled(output::FAINT, say!(judged_against, said)));
+    }
     Ok(verdict)
 }
 
 const INDEX: &str = "index.html";
+
+/// The most lines about what drawings were judged against.
+const SOME: usize = 4;
 
 fn is_drawing(path: &Path) -> bool {
     FileKind::of_ending(&ending_of(path)) == Some(FileKind::Drawing)

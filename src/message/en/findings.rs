@@ -85,6 +85,7 @@ declare! {
     is_not_cut(kind, why) => "{kind} is not cut: {why}";
     of_them_is_not_cut(kind, count, why) => "{kind} ({count} of them) is not cut: {why}";
     an_inside_corner_is_left_rounded(angle, radius, uncut) => "inside corner of {angle:.1}° comes out with R {radius} mm: {uncut} mm of stock stay in it";
+    inside_corners_come_out_rounded(count, radius, uncut, x, y) => "{count} inside corners come out with R {radius} mm; the most that stays is {uncut} mm at {x:.3}, {y:.3}";
     a_sharp_corner_that_the_wire_runs_inside(angle, radius, tool) => "sharp corner of {angle:.1}°: where {tool} runs inside of it, it comes out with R {radius} mm";
     sharp_corners_that_the_wire_runs_inside(count, radius, tool) => "{count} sharp corners: where {tool} runs inside of them, they come out with R {radius} mm";
     the_slot_is_too_narrow(width, required, tool) => "slot is {width} mm wide, {tool} needs {required} mm: it cannot pass without cutting the walls";
@@ -110,8 +111,13 @@ declare! {
     contour_kinks_by_degrees(turn, tool) => "contour kinks by {turn:.2}° where it looks tangent: {tool} leaves a mark";
     the_wire_would_cut_into_the_part_each_time(touches, count, tool) => "contour {touches} {count} times along this segment: {tool} would cut into the part";
     the_wire_would_cut_into_the_part(touches, tool) => "contour {touches} here: {tool} would cut into the part";
+    contour_kinks_in_several_places(count, turn, x, y, tool) => "contour kinks in {count} places where it looks tangent, at most by {turn:.2}° at {x:.3}, {y:.3}: {tool} leaves marks";
     within_mm(deviation) => ", within {deviation} mm";
-    chords_lie_on_one_arc(chords, radius, within, tool) => "{chords} chords lie on one arc of R {radius} mm{within}: {tool} leaves facets";
+    chords_lie_on_one_arc(chords, radius, within, facets) => "{chords} chords lie on one arc of R {radius} mm{within}: {chords} blocks become 1{facets}";
+    the_wire_leaves_facets(tool, facet) => "; {tool} leaves facets of {facet} mm";
+    chords_lie_on_several_arcs(chords, arcs, radius) => "{chords} chords lie on {arcs} arcs, the longest of R {radius} mm: {chords} blocks become {arcs}";
+    open_contours_name_the_layer(count, layers) => "{count} open contours; name the layer to cut, and give the others the role ignore: {layers}";
+    on_its_layer(layer, count) => "{layer} {count}";
     more_than_any_machine_travels => "more than any machine travels";
     less_than_a_wire_is_thick => "less than a wire is thick";
     the_size_of_the_part_is_absurd(size, what) => "the largest contour is {size} mm long or wide, {what}: the unit is another one, or this is not a drawing of a part";
@@ -148,6 +154,7 @@ declare! {
     what_is_in_the_way(place) => "what is in the way: {place}";
     touches_this_one(place) => "touches this one: {place}";
     crosses_this_one(place) => "crosses this one: {place}";
+    one_more_of_them(place) => "another: {place}";
     meets_this_one(place) => "meets this one: {place}";
     the_other_one(place) => "the other one: {place}";
     arc => "arc";

@@ -5,8 +5,10 @@ declare! {
     the_way_cuts_into_contour(x, y, x1, y1, contour) => "the way from ({x:.3}, {y:.3}) to ({x1:.3}, {y1:.3}) cuts into contour {contour}: the wire stays threaded, since the profile's pause does not stop the machine";
     contour_has_no_length(handle) => "contour {handle} has no length";
     contour_is_open_and_cannot_be_entered_at(handle, x, y) => "contour {handle} is open and cannot be entered at ({x}, {y}), expected one of its ends";
-    contour_is_open_the_side_of_the_wire_is_not_known(handle) => "contour {handle} is open: the side of the wire is not known; close it, or set compensation to none to cut it as drawn";
-    side_of_contour_is_not_known(handle) => "side of contour {handle} is not known: set side (--side) to opening or punch";
+    contour_is_open_the_side_of_the_wire_is_not_known(contour, x, y) => "contour {contour} at {x:.3}, {y:.3} is open: the side of the wire is not known; close it, or set compensation to none to cut it as drawn";
+    side_of_contour_is_not_known(contour, x, y) => "side of contour {contour} at {x:.3}, {y:.3} is not known: choose auto (by nesting), opening or punch";
+    side_of_contour_is_not_known_give_an_option(contour, x, y) => "side of contour {contour} at {x:.3}, {y:.3} is not known: --side auto (by nesting), --side opening or --side punch";
+    number_and_handle(number, handle) => "{number} ({handle})";
     the_thread_hole_comes_nearer_to_the_contour(x, y, correction, x1, y1) => "the thread hole ({x:.3}, {y:.3}) comes nearer to the contour than the correction {correction:.3} mm: the wire can only stand at ({x1:.3}, {y1:.3})";
     there_is_no_entity_with_the_handle(handle) => "there is no entity with the handle {handle}";
     entity_belongs_to_no_contour_that_is_cut(handle) => "entity {handle} belongs to no contour that is cut";

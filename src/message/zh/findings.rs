@@ -85,6 +85,7 @@ translate! {
     is_not_cut(kind, why) => "{kind} 不切割：{why}";
     of_them_is_not_cut(kind, count, why) => "{kind}（共 {count} 个）不切割：{why}";
     an_inside_corner_is_left_rounded(angle, radius, uncut) => "{angle:.1}° 的内角会留下 R {radius} mm 的圆角：{uncut} mm 切不到";
+    inside_corners_come_out_rounded(count, radius, uncut, x, y) => "{count} 处内角切出后为 R {radius} mm；最多残留 {uncut} mm，在 {x:.3}, {y:.3}";
     a_sharp_corner_that_the_wire_runs_inside(angle, radius, tool) => "{angle:.1}° 的尖角：{tool}在内侧走时，会留下 R {radius} mm 的圆角";
     sharp_corners_that_the_wire_runs_inside(count, radius, tool) => "{count} 处尖角：{tool}在内侧走的会留下 R {radius} mm 的圆角";
     the_slot_is_too_narrow(width, required, tool) => "槽宽 {width} mm，{tool}需要 {required} mm：通过时必然切到槽壁";
@@ -110,8 +111,13 @@ translate! {
     contour_kinks_by_degrees(turn, tool) => "轮廓看似相切，实际折了 {turn:.2}°：{tool}会留下切痕";
     the_wire_would_cut_into_the_part_each_time(touches, count, tool) => "轮廓沿此段{touches} {count} 次：{tool}会切入工件";
     the_wire_would_cut_into_the_part(touches, tool) => "轮廓在此{touches}：{tool}会切入工件";
+    contour_kinks_in_several_places(count, turn, x, y, tool) => "轮廓有 {count} 处看似相切、实际折了，最大 {turn:.2}°，在 {x:.3}, {y:.3}：{tool}会留下切痕";
     within_mm(deviation) => "，误差不超过 {deviation} mm";
-    chords_lie_on_one_arc(chords, radius, within, tool) => "{chords} 段短直线在同一圆弧 R {radius} mm 上{within}：{tool}会切出棱面";
+    chords_lie_on_one_arc(chords, radius, within, facets) => "{chords} 段短直线在同一圆弧 R {radius} mm 上{within}：{chords} 段程序可变为 1 段{facets}";
+    the_wire_leaves_facets(tool, facet) => "；{tool}会切出 {facet} mm 的棱面";
+    chords_lie_on_several_arcs(chords, arcs, radius) => "{chords} 段短直线在 {arcs} 段圆弧上，最长的为 R {radius} mm：{chords} 段程序可变为 {arcs} 段";
+    open_contours_name_the_layer(count, layers) => "{count} 个不封闭的轮廓；请指明要切割的图层，其余图层设为 ignore：{layers}";
+    on_its_layer(layer, count) => "{layer} {count} 个";
     more_than_any_machine_travels => "超过任何机床的行程";
     less_than_a_wire_is_thick => "比电极丝还小";
     the_size_of_the_part_is_absurd(size, what) => "最大的轮廓长或宽 {size} mm，{what}：单位不对，或图形不是工件";
@@ -143,6 +149,7 @@ translate! {
     what_is_in_the_way(place) => "挡在路上的：{place}";
     touches_this_one(place) => "与此处相碰：{place}";
     crosses_this_one(place) => "与此处相交：{place}";
+    one_more_of_them(place) => "另一处：{place}";
     meets_this_one(place) => "与此段相接：{place}";
     the_other_one(place) => "另一处：{place}";
     arc => "圆弧";

@@ -5,8 +5,10 @@ translate! {
     the_way_cuts_into_contour(x, y, x1, y1, contour) => "从 ({x:.3}, {y:.3}) 到 ({x1:.3}, {y1:.3}) 的跳步会切入轮廓 {contour}：profile 的暂停码不停机，电极丝没有拆下";
     contour_has_no_length(handle) => "轮廓 {handle} 没有长度";
     contour_is_open_and_cannot_be_entered_at(handle, x, y) => "轮廓 {handle} 不封闭，不能从 ({x}, {y}) 切入，应从它的一个端点切入";
-    contour_is_open_the_side_of_the_wire_is_not_known(handle) => "轮廓 {handle} 不封闭：不知道电极丝在哪一侧；请封闭轮廓，或把 compensation 设为 none 按图线切割";
-    side_of_contour_is_not_known(handle) => "不知道轮廓 {handle} 的补偿方向：请把 side（--side）设为 opening（型孔）或 punch（凸模）";
+    contour_is_open_the_side_of_the_wire_is_not_known(contour, x, y) => "轮廓 {contour}（{x:.3}, {y:.3} 处）不封闭：不知道电极丝在哪一侧；请封闭轮廓，或把 compensation 设为 none 按图线切割";
+    side_of_contour_is_not_known(contour, x, y) => "不知道轮廓 {contour}（{x:.3}, {y:.3} 处）的补偿方向：请选择 auto（按嵌套）、opening（型孔）或 punch（凸模）";
+    side_of_contour_is_not_known_give_an_option(contour, x, y) => "不知道轮廓 {contour}（{x:.3}, {y:.3} 处）的补偿方向：请用 --side auto（按嵌套）、--side opening（型孔）或 --side punch（凸模）";
+    number_and_handle(number, handle) => "{number}（{handle}）";
     the_thread_hole_comes_nearer_to_the_contour(x, y, correction, x1, y1) => "穿丝孔 ({x:.3}, {y:.3}) 到轮廓的距离小于补偿量 {correction:.3} mm：电极丝只能停在 ({x1:.3}, {y1:.3})";
     there_is_no_entity_with_the_handle(handle) => "没有句柄为 {handle} 的图元";
     entity_belongs_to_no_contour_that_is_cut(handle) => "图元 {handle} 不属于要切割的轮廓";

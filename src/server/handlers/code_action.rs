@@ -293,7 +293,25 @@ fn chosen(
     };
     let findings = document.all_findings();
     let chosen = findings.iter().filter(|finding| is_chosen(finding));
-    chosen.take(LISTED).cloned().collect()
+    let mut chosen: Vec<Finding> = chosen.take(LISTED).cloned().collect();
+    // One finding may stand for several: each is repaired where it is.
+    let text = document.text().filter(|_| !is_named);
+    let bytes = text.map(|text| convert::bytes_of(text, params.range, context.encoding));
+    for at in bytes
+        .map(|bytes| document.segments_at(bytes))
+        .into_iter()
+        .flatten()
+        .take(LISTED)
+    {
+        let known = |one: &Finding| {
+            let mut all = chosen.iter();
+            all.any(|other| (other.rule, &other.place) == (one.rule, &one.place))
+        };
+        let each = document.each_at(at).into_iter();
+        let new: Vec<Finding> = each.filter(|one| !known(one)).collect();
+        chosen.extend(new);
+    }
+    chosen
 }
 
 /// Rule, handle and segment in a client's diagnostic.

@@ -115,6 +115,11 @@ impl Opening {
 }
 
 fn found(vertices: &[Vertex], role: Role) -> Vec<Finding> {
+    let (drawing, mut analysis) = analysed(vertices, role);
+    analysis.findings(&drawing, usize::MAX).0
+}
+
+fn analysed(vertices: &[Vertex], role: Role) -> (Drawing, Analysis) {
     let mut drawing = Drawing::new(None);
     let geometry = Geometry::Polyline {
         closed: true,
@@ -131,9 +136,8 @@ fn found(vertices: &[Vertex], role: Role) -> Vec<Finding> {
         correction: Some(CORRECTION),
         ..Settings::default()
     }));
-    Analysis::new(&drawing, settings)
-        .findings(&drawing, usize::MAX)
-        .0
+    let analysis = Analysis::new(&drawing, settings);
+    (drawing, analysis)
 }
 
 fn count(findings: &[Finding], rule: Rule) -> usize {

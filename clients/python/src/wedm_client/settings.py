@@ -64,6 +64,7 @@ class MillingSettings(TypedDict, total=False):
 class ProgramSettings(TypedDict, total=False):
     """How a program is written."""
 
+    format: Literal["3b", "4b", "iso", "milling"]
     layout: Literal["compact", "aligned", "checking"]
     header: bool
     direction: Literal["ccw", "cw", "as-drawn"]
