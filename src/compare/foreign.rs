@@ -6,27 +6,27 @@
 use super::budget::Budget;
 use super::difference::{Comparison, Difference, DifferenceKind};
 use super::drawn::Drawn;
-use super::passes::{Pass, passes};
+use super::entry::{begin, enter};
+use super::passes::{Pass, passes, share};
 use super::place::{of_size, place, refined};
 use super::ring::{Course, NONE, Ring};
-use super::traced::{Block, Cut, Motion, Traced};
+use super::traced::{Cut, Motion, Traced};
 use super::walk::{At, COVERED, WITHIN, WITHIN_FOUR_B, Walk};
 use super::walls::FARTHEST;
-use crate::geometry::{Point, Side, Vector};
-use crate::settings::{Compensation, Corner};
+use crate::geometry::{Segment, Side, Vector};
+use crate::settings::Corner;
 use std::ops::Range;
 
-/// At most so many blocks lead to a contour; and so many corners of a ring are tried where it begins.
+/// At most so many blocks lead to a contour.
 const LEADS: usize = 4;
-const ENTRIES: usize = 200;
-/// From so many blocks on that follow, a pass has begun.
-const BEGUN: usize = 3;
 /// An arc in a sharp corner leaves no more of it than this, µm.
 const ROUNDED: f64 = 300.0;
+/// A smaller deviation is the writer's rounding, or the drift of a machine that counts, µm.
+const SLIGHT: f64 = 8.0;
+/// A contour that is begun this near to where it ends is begun there, µm.
+const NEAR: f64 = 1_500.0;
 /// A table is moved by hand at least this far, µm.
 const BY_HAND: f64 = 1_000.0;
-/// Offsets of contours are the same within this, µm.
-const SAME_OFFSET: f64 = 3.0;
 /// Of so many blocks of a pass one may be wrong; with more, it is another contour.
 const ONE_OF: usize = 3;
 
@@ -38,14 +38,18 @@ pub(super) struct Seen {
 }
 
 /// A pass that has been followed.
-struct Judged {
-    pass: Pass,
+pub(super) struct Judged {
+    pub(super) pass: Pass,
     /// The first block of its contour.
-    first: usize,
-    differences: Vec<Difference>,
-    follows: Vec<usize>,
+    pub(super) first: usize,
+    pub(super) differences: Vec<Difference>,
+    pub(super) follows: Vec<usize>,
+    /// How many blocks are wrong, whether they are named or not.
+    pub(super) wrong: usize,
+    /// The block behind its last one.
+    pub(super) end: usize,
     /// Where the program lies behind it.
-    shift: Vector,
+    pub(super) shift: Vector,
 }
 
 pub(super) fn compare(drawn: &Drawn, traced: &Traced) -> Option<Seen> {
@@ -53,10 +57,12 @@ pub(super) fn compare(drawn: &Drawn, traced: &Traced) -> Option<Seen> {
         return None;
     }
     let budget = Budget::default();
+    let shift = place(drawn, traced, &budget)?;
     let mut foreign = Foreign {
         drawn,
         traced,
-        shift: place(drawn, traced, &budget)?,
+        shift,
+        base: shift,
         has_place: traced.is_placed,
         budget,
         judged: Vec::new(),
@@ -68,45 +74,74 @@ pub(super) fn compare(drawn: &Drawn, traced: &Traced) -> Option<Seen> {
     foreign.told()
 }
 
-struct Foreign<'a> {
-    drawn: &'a Drawn,
-    traced: &'a Traced,
-    budget: Budget,
+pub(super) struct Foreign<'a> {
+    pub(super) drawn: &'a Drawn,
+    pub(super) traced: &'a Traced,
+    pub(super) budget: Budget,
     /// From the program's places to those of the drawing, as it is at the cut.
-    shift: Vector,
+    pub(super) shift: Vector,
+    /// The same as it was first found.
+    pub(super) base: Vector,
     /// What lies elsewhere has been moved: the program says where it lies, or a contour of it has been followed.
-    has_place: bool,
-    judged: Vec<Judged>,
+    pub(super) has_place: bool,
+    pub(super) judged: Vec<Judged>,
     /// First blocks of contours that are not in the drawing.
-    unknown: Vec<usize>,
+    pub(super) unknown: Vec<usize>,
 }
 
 impl Foreign<'_> {
+    /// Follows the passes of a cut, one after the other: a wrong block in one may move all that come after it.
     fn cut(&mut self, cut: &Cut) {
-        let walls = self.drawn.walls();
-        let mut found = passes(self.traced, walls, cut, self.shift, &self.budget);
-        let mut shift = self.shift;
-        if !found.iter().any(|pass| pass.is_whole)
-            && let Some((others, place)) = self.elsewhere(cut)
-        {
-            found = others;
-            // Near where it should be, it may have parted from there amid the contour.
-            if (place - shift).norm() > FARTHEST {
-                shift = place;
+        let mut rest = cut.clone();
+        let mut is_known = false;
+        while !rest.blocks.is_empty() {
+            let Some((pass, shift)) = self.first_pass(&rest, is_known) else {
+                break;
+            };
+            is_known = true;
+            rest.blocks.start = pass.last + 1;
+            if let Some(judged) = self.pass(&pass, shift) {
+                self.shift = judged.shift;
+                self.has_place = true;
+                rest.blocks.start = rest.blocks.start.max(judged.end);
+                self.judged.push(judged);
             }
+            rest.blocks.start = rest.blocks.start.min(rest.blocks.end);
         }
-        if found.is_empty() && cut.contour.len() > LEADS {
+        let is_beside = || {
+            let blocks = cut.contour.clone();
+            share(
+                self.traced,
+                self.drawn.walls(),
+                blocks,
+                self.shift,
+                &self.budget,
+            ) > 0.0
+        };
+        if !is_known && cut.contour.len() > LEADS && !is_beside() {
             self.unknown.push(cut.contour.start);
         }
-        for pass in found {
-            let Some(judged) = self.pass(&pass, shift) else {
-                continue;
-            };
-            shift = judged.shift;
-            self.shift = shift;
-            self.has_place = true;
-            self.judged.push(judged);
+    }
+
+    /// The first pass of what is left of a cut, and where the program lies there.
+    fn first_pass(&self, rest: &Cut, is_known: bool) -> Option<(Pass, Vector)> {
+        let walls = self.drawn.walls();
+        // An absolute program lies where it did, whatever was wrong before.
+        let here = match self.traced.is_relative {
+            true => self.shift,
+            false => self.base,
+        };
+        let found = passes(self.traced, walls, rest, here, &self.budget);
+        if !is_known
+            && !found.iter().any(|pass| pass.is_whole)
+            && let Some((others, place)) = self.elsewhere(rest)
+        {
+            // Near where it should be, it may have parted from there amid the contour.
+            let is_far = (place - here).norm() > FARTHEST;
+            let shift = if is_far { place } else { here };
+            return Some((others.into_iter().next()?, shift));
         }
+        Some((found.into_iter().next()?, here))
     }
 
     /// A cut that goes round no contour where it is, but does nearby, or on a contour of its size.
@@ -134,8 +169,7 @@ impl Foreign<'_> {
                 continue;
             };
             let judged = self.follow(pass, &ring, shift);
-            let count =
-                |judged: &Judged| (judged.differences.len(), usize::MAX - judged.follows.len());
+            let count = |judged: &Judged| (judged.wrong, usize::MAX - judged.follows.len());
             let is_better = |best: &Judged| {
                 judged
                     .as_ref()
@@ -215,20 +249,31 @@ impl Foreign<'_> {
 
     fn follow(&self, pass: &Pass, ring: &Ring, shift: Vector) -> Option<Judged> {
         let walk = self.walk(ring, pass.blocks.clone());
-        let (first, entry) = enter(&walk, shift)?;
+        // An absolute program comes back to where it lies.
+        let mut places = [self.base, shift]
+            .into_iter()
+            .filter(|place| !self.traced.is_relative || *place == shift);
+        let (first, entry) = places
+            .find_map(|place| begin(&walk, place, self.traced.is_relative))
+            .or_else(|| enter(&walk, shift))?;
         let mut judged = Judged {
             pass: pass.clone(),
             first,
             differences: Vec::new(),
             follows: Vec::new(),
+            wrong: 0,
+            end: first,
             shift: entry.shift,
         };
         let named = |index: usize, along: f64, off: f64, kind: DifferenceKind| {
             let block = self.traced.blocks.get(index)?;
             Some(Difference::of(block, ring.source(along), off, kind))
         };
-        let away = (entry.shift - shift).norm();
-        if self.has_place && away > walk.within && !self.is_taken(pass, away) {
+        let mut away = (entry.shift - shift).norm();
+        if !self.traced.is_relative {
+            away = away.min((entry.shift - self.base).norm());
+        }
+        if self.has_place && away > SLIGHT && !self.is_taken(pass, away) {
             let way = first
                 .checked_sub(1)
                 .filter(|way| walk.segment(*way).is_some());
@@ -242,6 +287,7 @@ impl Foreign<'_> {
             false => ring.length - COVERED,
         };
         let (mut at, mut index, mut last) = (entry, first, None);
+        let mut is_resumed = false;
         while let Some(next) = walk.next(index) {
             if at.along >= complete && walk.follow(next, at).is_none() {
                 break;
@@ -249,6 +295,9 @@ impl Foreign<'_> {
             if let Some(along) = walk.follow(next, at) {
                 judged.follows.push(next);
                 (at.along, index, last) = (along, next + 1, Some(next));
+                if self.traced.counts {
+                    at.shift += walk.drift(next, at);
+                }
                 continue;
             }
             let deepest = pass.offset.abs().max(ROUNDED);
@@ -256,36 +305,78 @@ impl Foreign<'_> {
                 (at.along, index, last) = (along, next + 1, Some(next));
                 continue;
             }
+            if let Some((back, place)) = self.comes_back(&walk, next, at, complete) {
+                (at, index, last) = (place, back, None);
+                continue;
+            }
+            // From pass to pass, at the end of a tab.
+            let own = walk.segment(next).map_or(0.0, Segment::length);
+            if own <= ROUNDED && next > pass.last && !walk.runs_along(next, at) {
+                break;
+            }
             let Some(resumed) = walk.resume(next, at, last, complete) else {
                 if pass.is_whole {
                     self.leave(&walk, &mut judged, next, at, complete);
                 }
                 break;
             };
-            let kind = DifferenceKind::Block;
-            judged
-                .differences
-                .extend(named(resumed.wrong, at.along, resumed.off, kind));
+            is_resumed = true;
+            // By less, it is as its writer rounds it.
+            if resumed.off > SLIGHT {
+                let kind = DifferenceKind::Block;
+                let wrong = named(resumed.wrong, at.along, resumed.off, kind);
+                judged.differences.extend(wrong);
+            }
             judged.follows.retain(|index| *index != resumed.wrong);
             (at, index, last) = (resumed.at, resumed.next, None);
         }
-        let has_tab = self.traced.cuts.iter().any(|cut| {
-            let blocks = self
-                .traced
-                .blocks
-                .get(cut.blocks.clone())
-                .unwrap_or_default();
-            cut.blocks.contains(&first) && blocks.iter().any(|block| block.motion == Motion::Stop)
-        });
-        if at.along < complete && judged.differences.is_empty() && pass.is_whole && !has_tab {
-            self.unfinished(&walk, &mut judged, entry, at);
+        let is_all = index > pass.last;
+        if at.along < complete
+            && judged.differences.is_empty()
+            && pass.is_whole
+            && is_all
+            && !self.has_tab(first)
+        {
+            self.unfinished(&walk, &mut judged, [entry, at], is_resumed);
         }
-        judged.shift = at.shift;
-        let wrong = judged.differences.len();
-        if wrong > 1 && ONE_OF * wrong > judged.follows.len() {
-            return None;
+        (judged.shift, judged.end) = (at.shift, index);
+        judged.wrong = judged.differences.len();
+        // It is another contour, or another drawing: that is said once.
+        if judged.wrong > 1 && ONE_OF * judged.wrong > judged.follows.len() {
+            judged.differences.truncate(1);
         }
         Some(judged)
+    }
+
+    /// Where an absolute program follows again at its stated places, with this block or the next one.
+    fn comes_back(&self, walk: &Walk, block: usize, at: At, complete: f64) -> Option<(usize, At)> {
+        if self.traced.is_relative || at.shift == self.base {
+            return None;
+        }
+        let own = walk.segment(block)?;
+        [Some(block), walk.next(block + 1)]
+            .into_iter()
+            .flatten()
+            .find_map(|next| {
+                let start = walk.segment(next)?.start() + self.base;
+                let to = at.along + 2.0 * own.length() + 10.0;
+                let (along, away) = walk.ring.nearest(start, at.along - walk.within, to)?;
+                let place = At {
+                    along,
+                    shift: self.base,
+                };
+                let follows = walk.count(next, place, 1, complete).count > 0;
+                (away <= walk.within && follows).then_some((next, place))
+            })
+    }
+
+    /// Whether the machine stops within the cut of a block, as it does before a tab.
+    fn has_tab(&self, block: usize) -> bool {
+        self.traced.cuts.iter().any(|cut| {
+            let blocks = self.traced.blocks.get(cut.blocks.clone());
+            let mut blocks = blocks.into_iter().flatten();
+            cut.blocks.contains(&block) && blocks.any(|block| block.motion == Motion::Stop)
+        })
     }
 
     /// A contour to which no block leads: the table is moved by hand, or the program sets where it is; each contour of 4B
@@ -317,8 +408,8 @@ impl Foreign<'_> {
         if rest <= LEADS && at.along >= complete - walk.ring.length * 0.5 {
             return;
         }
-        let block = self.traced.blocks.get(index);
         let off = walk.off(index, at);
+        let block = self.traced.blocks.get(index).filter(|_| off > SLIGHT);
         judged.differences.extend(block.map(|block| {
             Difference::of(
                 block,
@@ -330,7 +421,7 @@ impl Foreign<'_> {
     }
 
     /// A contour that is not cut all round, by more than a tab within a side of it.
-    fn unfinished(&self, walk: &Walk, judged: &mut Judged, entry: At, at: At) {
+    fn unfinished(&self, walk: &Walk, judged: &mut Judged, [entry, at]: [At; 2], is_resumed: bool) {
         let Some(last) = judged
             .follows
             .last()
@@ -342,20 +433,28 @@ impl Foreign<'_> {
             true => (at.along, entry.along + walk.ring.length),
             false => (at.along, walk.ring.length),
         };
-        // A first block that begins beside the contour.
-        let before = judged.first.checked_sub(1);
-        if let Some((before, own)) = before.and_then(|at| Some((at, walk.segment(at)?)))
-            && (own.length() - (to - from)).abs() <= 0.1 * own.length() + COVERED
-            && (own.end() + at.shift - walk.place(entry.along)).norm() <= walk.within
-        {
-            let off = (own.start() + at.shift - walk.place(at.along)).norm();
-            let way = before
+        // What was not followed at the begin comes near to where the contour ends: the last of it is wrong.
+        let close = walk.place(at.along);
+        let begins = (walk.range.start..judged.first).filter_map(|index| {
+            let off = (walk.segment(index)?.start() + at.shift - close).norm();
+            (off <= NEAR).then_some((index, off))
+        });
+        if let Some((begin, off)) = begins.min_by(|one, other| one.1.total_cmp(&other.1)) {
+            // One that begins beside the contour is led there.
+            let is_alone = begin + 1 == judged.first && !walk.counts;
+            let way = begin
                 .checked_sub(1)
                 .filter(|way| walk.segment(*way).is_some());
-            let block = self.traced.blocks.get(way.unwrap_or(before));
-            judged.differences.extend(
-                block.map(|block| Difference::of(block, None, off, DifferenceKind::Astray)),
-            );
+            let (wrong, kind) = match way.filter(|_| is_alone) {
+                Some(way) => (way, DifferenceKind::Astray),
+                None => (judged.first - 1, DifferenceKind::Block),
+            };
+            let block = self.traced.blocks.get(wrong).filter(|_| off > SLIGHT);
+            let wrong = block.map(|block| Difference::of(block, None, off, kind));
+            judged.differences.extend(wrong);
+            return;
+        }
+        if judged.first > judged.pass.first || is_resumed {
             return;
         }
         let corners = walk.ring.between(from + COVERED, to - COVERED);
@@ -370,247 +469,4 @@ impl Foreign<'_> {
                 .push(Difference::of(last, source, to - from, kind));
         }
     }
-
-    /// What is told of all passes.
-    fn told(self) -> Option<Seen> {
-        if self.judged.is_empty() {
-            return None;
-        }
-        let mut differences: Vec<Difference> = self.sides();
-        let is_other_side = differences
-            .iter()
-            .any(|one| one.kind == DifferenceKind::OtherSide);
-        if !is_other_side {
-            differences.extend(self.corrections());
-        }
-        let unknown = self
-            .unknown
-            .iter()
-            .filter_map(|index| self.traced.blocks.get(*index));
-        differences
-            .extend(unknown.map(|block| Difference::of(block, None, 0.0, DifferenceKind::Foreign)));
-        let mut follows = Vec::new();
-        for judged in &self.judged {
-            differences.extend(judged.differences.iter().cloned());
-            let blocks = judged
-                .follows
-                .iter()
-                .filter_map(|index| self.traced.blocks.get(*index));
-            follows.extend(blocks.map(|block| block.range.clone()));
-        }
-        differences.sort_by_key(|one| one.range.start);
-        let mut cut: Vec<usize> = self
-            .judged
-            .iter()
-            .map(|judged| judged.pass.contour)
-            .collect();
-        cut.dedup();
-        let handle = |contour: &usize| {
-            let contour = self.drawn.contours().get(*contour)?;
-            Some(
-                self.drawn
-                    .handle(contour.segments.first()?.entity)
-                    .to_owned(),
-            )
-        };
-        let is_some = cut.len() < self.drawn.contours().len();
-        Some(Seen {
-            handles: is_some.then(|| cut.iter().filter_map(handle).collect()),
-            comparison: Comparison {
-                differences,
-                follows,
-            },
-        })
-    }
-
-    /// Contours whose first pass lies farther from them than those of most others, or than the settings say.
-    fn corrections(&self) -> Vec<Difference> {
-        let mut firsts: Vec<&Judged> = Vec::new();
-        for judged in &self.judged {
-            let is_new = firsts
-                .last()
-                .is_none_or(|last| last.pass.contour != judged.pass.contour);
-            let is_known = firsts
-                .iter()
-                .any(|first| first.pass.contour == judged.pass.contour);
-            if is_new && !is_known && judged.pass.offset.abs() > NONE {
-                firsts.push(judged);
-            }
-        }
-        let like = |offset: f64| {
-            let alike = |one: &&&Judged| (one.pass.offset.abs() - offset).abs() <= SAME_OFFSET;
-            firsts.iter().filter(alike).count()
-        };
-        let set = self.drawn.settings.each_correction();
-        let set = set.first().map_or(0.0, |mm| mm * 1e3);
-        let rank = |one: &&&Judged| {
-            let own = one.pass.offset.abs();
-            (
-                like(own),
-                (own - set).abs() <= SAME_OFFSET,
-                std::cmp::Reverse(one.first),
-            )
-        };
-        let Some(most) = firsts
-            .iter()
-            .max_by_key(rank)
-            .map(|one| one.pass.offset.abs())
-        else {
-            return Vec::new();
-        };
-        let others = firsts
-            .iter()
-            .filter(|one| (one.pass.offset.abs() - most).abs() > SAME_OFFSET);
-        let nm = |um: f64| (um * 1e3).round() as u32;
-        let named = others.filter_map(|one| {
-            let block = self.traced.blocks.get(one.first)?;
-            let contour = self.drawn.contours().get(one.pass.contour)?;
-            let segment = contour.segments.first()?;
-            let kind = DifferenceKind::Correction {
-                stated: nm(one.pass.offset.abs()),
-                ideal: nm(most),
-            };
-            Some(Difference::of(
-                block,
-                Some((segment.entity, segment.segment)),
-                0.0,
-                kind,
-            ))
-        });
-        named.collect()
-    }
-
-    /// Passes on another side of their contour than the drawing has it, or under no correction where others are.
-    fn sides(&self) -> Vec<Difference> {
-        let is_offset = self.traced.blocks.iter().any(Block::is_offset);
-        let asked = self.drawn.settings.compensation;
-        let (mut found, mut on_other) = (Vec::new(), 0);
-        let mut sided = 0;
-        for judged in &self.judged {
-            let Some(side) = self
-                .drawn
-                .contours()
-                .get(judged.pass.contour)
-                .and_then(|it| it.side)
-            else {
-                continue;
-            };
-            let Some(block) = self.traced.blocks.get(judged.first) else {
-                continue;
-            };
-            if judged.pass.offset.abs() > NONE {
-                sided += 1;
-                on_other += usize::from((judged.pass.offset > 0.0) != (side == Side::Left));
-                continue;
-            }
-            let ideal = if judged.pass.back {
-                side.reversed()
-            } else {
-                side
-            };
-            let wants = is_offset || asked == Compensation::Controller && !self.traced.counts;
-            if wants && block.side != Some(ideal) && !self.traced.four_b {
-                found.push(self.at_switch(judged.first, block, ideal));
-            }
-        }
-        if !is_offset {
-            found.truncate(1);
-        }
-        if sided > 0 && on_other == sided && asked != Compensation::None && !self.traced.four_b {
-            let first = self
-                .judged
-                .first()
-                .and_then(|first| self.traced.blocks.get(first.first));
-            let kind = DifferenceKind::OtherSide;
-            found.extend(first.map(|block| Difference::of(block, None, 0.0, kind)));
-        }
-        found
-    }
-
-    fn at_switch(&self, index: usize, block: &Block, ideal: Side) -> Difference {
-        let kind = DifferenceKind::Side {
-            stated: block.side,
-            ideal: Some(ideal),
-        };
-        let mut found = Difference::of(block, None, 0.0, kind);
-        // It is switched on before the way in.
-        let of_pass = |at: &usize| {
-            let other = self.traced.blocks.get(*at);
-            other.is_some_and(|other| other.stretch == block.stretch)
-        };
-        let first = (0..=index).rev().take_while(of_pass).last();
-        let switch = first.filter(|_| block.side.is_some());
-        if let Some((range, line)) = switch.and_then(|first| self.traced.switch_before(first)) {
-            (found.range, found.line) = (range, line);
-        }
-        found
-    }
-}
-
-/// The first block of a pass that is of its contour, and where it begins: where the program lies, else from a corner of
-/// the ring.
-fn enter(walk: &Walk, shift: Vector) -> Option<(usize, At)> {
-    let blocks = walk
-        .range
-        .clone()
-        .filter(|index| walk.segment(*index).is_some());
-    let blocks: Vec<usize> = blocks.take(LEADS + 1).collect();
-    let length = walk.ring.length;
-    let enough = |index: usize, at: At| {
-        let left = walk.range.clone().skip_while(|own| *own < index);
-        let left = left.filter(|own| walk.segment(*own).is_some()).count();
-        let complete = at.along + length - COVERED;
-        let followed = walk.count(index, at, BEGUN, complete);
-        followed.count >= BEGUN.min(left) || followed.count > 0 && followed.along >= complete
-    };
-    let mut begins: Vec<(usize, At)> = Vec::new();
-    for &index in &blocks {
-        let start = walk.segment(index)?.start() + shift;
-        if !walk.budget.take(walk.ring.pieces.len()) {
-            return None;
-        }
-        let near = walk.ring.nearest(start, 0.0, length * (1.0 - 1e-12));
-        let Some((along, _)) = near.filter(|(_, away)| *away <= walk.within) else {
-            continue;
-        };
-        let at = At { along, shift };
-        if walk.follow(index, at).is_some() {
-            return Some((index, at));
-        }
-        begins.push((index, at));
-    }
-    // Its first block may be the wrong one.
-    let goes_on = |(index, at): &(usize, At)| {
-        let complete = at.along + length - COVERED;
-        walk.resume(*index, *at, None, complete).is_some()
-    };
-    if let Some(begin) = begins.into_iter().find(goes_on) {
-        return Some(begin);
-    }
-    let mut best: Option<(f64, usize, At)> = None;
-    for &index in &blocks {
-        let own = walk.segment(index)?;
-        for piece in walk.ring.pieces.iter().take(ENTRIES) {
-            let mut places: Vec<(f64, Point, Point)> =
-                vec![(piece.before, piece.segment.start(), own.start())];
-            if let (Some(arc), Some(other)) = (own.as_arc(), piece.segment.as_arc()) {
-                let by = other.center - arc.center;
-                let share = piece.segment.share_of(own.start() + by).clamp(0.0, 1.0);
-                let along = piece.before + share * piece.segment.length();
-                places.push((along, other.center, arc.center));
-            }
-            for (along, ideal, stated) in places {
-                let at = At {
-                    along,
-                    shift: ideal - stated,
-                };
-                let away = (at.shift - shift).norm();
-                let is_nearer = best.is_none_or(|(nearest, ..)| away < nearest - 1e-3);
-                if is_nearer && enough(index, at) {
-                    best = Some((away, index, at));
-                }
-            }
-        }
-    }
-    best.map(|(_, index, at)| (index, at))
 }

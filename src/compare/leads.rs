@@ -7,8 +7,10 @@
 use super::TOLERANCE;
 use super::difference::{Difference, DifferenceKind};
 use super::own::{Aligned, Beside, PLACED};
+use super::traced::Traced;
 use super::words::Words;
 use crate::geometry::Vector;
+use crate::program::block_words::BlockWords;
 use std::ops::Range;
 
 /// A program that lies elsewhere by more is meant to, µm.
@@ -155,29 +157,54 @@ impl Aligned<'_> {
                 None => self.start(cut.start, gap),
             };
         }
+        // At the ends of a tab the wire goes from pass to pass.
+        let is_between = |(_, ideal): &&Row| self.source(*ideal).is_none();
+        let between: Vec<Row> = cut.contour.iter().filter(is_between).copied().collect();
         // From another hole the ways are others; from the same one, one of them is wrong.
-        if (hole - begin).norm() > TOLERANCE {
-            return None;
+        let ways = match (hole - begin).norm() > TOLERANCE {
+            true => [&[][..], &between, &[]],
+            false => [cut.ways_in, &between, cut.ways_out],
+        };
+        // A number that only the machine reads.
+        let is_in_place = |row: &&Row| {
+            let ends = self.ends_away(row.0, row.1).unwrap_or_default();
+            ends.iter().all(|away| away.norm() <= PLACED)
+        };
+        let bridge: Vec<Row> = cut.bridge.iter().filter(is_in_place).copied().collect();
+        if let Some(way) = self.first_off(&bridge) {
+            return named(way, self.off(way));
         }
-        let mut ways = [cut.ways_in, cut.ways_out].into_iter();
-        let way = ways.find_map(|ways| self.first_off(ways))?;
+        let way = ways.into_iter().find_map(|ways| self.first_off(ways))?;
         named(way, self.off(way))
     }
 
-    /// The line before a block in which an ISO program states where it begins.
+    /// The line before a block in which an ISO program states where it begins, where that says something else.
     fn start(&self, block: usize, off: f64) -> Option<Difference> {
-        let traced = self.traced;
-        let first = traced.blocks.get(block).filter(|_| !traced.counts)?;
+        let first = self.traced.blocks.get(block)?;
         let before = block
             .checked_sub(1)
-            .and_then(|before| traced.blocks.get(before));
-        let lines = before.map_or(0, |before| before.line + 1)..first.line;
-        let mut lines = lines.map(|line| (line, traced.text.line_range(line)));
-        let (line, range) = lines.find(|(_, range)| traced.said_in(range.clone()).sets_place())?;
+            .and_then(|before| self.traced.blocks.get(before));
+        let from = before.map_or(0, |before| before.line + 1);
+        let own = starts(self.traced);
+        let ideal = starts(&self.rewritten.traced);
+        let mut both = own.into_iter().zip(ideal);
+        let is_it = |line: usize| (from..=first.line).contains(&line);
+        let ((line, range, _), _) =
+            both.find(|((line, _, own), (_, _, ideal))| is_it(*line) && !own.is_like(ideal))?;
         Some(Difference {
             range,
             line,
             ..Difference::of(first, None, off, DifferenceKind::Lead)
         })
     }
+}
+
+/// The lines in which an ISO program states where it is.
+fn starts(traced: &Traced) -> Vec<(usize, Range<usize>, BlockWords)> {
+    if traced.counts {
+        return Vec::new();
+    }
+    let lines = (0..traced.text.line_count()).map(|line| (line, traced.text.line_range(line)));
+    let words = lines.map(|(line, range)| (line, range.clone(), traced.said_in(range)));
+    words.filter(|(_, _, words)| words.sets_place()).collect()
 }

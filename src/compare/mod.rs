@@ -12,6 +12,7 @@
 mod budget;
 mod difference;
 mod drawn;
+mod entry;
 mod findings;
 mod foreign;
 mod leads;
@@ -19,6 +20,7 @@ mod names;
 mod own;
 mod passes;
 mod place;
+mod reported;
 mod resume;
 mod rewritten;
 mod ring;
@@ -50,5 +52,8 @@ pub fn compare(drawn: &Drawn, traced: &Traced) -> Option<Comparison> {
     // Of a program that cuts some of the contours, those are written again.
     let handles = seen.handles.filter(|handles| !handles.is_empty());
     let own = handles.and_then(|handles| own::compare(drawn, traced, Some(handles)));
+    // In another order they are not ours.
+    let is_moved = |one: &Difference| one.kind == DifferenceKind::Moved;
+    let own = own.filter(|own| !own.differences.iter().any(is_moved));
     Some(own.unwrap_or(seen.comparison))
 }

@@ -251,6 +251,10 @@ fn rows(own: &[Block], ideal: &[Block]) -> Option<Vec<Beside>> {
     };
     let mut rows = Vec::with_capacity(most);
     let (mut at, mut nth, mut unlike, mut places) = (0, 0, 0, 0);
+    let moving = own
+        .iter()
+        .filter(|block| block.motion != Motion::Stop)
+        .count();
     let mut last: Option<usize> = None;
     while at < own.len() || nth < ideal.len() {
         if at < own.len() && agree(at, nth) {
@@ -298,12 +302,13 @@ fn rows(own: &[Block], ideal: &[Block]) -> Option<Vec<Beside>> {
         (places, last) = (places + usize::from(is_new), Some(rows.len()));
         (at, nth) = ((at + more).min(own.len()), (nth + lost).min(ideal.len()));
         let is_in_one_place =
-            places == 1 && unlike <= IN_ONE_PLACE && 2 * unlike <= most && most - unlike >= AGAIN;
+            places == 1 && unlike <= IN_ONE_PLACE && 2 * unlike <= most && moving >= AGAIN;
         if ONE_OF * unlike > most && !is_in_one_place {
             return None;
         }
     }
-    Some(rows)
+    // Of a block or two that differ nothing says that they are ours.
+    (places == 0 || moving >= AGAIN).then_some(rows)
 }
 
 /// How many blocks of the program, and of the rewritten one, are passed over, the fewest first.

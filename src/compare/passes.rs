@@ -24,6 +24,9 @@ const ONLY: f64 = 0.1;
 pub(super) struct Pass {
     /// All blocks from the end of the pass before, or of the cut, to the begin of the next one.
     pub(super) blocks: Range<usize>,
+    /// The first and the last of them that lies so far beside the contour.
+    pub(super) first: usize,
+    pub(super) last: usize,
     pub(super) contour: usize,
     /// µm, positive to the left of the contour's direction.
     pub(super) offset: f64,
@@ -157,6 +160,8 @@ pub(super) fn passes(
         let to = next.copied().unwrap_or(cut.blocks.end);
         passes.push(Pass {
             blocks: from..to,
+            first: group.first,
+            last: group.last,
             contour: group.lies.contour,
             offset: median(group.lefts),
             back: group.lies.back,

@@ -15,7 +15,7 @@ const PLACES: usize = 24;
 /// Blocks of a cut that are looked at.
 const LOOKED_AT: usize = 64;
 /// A place is right where so much of a cut lies at one distance, and surely where so much does.
-const RIGHT: f64 = 0.3;
+const RIGHT: f64 = 0.2;
 const SURE: f64 = 0.8;
 /// Distances that do not fit count less from so far off on, µm: first as far as a contour of this size may be off.
 const SCALES: [f64; 5] = [200.0, 50.0, 10.0, 4.0, 4.0];
@@ -24,12 +24,25 @@ const SCALES: [f64; 5] = [200.0, 50.0, 10.0, 4.0, 4.0];
 pub(super) fn place(drawn: &Drawn, traced: &Traced, budget: &Budget) -> Option<Vector> {
     let cuts: Vec<Range<usize>> = traced.cuts.iter().map(|cut| cut.contour.clone()).collect();
     let cuts: Vec<Range<usize>> = cuts.into_iter().filter(|cut| !cut.is_empty()).collect();
+    // A single line among others is a way.
+    let is_contour = |cut: &&Range<usize>| {
+        let first = traced.blocks.get(cut.start).and_then(Block::segment);
+        cut.len() > 1 || first.is_some_and(|first| first.as_arc().is_some())
+    };
+    let contours: Vec<&Range<usize>> = match cuts.iter().any(|cut| is_contour(&cut)) {
+        true => cuts.iter().filter(is_contour).collect(),
+        false => cuts.iter().collect(),
+    };
+    // How much of the first cuts lies at one distance, each by itself: of contours that are alike, those count where all
+    // of them lie.
     let right = |shift: Vector| {
-        let own = cuts.iter().take(CUTS).map(|cut| {
+        let of_contours = contours.iter().take(CUTS);
+        let own = of_contours.map(|cut| {
             let cut = cut.start..cut.end.min(cut.start + LOOKED_AT);
             share(traced, drawn.walls(), cut, shift, budget)
         });
-        own.fold(0.0, f64::max)
+        let own: Vec<f64> = own.collect();
+        own.iter().sum::<f64>() / own.len().max(1) as f64
     };
     if traced.is_placed && right(Vector::zeros()) >= RIGHT {
         return Some(Vector::zeros());
@@ -45,15 +58,19 @@ pub(super) fn place(drawn: &Drawn, traced: &Traced, budget: &Budget) -> Option<V
         .take(CUTS)
         .flat_map(|cut| of_size(drawn, traced, cut));
     for (number, shift) in begun.chain(sized).take(2 + CUTS * PLACES).enumerate() {
-        let shift = match number {
-            0 | 1 => shift,
-            _ => refined(drawn, traced, cuts.first()?, shift, budget),
-        };
-        let own = right(shift);
-        if best.is_none_or(|(best, _)| own > best) {
-            best = Some((own, shift));
+        let first = cuts.first()?;
+        let middle = first.start + first.len() / 2;
+        // Where a block in the middle is wrong, each half lies elsewhere.
+        let parts = [first.clone(), first.start..middle, middle..first.end];
+        let parts = parts.iter().take(if number < 2 { 0 } else { 3 });
+        let places = parts.map(|part| refined(drawn, traced, part, shift, budget));
+        for shift in std::iter::once(shift).chain(places.collect::<Vec<_>>()) {
+            let own = right(shift);
+            if best.is_none_or(|(best, _)| own > best) {
+                best = Some((own, shift));
+            }
         }
-        if own >= SURE {
+        if best.is_some_and(|(own, _)| own >= SURE) {
             break;
         }
     }

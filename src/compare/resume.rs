@@ -14,8 +14,12 @@ const BEFORE: usize = 2;
 const BEHIND: usize = 8;
 /// Blocks that are left out where a corner of the drawing is elsewhere: two sides, and what goes round between them.
 const MOST_LEFT_OUT: usize = 4;
+/// A block runs along the ring where the cosine between them is at least this.
+const ALONG: f64 = 0.98;
 /// A radius is that of an arc of the ring within this, µm.
 const RADIUS: f64 = 3.0;
+/// A corner turns at least by this, radians.
+const SHARP: f64 = 0.1;
 /// An arc that rounds a corner is tangent to both sides within this, radians.
 const TANGENT: f64 = 0.03;
 
@@ -110,6 +114,9 @@ impl Walk<'_> {
             };
             // This block leads elsewhere than to this corner.
             let shift = corner - behind.start();
+            if (shift - at.shift).norm() <= self.within {
+                continue;
+            }
             all.push(Guess {
                 next,
                 at: At { along, shift },
@@ -126,22 +133,46 @@ impl Walk<'_> {
         }
         // The coordinates after it are right.
         let mut next = next;
+        let mut length = own.length();
         for nth in 0..MOST_LEFT_OUT {
             let Some((index, behind)) = next.and_then(|next| Some((next, self.segment(next)?)))
             else {
                 break;
             };
+            let close = self.place(complete + COVERED) - (behind.end() + at.shift);
+            if close.norm() <= self.within && complete - at.along <= 2.0 * length {
+                all.push(Guess {
+                    next: index + 1,
+                    at: At {
+                        along: complete,
+                        ..at
+                    },
+                    wrong: block,
+                    off: self.off(block, at),
+                    is_last: true,
+                });
+            }
+            length += behind.length();
             let to = at.along + 4.0 * own.length() + 4.0 * behind.length();
             let start = behind.start() + at.shift;
             if let Some((along, away)) = self.ring.nearest(start, at.along - self.within, to)
                 && away <= self.within
             {
-                let is_before = nth == 0 && wrong_before.is_some();
+                let before = wrong_before.filter(|_| nth == 0);
+                // It ends short of a corner, or beyond it.
+                let aside = corners
+                    .iter()
+                    .map(|(_, corner)| (corner - own.start() - at.shift).norm());
+                let aside = aside.fold(f64::INFINITY, f64::min);
                 all.push(Guess {
                     next: index,
                     at: At { along, ..at },
-                    wrong: wrong_before.filter(|_| is_before).unwrap_or(block),
-                    off: self.off(block, at),
+                    wrong: before.unwrap_or(block),
+                    off: if before.is_some() {
+                        aside
+                    } else {
+                        self.off(block, at)
+                    },
                     is_last: false,
                 });
             }
@@ -239,6 +270,38 @@ impl Walk<'_> {
         })
     }
 
+    /// Whether a block that begins at a place runs along the ring, as far as its first length tells.
+    pub(super) fn runs_along(&self, block: usize, at: At) -> bool {
+        let Some((own, (_, piece))) = self
+            .segment(block)
+            .zip(self.ring.between(at.along, at.along).last())
+        else {
+            return false;
+        };
+        let share = piece
+            .segment
+            .share_of(own.start() + at.shift)
+            .clamp(0.0, 1.0);
+        let mut ways = vec![piece.segment.tangent_at(share)];
+        // At a corner also on from there.
+        let next = self
+            .ring
+            .between(at.along + self.within, at.along + self.within)
+            .last();
+        ways.extend(next.map(|(_, next)| next.segment.tangent_at(0.0)));
+        let along = ways.into_iter().map(|way| way.dot(&own.start_tangent()));
+        along.fold(-1.0, f64::max) >= ALONG
+    }
+
+    /// By how much a block that follows has drifted from the ring at its end: a machine that counts ends beside its place.
+    pub(super) fn drift(&self, block: usize, at: At) -> Vector {
+        let end = self.segment(block).map(|own| own.end() + at.shift);
+        let drift = end.map(|end| self.place(at.along) - end);
+        drift
+            .filter(|drift| drift.norm() <= self.within)
+            .unwrap_or_default()
+    }
+
     /// How far a block is off that begins at a place: its end or its middle from the ring, or its end from the next
     /// corner.
     pub(super) fn off(&self, block: usize, at: At) -> f64 {
@@ -280,6 +343,10 @@ impl Walk<'_> {
                 .atan2(one.dot(&other))
                 .abs()
         };
+        let corner = turn(piece.segment.end_tangent(), behind.segment.start_tangent());
+        if corner < SHARP {
+            return None;
+        }
         let is_tangent = turn(piece.segment.tangent_at(share), own.start_tangent()) <= TANGENT
             && turn(behind.segment.tangent_at(end), own.end_tangent()) <= TANGENT;
         let (_, depth) = self.ring.nearest(own.point_at(0.5), at.along, to)?;

@@ -112,7 +112,13 @@ fn sources(
                 (shift, next) = (by, path + 1);
             }
         }
-        sources.push(pieces.source(own, shift, reach).and_then(Source::segment));
+        let found = pieces.source(own, shift, reach);
+        sources.push(found.and_then(|(_, source)| source.segment()));
+        // What is counted in whole micrometres drifts along arcs.
+        if let Some((piece, _)) = found.filter(|_| traced.counts && !traced.four_b) {
+            let end = own.end() + shift;
+            shift += piece.point_at(piece.share_of(end).clamp(0.0, 1.0)) - end;
+        }
     }
     sources
 }
@@ -136,8 +142,8 @@ impl Pieces {
         Pieces { all, index }
     }
 
-    /// Where the piece comes from that a block lies on.
-    fn source(&self, block: &Segment, shift: Vector, reach: f64) -> Option<Source> {
+    /// The piece that a block lies on, and where that comes from.
+    fn source(&self, block: &Segment, shift: Vector, reach: f64) -> Option<(Segment, Source)> {
         let places: [Point; 3] = [0.0, 0.5, 1.0].map(|share| block.point_at(share) + shift);
         let mut best: Option<(f64, usize)> = None;
         self.index
@@ -151,7 +157,7 @@ impl Pieces {
                     best = Some(own);
                 }
             });
-        Some(self.all.get(best?.1)?.1)
+        self.all.get(best?.1).copied()
     }
 }
 
@@ -197,8 +203,9 @@ fn returns(path: &WirePath) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use super::super::traced::Motion;
     use super::*;
-    use crate::drawing::{Contour, Entity, Geometry, Kind, Role, Unit, Vertex};
+    use crate::drawing::{Contour, Drawing, Entity, Geometry, Kind, Outline, Role, Unit, Vertex};
     use crate::settings::from_toml;
 
     /// A punch, and an opening beside it.

@@ -216,9 +216,15 @@ impl Traced {
         } = traits;
         let cuts = path::cuts(&trace);
         let cuts = cuts.into_iter().filter(|cut| !cut.is_way);
-        let cuts = cuts.map(|cut| Cut {
-            contour: cut.contour_steps(),
-            blocks: cut.steps,
+        let cuts = cuts.map(|cut| {
+            let contour = cut.contour_steps();
+            // Where it does not come back, its first block and its last lead there and away.
+            let inner = cut.steps.start + 1..cut.steps.end.saturating_sub(1);
+            let is_known = cut.closed && !contour.is_empty() || cut.steps.len() < 3;
+            Cut {
+                contour: if is_known { contour } else { inner },
+                blocks: cut.steps,
+            }
         });
         let cuts = cuts.collect();
         let (is_placed, counts) = match language {

@@ -8,7 +8,7 @@ use std::ops::Range;
 
 /// How far a block may be from the ring, µm: [`TOLERANCE`](super::TOLERANCE), and what the rounding of both to the grid
 /// explains.
-pub(super) const WITHIN: f64 = 3.0;
+pub(super) const WITHIN: f64 = 4.0;
 /// The same where transitions of 4B are rounded otherwise, or a counting machine has drifted along arcs.
 pub(super) const WITHIN_FOUR_B: f64 = 6.0;
 /// By how much a block may be longer than its part of the ring, which is cut off at its corners: µm, and a share.

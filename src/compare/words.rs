@@ -8,6 +8,9 @@ use super::traced::{Block, Motion};
 use crate::geometry::Vector;
 use std::collections::BTreeMap;
 
+/// A larger difference of a number that moves nothing is another way to say the same, µm.
+const SLIP: f64 = 50.0;
+
 /// The words of a block beside those of the rewritten one.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Words {
@@ -58,7 +61,12 @@ impl Words {
         // A line in place of an arc is off by more than rounding, wherever it ends.
         let other = || (way(own) - way(ideal)).norm().max(2.0 * TOLERANCE);
         let away = own.motion.away_from(&ideal.motion).unwrap_or_else(other);
-        away.max(self.apart)
+        // Of a line X and Y say only which way it leads, in whatever numbers.
+        let is_line = ideal.segment().is_none_or(|ideal| ideal.as_arc().is_none());
+        match is_line && self.apart > SLIP {
+            true => away,
+            false => away.max(self.apart),
+        }
     }
 }
 

@@ -33,14 +33,14 @@ fn ring(count: usize) -> Vec<[f64; 3]> {
 #[test]
 fn long_programs_of_short_arcs_follow_their_drawing() {
     for (count, format, keys) in [
-        (6_000, Format::ThreeB, "layout = \"compact\""),
+        (2_000, Format::ThreeB, "layout = \"compact\""),
         (
-            1_500,
+            800,
             Format::ThreeB,
             "layout = \"checking\"\ndirection = \"cw\"",
         ),
-        (1_500, Format::Iso, "profile = \"fast-wire\""),
-        (1_500, Format::Iso, "compensation = \"controller\""),
+        (800, Format::Iso, "profile = \"fast-wire\""),
+        (800, Format::Iso, "compensation = \"controller\""),
     ] {
         let settings = settings_of(&format!("correction = 0.1\n[program]\n{keys}\n"));
         let shapes = [(Shape::Polyline(ring(count)), Role::Punch)];

@@ -294,7 +294,12 @@ fn programs_of_others() {
             continue;
         };
         let lines: Vec<usize> = whole.differences.iter().map(|one| one.line).collect();
-        board.note("foreign, unchanged", Some(&lines), None, &about(&text));
+        board.note(
+            "foreign, unchanged",
+            Some(&lines),
+            None,
+            &format!("{:?}\n{}", whole.differences, about(&text)),
+        );
         if !lines.is_empty() || whole.follows.is_empty() {
             continue;
         }
@@ -336,5 +341,9 @@ fn programs_of_others() {
             &about(&text),
         );
     }
-    board.holds(&[]);
+    board.holds(&[
+        ("foreign, unchanged", 85),
+        ("foreign, a block", 50),
+        ("foreign, other drawing", 80),
+    ]);
 }

@@ -56,7 +56,7 @@ fn rows() -> Vec<Row> {
 }
 
 /// Neither the side of a contour, nor correction, passes, lead, tab or overlap is known: of an unchanged program nothing is reported.
-/// `WEDM_CASES=1 cargo test --test core beside without_settings` asks it of every row, else of some.
+/// `WEDM_CASES=1 cargo test --test core compare::unknown::without_settings` asks it of every row, else of some.
 #[test]
 fn without_settings_nothing_is_said_of_an_unchanged_program() {
     let rows = rows();
