@@ -1,11 +1,11 @@
 //! The data of a drawing for comparing: its contours, and the programs that we write for it.
 
+use super::basis::{Basis, Contour};
 use super::rewritten::{Asked, Rewritten};
 use super::ring::{Course, Ring};
 use super::traced::Traced;
 use super::walls::Walls;
-use crate::drawing::{ContourSegment, Drawing, EntityId, Outline};
-use crate::geometry::Side;
+use crate::drawing::{Drawing, EntityId, Outline};
 use crate::settings::Effective;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
@@ -49,16 +49,6 @@ impl PartialEq for Drawn {
     }
 }
 
-/// A contour that is cut.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Contour {
-    /// In the direction of travel, in the drawing's unit.
-    pub segments: Vec<ContourSegment>,
-    pub closed: bool,
-    /// Side of the direction of travel on which the wire runs, where that is known.
-    pub side: Option<Side>,
-}
-
 impl Drawn {
     pub fn of(
         drawing: &Arc<Drawing>,
@@ -88,6 +78,16 @@ impl Drawn {
         })
     }
 
+    fn basis(&self) -> Basis<'_> {
+        Basis {
+            drawing: &self.drawing,
+            outlines: &self.outlines,
+            contours: self.contours(),
+            settings: &self.settings,
+            unit_mm: self.unit_mm,
+        }
+    }
+
     /// Their segments, and which of them are near a place.
     pub(super) fn walls(&self) -> &Walls {
         let made = || Walls::of(self.contours(), self.unit_mm * 1e3);
@@ -107,7 +107,7 @@ impl Drawn {
         if let Some((_, known)) = lock().iter().find(|(other, _)| *other == asked) {
             return known.clone();
         }
-        let made = Rewritten::of(self, &asked).map(Arc::new);
+        let made = Rewritten::of(self.basis(), &asked).map(Arc::new);
         let mut kept = lock();
         if kept.len() >= MOST_KEPT {
             // The first is of all contours.
@@ -124,7 +124,7 @@ impl Drawn {
         if let Some((_, known)) = lock().iter().find(|(other, _)| other == course) {
             return known.clone();
         }
-        let made = Ring::of(self, course).map(Arc::new);
+        let made = Ring::of(self.basis(), course).map(Arc::new);
         let mut kept = lock();
         let pieces = |(_, ring): &(Course, Option<Arc<Ring>>)| {
             ring.as_ref().map_or(0, |ring| ring.pieces.len())

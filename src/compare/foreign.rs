@@ -397,7 +397,11 @@ impl Foreign<'_> {
                 .unwrap_or_default();
             between.iter().any(|block| block.motion != Motion::Stop)
         });
-        self.traced.four_b || cut.is_some() && before.is_some() && !leads && away > BY_HAND
+        // A program that does not say where it lies may have begun with any of several contours that are alike.
+        let may_be_another = !self.traced.is_placed && away > FARTHEST;
+        self.traced.four_b
+            || may_be_another
+            || cut.is_some() && before.is_some() && !leads && away > BY_HAND
     }
 
     /// A block that follows nothing: a way out, or one from which nothing comes back.

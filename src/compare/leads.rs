@@ -5,8 +5,8 @@
 //! between them lies where it should.
 
 use super::TOLERANCE;
+use super::aligned::{Aligned, Beside, PLACED};
 use super::difference::{Difference, DifferenceKind};
-use super::own::{Aligned, Beside, PLACED};
 use super::traced::Traced;
 use super::words::Words;
 use crate::geometry::Vector;

@@ -9,6 +9,8 @@
 //! [`Traced`] is all that is taken of a program, [`Drawn`] of a drawing. Nothing here knows of files that are open, of
 //! LSP, or of sentences.
 
+mod aligned;
+mod basis;
 mod budget;
 mod difference;
 mod drawn;

@@ -1,6 +1,6 @@
 //! The program that wedm writes for a drawing, to be compared with another one.
 
-use super::drawn::Drawn;
+use super::basis::Basis;
 use super::traced::{Traced, Traits};
 use crate::drawing::EntityId;
 use crate::geometry::{Bounds, Grid, Point, Segment, Vector};
@@ -49,29 +49,29 @@ impl Asked {
 }
 
 impl Rewritten {
-    pub(super) fn of(drawn: &Drawn, asked: &Asked) -> Option<Rewritten> {
-        let mut settings = match (asked.format, drawn.settings.mills) {
-            (Format::Milling, true) => drawn.settings.milled().ok()?,
+    pub(super) fn of(basis: Basis, asked: &Asked) -> Option<Rewritten> {
+        let mut settings = match (asked.format, basis.settings.mills) {
+            (Format::Milling, true) => basis.settings.milled().ok()?,
             (Format::Milling, false) | (_, true) => return None,
-            (_, false) => (*drawn.settings).clone(),
+            (_, false) => basis.settings.clone(),
         };
         if asked.states_ends {
             settings.layout = Layout::Checking;
         }
-        let contours = drawn.contours().iter();
+        let contours = basis.contours.iter();
         let segments: usize = contours.map(|contour| contour.segments.len()).sum();
-        if settings.pass_error().is_some() || segments.max(drawn.drawing.len()) > MOST {
+        if settings.pass_error().is_some() || segments.max(basis.drawing.len()) > MOST {
             return None;
         }
         let paths = plan(
-            &drawn.drawing,
-            &drawn.outlines,
+            basis.drawing,
+            basis.outlines,
             &asked.format.settings(&settings),
             asked.handles.as_deref(),
         )
         .ok()?;
-        let traced = written(asked.format, &paths, drawn.unit_mm, &settings)?;
-        let scale = drawn.unit_mm * 1e3;
+        let traced = written(asked.format, &paths, basis.unit_mm, &settings)?;
+        let scale = basis.unit_mm * 1e3;
         let shift = match traced.is_placed {
             true => Vector::zeros(),
             false => paths.first()?.begin() * scale - traced.begin()?,

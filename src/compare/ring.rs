@@ -1,6 +1,6 @@
 //! The way of the wire round one contour at one offset, as a line along which a program moves.
 
-use super::drawn::Drawn;
+use super::basis::Basis;
 use crate::drawing::{ContourSegment, EntityId};
 use crate::geometry::{Arc, Point, Segment, Side};
 use crate::program::three_b;
@@ -42,8 +42,8 @@ pub(super) struct Course {
 
 impl Ring {
     /// `None` where no wire runs there.
-    pub(super) fn of(drawn: &Drawn, course: &Course) -> Option<Ring> {
-        let contour = drawn.contours().get(course.contour)?;
+    pub(super) fn of(basis: Basis, course: &Course) -> Option<Ring> {
+        let contour = basis.contours.get(course.contour)?;
         let mut segments = contour.segments.clone();
         if course.back {
             segments.reverse();
@@ -73,19 +73,19 @@ impl Ring {
         let is_left = (course.offset > 0.0) != course.back;
         let side = if is_left { Side::Left } else { Side::Right };
         if course.four_b {
-            path = of_four_b(path, contour.closed, side, drawn)?;
+            path = of_four_b(path, contour.closed, side, basis)?;
         } else if course.offset.abs() > NONE {
             let settings = Effective {
                 compensation: Compensation::Path,
                 corner: course.corner,
-                ..(*drawn.settings).clone()
+                ..basis.settings.clone()
             };
             let mm = course.offset.abs() / 1e3;
             let sided = (side, contour.closed);
-            let laid = toolpath::rounds(&segments, sided, &[mm], &settings, drawn.unit_mm);
+            let laid = toolpath::rounds(&segments, sided, &[mm], &settings, basis.unit_mm);
             path = laid.into_iter().next()??;
         }
-        Some(Ring::along(&path, drawn.unit_mm * 1e3, contour.closed))
+        Some(Ring::along(&path, basis.unit_mm * 1e3, contour.closed))
     }
 
     fn along(path: &[PathSegment], scale: f64, closed: bool) -> Ring {
@@ -170,7 +170,7 @@ fn of_four_b(
     mut path: Vec<PathSegment>,
     closed: bool,
     side: Side,
-    drawn: &Drawn,
+    basis: Basis,
 ) -> Option<Vec<PathSegment>> {
     let first = *path.first()?;
     if closed {
@@ -181,5 +181,5 @@ fn of_four_b(
             ..first
         });
     }
-    three_b::of_part(path, side, &drawn.settings, drawn.unit_mm)
+    three_b::of_part(path, side, basis.settings, basis.unit_mm)
 }

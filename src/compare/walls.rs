@@ -1,7 +1,7 @@
 //! The contours of a drawing in µm, and which of their segments are near a place.
 
+use super::basis::Contour;
 use super::budget::Budget;
-use super::drawn::Contour;
 use crate::geometry::{Bounds, Grid, Point, Segment, left_normal};
 use crate::program::write::scaled;
 

@@ -2,8 +2,8 @@
 //! it is taken from, and the side of each arc of 4B.
 
 use super::TOLERANCE;
+use super::aligned::{Aligned, Beside};
 use super::difference::{Difference, DifferenceKind};
-use super::own::{Aligned, Beside};
 use super::traced::{Block, Motion};
 use crate::geometry::Vector;
 use std::collections::BTreeMap;

@@ -266,7 +266,7 @@ fn own_programs() {
         ("own, a block lost", 95),
         ("own, a block twice", 95),
         ("own, two exchanged", 95),
-        ("own, another drawing", 100),
+        ("own, another drawing", 85),
     ]);
 }
 
