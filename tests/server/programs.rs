@@ -122,7 +122,7 @@ fn what_cannot_be_asked_for_is_refused_and_what_can_is_named() {
     check(
         json!({ "uri": URI, "format": "3b" }),
         -32803,
-        "side of contour 2A is not known",
+        "side of contour 1 (2A) at",
     );
     check(
         json!({ "uri": URI, "format": "3b", "handles": ["ZZ"] }),
