@@ -130,6 +130,10 @@ export type StepKind = ("line" | "arc" | "pause" | "end") | "rapid";
  * The level that has the last word on the correction.
  */
 export type CorrectionSource = "default" | "client" | "file";
+/**
+ * A level of settings, or what else says a value.
+ */
+export type Origin = "default" | "client" | "file" | "config" | "option" | "drawing";
 
 /**
  * Params and result of each request.
