@@ -36,6 +36,10 @@ export type SkimCorner = "sharp" | "constant-stock";
  * Severity of a rule, or off.
  */
 export type RuleSeverity = "error" | "warning" | "information" | "hint" | "off";
+/**
+ * What a program is written in.
+ */
+export type ProgramFormat = "3b" | "4b" | "iso" | "milling";
 export type Layout = "compact" | "aligned" | "checking";
 /**
  * Direction in which a closed contour is cut.
@@ -582,6 +586,10 @@ export interface ContourSettings {
  * How a program is written.
  */
 export interface ProgramSettings {
+  /**
+   * What `wedm generate`, `wedm pair` and `wedm report` write where neither `--format` nor the name of the file says it. Not set: 3B.
+   */
+  format?: ProgramFormat;
   /**
    * Form of the blocks. Programs that are formatted keep their own where none is set.
    */
@@ -1683,6 +1691,9 @@ export interface SettingsInForce {
   corrections: number[];
   correctionFrom: CorrectionSource;
   side: SideSetting;
+  /**
+   * The level that the side comes from.
+   */
   sideFrom: Origin;
   /**
    * Correction and side, each with where it comes from: a sentence to be shown.
