@@ -195,7 +195,7 @@ fn commands_print_and_end_as_they_say() {
         (
             "generate clean.dxf",
             1,
-            &["!side of contour 2A is not known"],
+            &["!is not known: --side auto"],
         ),
         (
             "generate clean.dxf --side opening",
