@@ -229,7 +229,7 @@ impl Analysis {
             && !is_middle
             && let Some(known) = self.known.get(&key)
         {
-            (counted.counts.local, counted.counts.stood_for) =
+            [counted.counts.local, counted.counts.stood_for] =
                 known.counts(&outlook, side, open_is_an_error);
         }
         // An open contour with a side is meant to be open.

@@ -169,7 +169,7 @@ impl Known {
         outlook: &Outlook,
         wire_side: Option<Side>,
         open_is_an_error: bool,
-    ) -> (Vec<(Kind, usize)>, Vec<(Kind, usize)>) {
+    ) -> [Vec<(Kind, usize)>; 2] {
         let (mut own, mut stood_for) = (Vec::new(), Vec::new());
         let of_rules = self.of_rules(outlook, wire_side, open_is_an_error);
         for of_rule in of_rules.filter(|of_rule| of_rule.count > 0) {
@@ -180,7 +180,7 @@ impl Known {
                 stood_for.push((kind, of_rule.count - 1));
             }
         }
-        (own, stood_for)
+        [own, stood_for]
     }
 
     /// What the local rules of which one finding stands for many have seen at a segment: each by itself.

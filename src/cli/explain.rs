@@ -80,11 +80,11 @@ fn pieces(text: &str) -> Vec<&str> {
         let is_closing = next.is_some_and(|next| "，。；：、）”".contains(next));
         let ends_word = character == ' ' && next.is_some_and(|next| next != ' ');
         if ends_word || (is_wide(character) && !is_closing) {
-            pieces.push(&text[begin..end]);
+            pieces.extend(text.get(begin..end));
             begin = end;
         }
     }
-    pieces.push(&text[begin..]);
+    pieces.extend(text.get(begin..));
     pieces
 }
 

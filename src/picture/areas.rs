@@ -15,7 +15,6 @@ const GROUND: f64 = 22.0;
 /// A closed outline.
 struct Area {
     outline: usize,
-    size: f64,
     /// There is no material in it.
     is_void: bool,
 }
@@ -38,7 +37,10 @@ pub(super) fn areas(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
         }
     }
     for area in areas {
-        let contour = &subject.outlines[area.outline].contour;
+        let Some(outline) = subject.outlines.get(area.outline) else {
+            continue;
+        };
+        let contour = &outline.contour;
         let segments = contour.segments(subject.drawing);
         let data = path_data(frame, segments.map(|segment| segment.geometry), true);
         let paths = of.remove(&area.outline).unwrap_or_default();
@@ -78,48 +80,37 @@ pub(super) fn voids(drawing: &Drawing, outlines: &[Outline]) -> FxHashSet<usize>
 /// The closed outlines, the largest first. An opening is void, whatever holds it; of the others one is void that lies in material, which
 /// is a hole there, whether a side is known for it or not.
 fn told_apart(drawing: &Drawing, outlines: &[Outline]) -> Vec<Area> {
-    let boxes: Vec<Bounds> = outlines
-        .iter()
-        .map(|outline| match outline.contour.closed {
-            true => outline.contour.bounds(drawing),
-            false => Bounds::EMPTY,
-        })
-        .collect();
-    let mut grid = Grid::default();
-    boxes
-        .iter()
-        .enumerate()
-        .for_each(|(index, &bounds)| grid.insert(index, bounds));
     let closed = outlines.iter().enumerate();
     let closed = closed.filter(|(_, outline)| outline.contour.closed);
-    let mut areas: Vec<Area> = closed
-        .map(|(index, outline)| Area {
-            outline: index,
-            size: outline.twice_area.abs(),
-            is_void: outline.role == Role::Opening,
-        })
+    let mut closed: Vec<(usize, &Outline, Bounds)> = closed
+        .map(|(index, outline)| (index, outline, outline.contour.bounds(drawing)))
         .collect();
-    areas.sort_by(|a, b| b.size.total_cmp(&a.size));
-    let mut order: Vec<Option<usize>> = vec![None; outlines.len()];
-    for (place, area) in areas.iter().enumerate() {
-        order[area.outline] = Some(place);
-    }
-    for place in 0..areas.len() {
-        let (own, is_void) = (areas[place].outline, areas[place].is_void);
-        let first = outlines[own].contour.segment(drawing, 0);
-        let Some(point) = first.map(|first| first.geometry.point_at(0.5)) else {
-            continue;
-        };
+    closed.sort_by(|(_, a, _), (_, b, _)| b.twice_area.abs().total_cmp(&a.twice_area.abs()));
+    let mut grid: Grid<usize> = Grid::default();
+    let mut areas: Vec<Area> = Vec::with_capacity(closed.len());
+    // What holds a contour is larger, and stands before it.
+    for (place, (index, outline, bounds)) in closed.iter().enumerate() {
+        let first = outline.contour.segment(drawing, 0);
+        let point = first.map(|first| first.geometry.point_at(0.5));
         let mut holder: Option<usize> = None;
-        grid.near(&Bounds::of_points(&[point]), |outer, _| {
-            let holds = boxes[outer].merged(&boxes[own]) == boxes[outer]
-                && boxes[outer] != boxes[own]
-                && winding(drawing, &outlines[outer].contour, point) != 0;
-            if holds {
-                holder = holder.max(order[outer].filter(|outer| *outer < place));
-            }
+        if let Some(point) = point {
+            grid.near(&Bounds::of_points(&[point]), |at, _| {
+                let holds = closed.get(at).is_some_and(|(_, outer, its)| {
+                    its.merged(bounds) == *its
+                        && its != bounds
+                        && winding(drawing, &outer.contour, point) != 0
+                });
+                if holds {
+                    holder = holder.max(Some(at));
+                }
+            });
+        }
+        let holder = holder.and_then(|holder| areas.get(holder));
+        areas.push(Area {
+            outline: *index,
+            is_void: outline.role == Role::Opening || holder.is_some_and(|holder| !holder.is_void),
         });
-        areas[place].is_void = is_void || holder.is_some_and(|holder| !areas[holder].is_void);
+        grid.insert(place, *bounds);
     }
     areas
 }

@@ -192,11 +192,7 @@ fn commands_print_and_end_as_they_say() {
                 "!no program is written, the drawing has 1 error",
             ],
         ),
-        (
-            "generate clean.dxf",
-            1,
-            &["!is not known: --side auto"],
-        ),
+        ("generate clean.dxf", 1, &["!is not known: --side auto"]),
         (
             "generate clean.dxf --side opening",
             0,

@@ -66,6 +66,9 @@ struct ListedArc {
     verdict: String,
 }
 
+/// A row of the findings, with the number of its mark in the picture.
+type Marked<'a> = &'a (Option<usize>, Row);
+
 impl Page {
     pub(super) fn of(mut opened: Opened, format: Format) -> Result<Page, Failure> {
         // Where a wire is set, too, a page of milling is about the electrode alone.
@@ -284,7 +287,7 @@ impl Page {
     }
 
     fn findings(&self) -> String {
-        let mut by_rule: BTreeMap<(Severity, Rule), Vec<&(Option<usize>, Row)>> = BTreeMap::new();
+        let mut by_rule: BTreeMap<(Severity, Rule), Vec<Marked<'_>>> = BTreeMap::new();
         for numbered in &self.rows {
             let (_, row) = numbered;
             by_rule
@@ -292,7 +295,7 @@ impl Page {
                 .or_default()
                 .push(numbered);
         }
-        let group = |((severity, rule), rows): ((Severity, Rule), Vec<&(Option<usize>, Row)>)| {
+        let group = |(severity, rule): (Severity, Rule), rows: Vec<Marked<'_>>| {
             let shown = rows.iter().take(MOST_OF_A_RULE).map(|(mark, row)| {
                 let place = row.whereabouts().unwrap_or_default();
                 let mark = mark.map(|mark| mark.to_string()).unwrap_or_default();
@@ -309,7 +312,10 @@ impl Page {
             );
             format!("<h3>{head}</h3>\n{table}{more}")
         };
-        by_rule.into_iter().map(group).collect()
+        by_rule
+            .into_iter()
+            .map(|(of_rule, rows)| group(of_rule, rows))
+            .collect()
     }
 
     fn radius_list(&self) -> String {
