@@ -2,8 +2,8 @@
 //!
 //! One binary for many files: what they stand on is compiled once.
 
-#[path = "compare/main.rs"]
-mod compare;
+#[path = "beside/main.rs"]
+mod beside;
 #[path = "convert/main.rs"]
 mod convert;
 #[path = "extremes.rs"]
@@ -18,6 +18,8 @@ mod pairs;
 mod programs;
 #[path = "rules/main.rs"]
 mod rules;
+#[path = "support/size.rs"]
+mod size;
 #[path = "small_radius/main.rs"]
 mod small_radius;
 #[path = "support/star.rs"]

@@ -39,6 +39,8 @@ told! {
     /// The wire runs on the other side of an arc of 4B.
     Turned { other: Arc<str>, said: String, meant: String }
         => say!(the_arc_has_the_wire_on_its_other_side, said, meant, other);
+    /// The wire leaves its contour into the part, by `off` mm.
+    Inside { other: Arc<str>, off: f64 } => say!(the_wire_cuts_into_the_part, other, mm(*off));
     /// A way in ends beside the path of its contour, by `off` mm, and the contour goes on from there.
     Astray { other: Arc<str>, off: f64 } => say!(the_way_in_ends_beside_its_contour, other, mm(*off));
     /// The wire runs on the other side of its contours than the settings say.
@@ -72,6 +74,7 @@ impl Unlike {
             | Unlike::Moved { off, .. }
             | Unlike::Lead { off, .. }
             | Unlike::Stated { off, .. }
+            | Unlike::Inside { off, .. }
             | Unlike::Astray { off, .. }
             | Unlike::Segment { off, .. }
             | Unlike::Begin { off, .. } => Some(*off),

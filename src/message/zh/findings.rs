@@ -69,6 +69,7 @@ translate! {
     the_correction_is_that_of_another_pass(said, meant, drawing) => "补偿号为 {said}，而 {drawing} 其他轮廓的同一次切割为 {meant}：用了另一次切割的补偿";
     a_stop_is_missing_before_this_block(drawing) => "此段之前没有暂停，而 {drawing} 及其设置在此有暂停";
     the_arc_has_the_wire_on_its_other_side(said, meant, drawing) => "写为 {said}，而 {drawing} 需要 {meant}：丝在圆弧的另一侧，半径相差两倍补偿量";
+    the_wire_cuts_into_the_part(drawing, off) => "丝在此离开轮廓，切入 {drawing} 的工件 {off} mm";
     the_way_in_ends_beside_its_contour(drawing, off) => "引入线终点偏离 {drawing} 中轮廓的路径 {off} mm，轮廓从那里开始切割";
     the_contour_is_cut_at_another_correction(handle, drawing, said, meant) => "{drawing} 的轮廓 {handle} 按补偿量 {said:.3} mm 切割，本程序的其他轮廓按 {meant:.3} mm";
     it_is_cut_on_the_other_side(drawing) => "丝走在轮廓的另一侧，与 {drawing} 及其设置不符";
