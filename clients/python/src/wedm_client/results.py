@@ -19,6 +19,7 @@ SegmentKind = Literal["line", "arc", "circle"]
 Direction = Literal["ccw", "cw"]
 PathSource = Literal["segment", "lead-in", "lead-out", "corner", "tab", "cut-off", "overlap"]
 CorrectionSource = Literal["default", "client", "file"]
+Origin = Literal["default", "client", "file", "config", "option", "drawing"]
 
 
 @dataclass(frozen=True)
@@ -337,6 +338,10 @@ class SettingsInForce(Value):
     #: ``default``, ``client`` or ``file``.
     correction_from: CorrectionSource
     side: Side
+    #: The level that the side comes from.
+    side_from: Origin
+    #: Correction and side, each with where it comes from: a sentence to be shown.
+    said: str
     #: URI of the ``wedm.toml`` that holds, if there is one.
     file: str | None = None
     #: Settings for single contours of this drawing, by the handle of an entity or by a point.
