@@ -167,7 +167,7 @@ fn each_pass_of_a_program_in_one_go_is_compared() {
     for (nth, round) in [rectangle(), rounded()].iter().enumerate() {
         let shape = (Shape::Polyline(round.shape.clone()), Role::Opening);
         let drawn = document(&[shape], &settings).drawn().unwrap();
-        for &number in by_day(&[3, 4, 15][..], &[0, 3, 4, 6, 9, 15]) {
+        for &number in by_day(&[3, 15][..], &[0, 3, 4, 6, 9, 15]) {
             let how = How {
                 passes: 2 + number % 2,
                 alternates: number & 2 != 0,
@@ -186,7 +186,7 @@ fn each_pass_of_a_program_in_one_go_is_compared() {
                 })
             };
             assert_eq!(named(&program), Some(Vec::new()), "{}", program.join("\n"));
-            for &line in lines.iter().step_by(by_day(4, 1)) {
+            for &line in lines.iter().step_by(by_day(8, 1)) {
                 for by in [0.05, -1.0] {
                     let mut program = program.clone();
                     program[line] = changed(&program[line], by);
