@@ -37,6 +37,7 @@ fn as_picked_the_selection_says_where_a_chain_begins_and_which_way_it_goes() {
             &outlines,
             &Effective {
                 order: Order::AsPicked,
+                states_order: true,
                 ..direction
             },
             Some(&handles),
@@ -84,6 +85,7 @@ fn contours_are_cut_in_the_order_that_is_asked_for() {
             &outlines,
             &Effective {
                 order,
+                states_order: true,
                 ..settings()
             },
             handles.as_deref(),

@@ -44,7 +44,7 @@ export async function job(checks: Checks): Promise<void> {
       await expectSoon("what is missing", async () => (await trouble()).includes("pair.drawn-as"), trouble);
       await window.hold(host.folder, 'wire-diameter = 0.18\ngap = 0.01\n[pair]\ndrawn-as = "punch"\nclearance = 0.005\n', "0.100");
       const fit = async (): Promise<string> => (await window.picture()).locator("#title, #note").allInnerTexts().then((texts) => texts.join(" "));
-      await expectSoon("one outline in the other", async () => (await fit()).includes("µm"), fit);
+      await expectSoon("one outline in the other", async () => (await fit()).includes("clearance missing"), fit);
       const shown = await window.picture();
       const chip = async (): Promise<string> => (await shown.locator("#chips .chip").first().innerText()).replace(/\s+/g, " ");
       await expectSoon("what is left, the tightest first", async () => /^2A · \d -[\d.]+ mm left$/.test(await chip()), chip);
