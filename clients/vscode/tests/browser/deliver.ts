@@ -123,7 +123,7 @@ export async function deliver(checks: Checks): Promise<void> {
       await answer("The folder that it is written to");
       await window.tab("die-punch.3b");
       const said = window.notification("3B: punch");
-      await expectSoon("what stands in the drawing", async () => /The drawing has \d+ findings\./.test(await said.innerText()), () => said.innerText());
+      await expectSoon("what stands in the drawing", async () => /The drawing has \d+ findings?\./.test(await said.innerText()), () => said.innerText());
       await window.command("Notifications: Clear All Notifications");
     });
     await checks.check("a report of the drawing in front is made of what stands in its text, and shown", async () => {
