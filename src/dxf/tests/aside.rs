@@ -64,7 +64,7 @@ fn what_is_drawn_to_be_read_is_not_cut_and_said_once() {
             true => ("1 entity", "is"),
             false => ("2 entities", "are"),
         };
-        format!("unsupported-entity: {entities} {are} drawn to be read, and not cut: {parts}")
+        format!("unsupported-entity: {entities} {are} ignored as annotation: {parts}")
     };
     let cross = line("5 C 8 DIE", "18 30 42 30") + &line("5 D 8 DIE", "30 18 30 42");
     let lone = aside("2 lone lines within closed contours");

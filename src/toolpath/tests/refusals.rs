@@ -23,7 +23,7 @@ fn what_cannot_be_planned_is_refused_in_a_sentence() {
         SQUARE,
         Some(Role::Both),
         defaults(),
-        "side of contour 2A is not known: set side (--side) to opening or punch",
+        "side of contour 1 (2A) at 0.000, 0.000 is not known: choose auto (by nesting), opening or punch",
     );
     check_refused(
         SQUARE,
