@@ -29,7 +29,7 @@ fn what_cannot_be_planned_is_refused_in_a_sentence() {
         SQUARE,
         None,
         defaults(),
-        "contour 2A is open: the side of the wire is not known; close it, or set compensation to none to cut it as drawn",
+        "contour 1 (2A) at 0.000, 0.000 is open: the side of the wire is not known; close it, or set compensation to none to cut it as drawn",
     );
     check_refused(
         SQUARE,

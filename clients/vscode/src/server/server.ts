@@ -5,7 +5,7 @@ import { homedir } from "node:os";
 import { setTimeout as sleep } from "node:timers/promises";
 import * as vscode from "vscode";
 import type { CodeAction, CodeActionParams, LanguageClient, LanguageClientOptions } from "vscode-languageclient/node";
-import { CloseAction, ErrorAction, State as ClientState } from "vscode-languageclient/node";
+import { CloseAction, ErrorAction, RevealOutputChannelOn, State as ClientState } from "vscode-languageclient/node";
 import { selector } from "../languages";
 import type { Methods } from "../protocol";
 import { abilities } from "./abilities";
@@ -249,6 +249,8 @@ export class Server implements vscode.Disposable {
       traceOutputChannel: this.log,
       initializationOptions: {},
       progressOnInitialization: false,
+      // What cannot be sent to a server that has just ended is in the log; its end is told by itself.
+      revealOutputChannelOn: RevealOutputChannelOn.Never,
       // A failure at the start is reported once for all tries.
       initializationFailedHandler: () => false,
       // Ends and what is no message are dealt with above, as docs/protocol.md says; the client's own way starts again at once, four times.
