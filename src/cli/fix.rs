@@ -71,6 +71,9 @@ const LEFT: usize = 8;
 /// At most this many repairs have a line of their own: each is worked out once more for it.
 const LINES: usize = 40;
 
+/// Of more findings only the sums are said: working a repair out takes as long as a drawing is crowded, and nobody reads forty of thousands.
+const MOST_LISTED: usize = 1_000;
+
 pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let found = files::search(&arguments.paths, &files::Search::default());
     let mut verdict = Verdict::Clean;
@@ -224,6 +227,9 @@ fn repair(path: &Path, mut document: Document, lists: bool) -> Result<Repair, Fa
 /// What will be repaired, as a line for each: the place, and what becomes of it.
 fn planned(path: &Path, document: &Document) -> Vec<(Row, String)> {
     let findings = document.all_findings();
+    if findings.len() > MOST_LISTED {
+        return Vec::new();
+    }
     let is_of_program = document.program().is_some();
     let may_go = |finding: &&Finding| {
         let mut rules = repaired_rules().into_iter();

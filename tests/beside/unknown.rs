@@ -59,10 +59,13 @@ fn rows() -> Vec<Row> {
 /// Neither the side of a contour, nor correction, passes, lead, tab or overlap is known: of an unchanged program nothing is reported.
 #[test]
 fn without_settings_nothing_is_said_of_an_unchanged_program() {
+    // Settings that nobody has said are found by trying, which takes minutes without optimization: by night alone.
+    if by_day(true, false) {
+        return;
+    }
     let rows = rows();
-    let step = by_day(18, 1);
     let (mut followed, mut all) = (0, 0);
-    for row in rows.iter().step_by(step) {
+    for row in &rows {
         let written = settings_of(&row.settings);
         let made = document(&[(row.shape.clone(), row.role)], &written);
         let Some(text) = program_of(&made, row.format) else {
