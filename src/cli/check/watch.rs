@@ -15,7 +15,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<std::convert::Infallible, Fai
     loop {
         report(arguments)?;
         let watched = say!(watching, say!(files, seen.len()));
-        output::say(&format!("{} {watched}", clock()));
+        let now = chrono::Utc::now().format("%H:%M:%S UTC");
+        output::say(&format!("{now} {watched}"));
         loop {
             std::thread::sleep(PAUSE);
             let now = state(arguments);
@@ -25,14 +26,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<std::convert::Infallible, Fai
             }
         }
     }
-}
-
-/// The time of day, UTC.
-fn clock() -> String {
-    let since = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH);
-    let seconds = since.map_or(0, |since| since.as_secs()) % (24 * 60 * 60);
-    let (hours, minutes) = (seconds / 3600, seconds / 60 % 60);
-    format!("{hours:02}:{minutes:02}:{:02} UTC", seconds % 60)
 }
 
 /// Every file that is checked, and every file of settings beside or above one, with its time of writing and its length.

@@ -58,36 +58,16 @@ pub(super) fn head(
             tool.0,
             tool.1.map_or_else(String::new, |mm| format!("Ø {mm} mm")),
         ),
-        (say!(field_date), today()),
+        // The day, UTC, as ISO 8601 has it.
+        (
+            say!(field_date),
+            chrono::Utc::now().date_naive().to_string(),
+        ),
         (
             say!(field_correction),
             format!("{} mm", corrections.join(" / ")),
         ),
     ]
-}
-
-/// The day, UTC, as ISO 8601 has it.
-fn today() -> String {
-    let now = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH);
-    let days = now.map_or(0, |since| since.as_secs() / 86_400);
-    day_of(days)
-}
-
-/// The date of a day that is so many days after 1 January 1970.
-fn day_of(days: u64) -> String {
-    // Years begin in March, so that the day that leap years have more is their last one.
-    let days = days + 719_468;
-    let (era, day) = (days / 146_097, days % 146_097);
-    let year = (day - day / 1460 + day / 36_524 - day / 146_096) / 365;
-    let day = day - (365 * year + year / 4 - year / 100);
-    let month = (5 * day + 2) / 153;
-    let day = day - (153 * month + 2) / 5 + 1;
-    let (month, next) = if month < 10 {
-        (month + 3, 0)
-    } else {
-        (month - 9, 1)
-    };
-    format!("{:04}-{month:02}-{day:02}", year + era * 400 + next)
 }
 
 /// Where the contours lie, from the drawing's zero.
@@ -108,21 +88,4 @@ pub(super) fn extents(snapshot: &Snapshot) -> String {
     let [left, right] = [bounds.min.x, bounds.max.x].map(|x| x * mm);
     let [low, high] = [bounds.min.y, bounds.max.y].map(|y| y * mm);
     say!(the_contours_lie_from_the_zero, left, right, low, high)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::day_of;
-
-    #[test]
-    fn days_have_dates() {
-        for (days, date) in [
-            (0, "1970-01-01"),
-            (11_016, "2000-02-29"),
-            (11_017, "2000-03-01"),
-            (20_787, "2026-11-30"),
-        ] {
-            assert_eq!(day_of(days), date);
-        }
-    }
 }

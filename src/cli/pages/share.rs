@@ -34,15 +34,6 @@ struct Pass {
     is_offset: bool,
 }
 
-/// The checksum of a text as zip, gzip and PNG have it: CRC-32.
-fn crc32(text: &[u8]) -> u32 {
-    let of_bit = |sum: u32| (sum >> 1) ^ (0xEDB8_8320 & (sum & 1).wrapping_neg());
-    let sum = text.iter().fold(u32::MAX, |sum, byte| {
-        (0..8).fold(sum ^ u32::from(*byte), |sum, _| of_bit(sum))
-    });
-    !sum
-}
-
 /// What is cut together.
 pub(super) struct PageShare {
     /// Its name, and whether the wire runs on the other side of the drawn outline; nothing where the drawing is no pair.
@@ -326,7 +317,7 @@ impl PageShare {
                     a_program_by_its_checksum,
                     format!("{file}.{ending}"),
                     say!(lines, count),
-                    format!("{:08X}", crc32(program.text.as_bytes()))
+                    format!("{:08X}", crc32fast::hash(program.text.as_bytes()))
                 );
                 format!(
                     "<p>{}</p>\n<p>{}</p>\n{}<p class=\"faint\">{}</p>\n<details{open}><summary>{}</summary>\n<pre>{}</pre>\n{left_out}</details>\n",
@@ -344,10 +335,8 @@ impl PageShare {
 
 #[cfg(test)]
 mod tests {
-    use super::crc32;
-
     #[test]
     fn the_checksum_is_that_of_zip() {
-        assert_eq!(crc32(b"123456789"), 0xCBF4_3926);
+        assert_eq!(crc32fast::hash(b"123456789"), 0xCBF4_3926);
     }
 }
