@@ -118,20 +118,17 @@ impl Analysis {
         let is_unknown = |key: ContourKey| has_sides(key) && side_of(key).is_none();
         // The wire follows a contour that is its own path.
         let mildest = report.is_for_a_path().then_some(Severity::Warning);
-        self.report_ends(drawing, ends, (mildest, &is_known), report);
-        self.report_ends(
-            drawing,
-            ends,
-            (Some(Severity::Warning), &is_unknown),
-            report,
-        );
+        self.report_ends(drawing, ends, mildest, &is_known, report);
+        let warning = Some(Severity::Warning);
+        self.report_ends(drawing, ends, warning, &is_unknown, report);
     }
 
     fn report_ends(
         &self,
         drawing: &Drawing,
         ends: &DeadEnds,
-        (mildest, holds): (Option<Severity>, &dyn Fn(ContourKey) -> bool),
+        mildest: Option<Severity>,
+        holds: &dyn Fn(ContourKey) -> bool,
         report: &mut Report,
     ) {
         report.count(Rule::LostPocket, mildest, ends.count(holds));

@@ -61,6 +61,18 @@ fn repaired_rules() -> [(Rule, Counted); 6] {
     ]
 }
 
+fn is_repaired(finding: &Finding) -> bool {
+    repaired_rules()
+        .iter()
+        .any(|(rule, _)| *rule == finding.rule)
+}
+
+/// The repair of a finding that is made without being asked for.
+fn safe_fix(document: &Document, finding: &Finding) -> Option<Fix<Edit>> {
+    let mut fixes = document.fixes(finding).into_iter();
+    fixes.find(|fix| fix.preferred && fix.in_fix_all)
+}
+
 /// The most findings for which it is worked out why they were not repaired: each costs a look at
 /// the drawing.
 const LISTED: usize = 100;
@@ -114,11 +126,16 @@ fn fix(path: &Path, arguments: &Arguments) -> Result<Verdict, Failure> {
     let input = path;
     let path = files::shown(path);
     let repair = repair(path, opened.document, !arguments.quiet)?;
-    let target = (input, arguments);
-    deliver(target, &repair, opened.seen.as_ref(), opened.writing)?;
+    deliver(
+        input,
+        arguments,
+        &repair,
+        opened.seen.as_ref(),
+        opened.writing,
+    )?;
     if !arguments.quiet {
         summarise(path, &repair);
-        go_on(target, &repair);
+        go_on(input, arguments, &repair);
         output::say_against(&repair.document);
     }
     let errors_left = repair
@@ -231,15 +248,9 @@ fn planned(path: &Path, document: &Document) -> Vec<(Row, String)> {
         return Vec::new();
     }
     let is_of_program = document.program().is_some();
-    let may_go = |finding: &&Finding| {
-        let mut rules = repaired_rules().into_iter();
-        is_of_program || rules.any(|(rule, _)| rule == finding.rule)
-    };
+    let may_go = |finding: &&Finding| is_of_program || is_repaired(finding);
     let line = |finding: &Finding| {
-        let fixes = document.fixes(finding);
-        let fix = fixes
-            .into_iter()
-            .find(|fix| fix.preferred && fix.in_fix_all)?;
+        let fix = safe_fix(document, finding)?;
         let row = report::row(path, document, finding);
         let unit_mm = document.unit_mm();
         let place = match (&row.data.handle, row.data.segment) {
@@ -267,7 +278,7 @@ fn planned(path: &Path, document: &Document) -> Vec<(Row, String)> {
 }
 
 /// The command that comes next, with the name of the file that was written.
-fn go_on((input, arguments): (&Path, &Arguments), repair: &Repair) {
+fn go_on(input: &Path, arguments: &Arguments, repair: &Repair) {
     let written = arguments.target.output.as_deref();
     let stdout = Path::new(output::STDIN);
     let file = written.or(arguments.target.in_place.then_some(input));
@@ -293,17 +304,9 @@ fn refused(path: &Path, document: &Document) -> Vec<(Row, String)> {
     if findings.iter().any(|it| it.rule == Rule::NotJudged) {
         return Vec::new();
     }
-    let repaired = findings.iter().filter(|finding| {
-        repaired_rules()
-            .iter()
-            .any(|(rule, _)| *rule == finding.rule)
-    });
+    let repaired = findings.iter().filter(|finding| is_repaired(finding));
     let reason = |finding: &Finding| {
-        let fix = document
-            .fixes(finding)
-            .into_iter()
-            .find(|fix| fix.preferred && fix.in_fix_all)?;
-        let Edit::Drawing(edit) = fix.edit else {
+        let Edit::Drawing(edit) = safe_fix(document, finding)?.edit else {
             return None;
         };
         Some((
@@ -349,7 +352,8 @@ fn choices(document: &Document) -> Vec<(usize, String)> {
 }
 
 fn deliver(
-    (path, arguments): (&Path, &Arguments),
+    path: &Path,
+    arguments: &Arguments,
     repair: &Repair,
     seen: Option<&Seen>,
     writing: Writing,

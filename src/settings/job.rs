@@ -24,13 +24,14 @@ pub(super) fn faults(settings: &Settings) -> Vec<PassFault> {
         };
         complain(key, say!(one_word_for_pause_and_end, key, end, other));
     }
+    let mut check = |key, stop: &str, ends: String| match what_does(stop, &end, &pause) {
+        Does::Stop => {}
+        Does::End => complain(key, ends),
+        Does::Nothing => complain(key, say!(a_stop_that_does_not_stop, key, stop, pause)),
+    };
     if let Some(stop) = &program.tab_stop {
         let key = "program.tab-stop";
-        match what_does(stop, &end, &pause) {
-            Does::Stop => {}
-            Does::End => complain(key, say!(a_stop_that_ends, key, stop)),
-            Does::Nothing => complain(key, say!(a_stop_that_does_not_stop, key, stop, pause)),
-        }
+        check(key, stop, say!(a_stop_that_ends, key, stop));
     }
     if let Some(stop) = program
         .pause_between_passes
@@ -38,11 +39,7 @@ pub(super) fn faults(settings: &Settings) -> Vec<PassFault> {
         .filter(|stop| !stop.is_empty())
     {
         let key = "program.pause-between-passes";
-        match what_does(stop, &end, &pause) {
-            Does::Stop => {}
-            Does::End => complain(key, say!(a_pause_that_ends, key, stop)),
-            Does::Nothing => complain(key, say!(a_stop_that_does_not_stop, key, stop, pause)),
-        }
+        check(key, stop, say!(a_pause_that_ends, key, stop));
     }
     if let Some((hole, wire)) = program.start_hole.zip(settings.wire_diameter)
         && hole <= wire
