@@ -2,11 +2,12 @@
 //! many to be slips. Each is still found at its own place, for its repairs.
 
 use super::Analysis;
-use crate::drawing::{Drawing, EntityId};
+use crate::drawing::{ContourKey, Drawing, EntityId};
 use crate::finding::{Detail, Finding, Place, Rule, Severity};
 use crate::rules::{
     CONTOUR_RULES, ContourRule, LOCAL_RULES, LocalRule, Observation, Outlook, Together,
 };
+use rustc_hash::FxHashMap;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -115,21 +116,16 @@ impl Analysis {
 
     /// Findings that are named by themselves, with one that stands for those of a contour and a rule.
     pub(super) fn together_again(&self, drawing: &Drawing, findings: Vec<Finding>) -> Vec<Finding> {
-        let mut groups: BTreeMap<(Rule, Severity, usize), Vec<usize>> = BTreeMap::new();
-        let mut contours = Vec::new();
+        // Open contours of a drawing are told together, whatever contour they are; others by contour.
+        type Group = (Rule, Severity, Option<ContourKey>);
+        let mut groups: FxHashMap<Group, Vec<usize>> = FxHashMap::default();
         for (number, finding) in findings.iter().enumerate() {
             let Some((key, _)) = self.index_of(finding) else {
                 continue;
             };
             let contour = match finding.rule {
-                Rule::OpenContour => 0,
-                rule if has_together(rule) && !is_of_no_side(finding) => {
-                    let known = contours.iter().position(|known| *known == key);
-                    known.unwrap_or_else(|| {
-                        contours.push(key);
-                        contours.len() - 1
-                    })
-                }
+                Rule::OpenContour => None,
+                rule if has_together(rule) && !is_of_no_side(finding) => Some(key),
                 _ => continue,
             };
             let group = (finding.rule, finding.severity, contour);
@@ -183,7 +179,7 @@ impl Analysis {
         of_observations(&outlook, rule, several, concerned)
     }
 
-    fn index_of(&self, finding: &Finding) -> Option<(crate::drawing::ContourKey, usize)> {
+    fn index_of(&self, finding: &Finding) -> Option<(ContourKey, usize)> {
         match finding.place {
             Place::Segment { entity, segment } => self.chains.index_of(entity, segment),
             _ => None,
