@@ -69,12 +69,7 @@ fn the_list_of_rules_in_chinese_is_the_english_one() {
     let english = read(&root().join("docs/rules/README.md"));
     let row = |rule: Rule| {
         let name = rule.name();
-        let page = read(&root().join(format!("docs/zh/rules/{name}.md")));
-        let severity = page
-            .split("默认级别：")
-            .nth(1)
-            .and_then(|rest| rest.split(['。', '\n']).next());
-        let severity = severity.expect(name);
+        let severity = rules::severity_on_chinese_page(rule);
         let row = english
             .lines()
             .find(|line| line.starts_with(&format!("| [{name}](")))

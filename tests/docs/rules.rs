@@ -300,29 +300,26 @@ fn the_pages_say_where_their_rules_work() {
     assert!(count >= 2, "no page says it");
 }
 
-/// What stands after the first word of a page's "Default severity: ".
+/// What a page says of the default severity of a rule.
 fn severity_on_page(rule: Rule) -> String {
-    let name = rule.name();
-    let page = read(&root().join(format!("docs/rules/{name}.md")));
-    let severity = page
-        .split("Default severity: ")
-        .nth(1)
-        .and_then(|rest| rest.split(['.', '\n']).next());
-    severity
-        .unwrap_or_else(|| panic!("the page of {name} says no severity"))
-        .to_owned()
+    severity_on("docs/rules", rule, "Default severity: ", '.')
 }
 
-/// What stands after the first word of a Chinese page's "默认级别：".
-fn severity_on_chinese_page(rule: Rule) -> String {
+/// The same of a Chinese page.
+pub(super) fn severity_on_chinese_page(rule: Rule) -> String {
+    severity_on("docs/zh/rules", rule, "默认级别：", '。')
+}
+
+/// What stands behind the words of a page up to the end of their sentence.
+fn severity_on(folder: &str, rule: Rule, words: &str, end: char) -> String {
     let name = rule.name();
-    let page = read(&root().join(format!("docs/zh/rules/{name}.md")));
+    let page = read(&root().join(format!("{folder}/{name}.md")));
     let severity = page
-        .split("默认级别：")
+        .split(words)
         .nth(1)
-        .and_then(|rest| rest.split(['。', '\n']).next());
+        .and_then(|rest| rest.split([end, '\n']).next());
     severity
-        .unwrap_or_else(|| panic!("the Chinese page of {name} says no severity"))
+        .unwrap_or_else(|| panic!("{folder}/{name}.md says no severity"))
         .to_owned()
 }
 
