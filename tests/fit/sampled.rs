@@ -69,7 +69,7 @@ impl Cloud {
             (at.y / self.size).floor() as i64,
         );
         let mut least = f64::INFINITY;
-        for reach in 0..40_i64 {
+        for reach in 0..10_i64 {
             if least <= (reach - 1) as f64 * self.size {
                 break;
             }
@@ -120,12 +120,12 @@ fn beside(contour: &[(Point, Vector)], cloud: &Cloud, off: f64, least: f64) -> V
 
 /// How deep punch and plate stand in each other by sampling; below 0 where they do not.
 fn depth_by_sampling(contour: &[(Point, Vector)], corrections: [f64; 2], half: f64) -> f64 {
-    let walls = Cloud::new(contour.iter().map(|(point, _)| *point), 0.01);
+    let walls = Cloud::new(contour.iter().map(|(point, _)| *point), 0.04);
     // Counter-clockwise: the punch's wire runs on the right, the plate's on the left.
     let ways = [-1.0, 1.0].map(|side| {
         let correction = corrections[usize::from(side > 0.0)];
         let way = beside(contour, &walls, side * correction, correction - 2e-5);
-        Cloud::new(way.into_iter(), 0.01)
+        Cloud::new(way.into_iter(), 0.04)
     });
     let mut deepest = f64::NEG_INFINITY;
     for (own, side) in [(0, -1.0), (1, 1.0)] {

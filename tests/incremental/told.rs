@@ -1,6 +1,7 @@
 //! Findings of outlines that are edited.
 
 use super::*;
+use crate::size::by_day;
 
 /// A place on a circle of many chords: now and then a little off it, or where the next chord is a different one.
 fn on_circle(at: usize, off: f64) -> Vertex {
@@ -247,7 +248,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: cases(4), failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: cases(by_day(2, 4)), failure_persistence: None, ..ProptestConfig::default() })]
 
     /// Of many runs, in rows over each other, with teeth that are pointed or square: what depends on runs that an edit does not reach
     /// is kept, also while a vertex that is thrown across them makes the contour cross itself.

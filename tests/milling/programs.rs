@@ -1,6 +1,7 @@
 //! The programs: layers, heights and feeds, milled in a model.
 
 use super::*;
+use crate::size::by_day;
 
 /// One move: from and to `[x, y, z]` in mm, centre of an arc, whether it is a rapid.
 #[derive(Debug)]
@@ -350,7 +351,7 @@ fn other_electrodes_come_out_by_the_same_formulas() {
             .wrapping_add(1442695040888963407);
         least + (most - least) * ((seed >> 40) as f64 / (1_u64 << 24) as f64)
     };
-    for number in 0..24 {
+    for number in 0..by_day(6, 24) {
         let [diameter, gap] = [chance(0.3, 3.0), chance(0.0, 0.1)];
         let [layer, wear] = [chance(0.004, 0.05), chance(0.0, 0.05)];
         let (length, count) = (chance(2.0, 40.0), chance(3.0, 30.0).floor());

@@ -1,6 +1,7 @@
 //! What is said of a drawing, of the settings and of a program.
 
 use super::*;
+use crate::size::by_day;
 
 fn refused(drawing: &Drawing, text: &str, format: Format) -> Refusal {
     match generated(drawing, text, format) {
@@ -220,7 +221,7 @@ fn a_milling_program_is_held_against_its_drawing() {
                 let end = own[at..].find(' ').map_or(own.len(), |end| at + end);
                 let number: f64 = own[at + 1..end].parse().unwrap();
                 changed += 1;
-                if changed % 5 != 0 {
+                if changed % by_day(15, 5) != 0 {
                     continue;
                 }
                 let new = format!("{}{:.3}{}", &own[..=at], number + 0.003, &own[end..]);

@@ -1,5 +1,6 @@
 //! Settings: their levels, their changes at run time, and their faults.
 
+use crate::size::by_day;
 use crate::support::{Client, TIGHT, capabilities, dxf_of, tight_plate};
 use serde_json::{Value, json};
 use std::path::Path;
@@ -313,14 +314,14 @@ fn errors_of_the_file_are_shown_in_it_on_disk_and_open() {
 
 #[test]
 fn an_edit_does_not_wait_until_all_documents_are_judged_under_other_settings() {
-    const COUNT: usize = 1_500;
+    let count = by_day(400, 1_500);
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("wedm.toml"), "correction = 0.07\n").unwrap();
     // Its own file says what holds for it: it is not among those that are judged again.
     let edited = uri_of(&folder.path().join("edited.dxf"));
     let mut client = Client::start();
     client.open_text(&edited, "dxf", &dxf_of(&[("2A", &TIGHT)]));
-    let others: Vec<String> = (0..COUNT)
+    let others: Vec<String> = (0..count)
         .map(|number| format!("cad:///{number}"))
         .collect();
     for uri in &others {
@@ -344,7 +345,7 @@ fn an_edit_does_not_wait_until_all_documents_are_judged_under_other_settings() {
         .iter()
         .filter(|message| message["method"] == "textDocument/publishDiagnostics")
         .count();
-    assert!(before < COUNT, "all others were judged before the edit");
+    assert!(before < count, "all others were judged before the edit");
     for uri in &others {
         assert_eq!(required(&mut client, uri, 1), 0.06, "{uri}");
     }
