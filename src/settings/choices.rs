@@ -22,7 +22,7 @@ choices! {
     /// Side of the contour on which the wire runs, where neither the entity nor its layer says.
     #[derive(Default)]
     SideSetting {
-        /// The outline is cut once from inside and once from outside.
+        /// The contour is cut once from inside and once from outside.
         #[default]
         Both,
         /// By nesting: the outermost contour is a punch, contours in it are openings, and so on.
@@ -93,17 +93,17 @@ choices! {
         InsideFirst,
         /// From each to the one with the nearest thread hole.
         Nearest,
-        /// As the handles are given, which also say where in its contour the cut begins, and which way it goes where `direction` is not set.
+        /// In the order of the handles, which also say where in its contour the cut begins, and in which direction it goes where `direction` is not set.
         AsPicked,
     }
 
     /// How the wire path rounds a convex corner of the part.
     #[derive(Default)]
     Corner {
-        /// Rolls about the vertex.
+        /// An arc about the vertex.
         #[default]
         Arc,
-        /// Extends the two offsets until they meet.
+        /// The two offset lines are extended until they meet.
         Intersection,
     }
 
@@ -113,7 +113,7 @@ choices! {
         /// Straight from the thread hole to the entry.
         Straight,
         /// At right angles to the contour: a thread hole that is found lies there; where `thread` and `entry` do not lie opposite to each
-        /// other the way has a corner, where there is room for one.
+        /// other the lead has a corner, where there is room for one.
         #[default]
         Perpendicular,
         /// Along an arc that is tangent to the path, on the wire's side, after a straight piece that is tangent to the arc. Its radius is
@@ -121,27 +121,27 @@ choices! {
         Arc,
     }
 
-    /// What happens between the contours of one program.
+    /// What comes between the contours of one program.
     #[derive(Default)]
     Jumps {
-        /// The pause word, the way to the next thread hole as blocks, and the pause word again.
+        /// The pause word, the jump to the next thread hole as blocks, and the pause word again.
         #[default]
         Blocks,
         /// The pause word alone.
         None,
     }
 
-    /// Which way the passes of a contour go.
+    /// Direction of the passes of a contour.
     #[derive(Default)]
     Sequence {
         /// To and fro: each pass goes back along the one before it.
         #[default]
         Alternate,
-        /// All the same way.
+        /// All in the same direction.
         OneWay,
     }
 
-    /// What the passes after the first make of a corner that the wire runs inside of.
+    /// How the passes after the first go through a corner that the wire runs inside of.
     #[derive(Default)]
     SkimCorner {
         /// Each pass turns in a point: as sharp as the wire leaves it, with more stock in the corner than along the walls.

@@ -42,19 +42,19 @@ const ORDERS: Range = Range::of(1.0, 1e6);
 tables! {
     /// One level of settings: built-in, `initializationOptions`, `workspace/configuration`, `wedm.toml`, a request's `options`, the command line.
     Settings() {
-        /// Wire radius + spark gap, mm. It says how far the wire's centre runs from the contour. A later level that sets it and no
-        /// `passes.corrections` cuts in one pass.
-        correction: f64 = 0.10 => number in Range::ABOVE_ZERO;
-        /// Diameter of the wire, mm. With `gap` it gives the correction where no `correction` is set: half the diameter + gap; when one of the
-        /// two is set the other has its default there. Together with `correction` or `passes.corrections` it says how thick the wire is, see
+        /// Diameter of the wire, mm. With `gap` it gives the correction where no `correction` is set: half the diameter + gap; where only one
+        /// of the two is set, the other has its default. Together with `correction` or `passes.corrections` it says how thick the wire is, see
         /// [`pass-order`](rules/pass-order.md). A later level that sets one of the two and no `correction` sets the correction again.
         #[serde(alias = "wire-diameter")]
         wire_diameter: f64 = 0.18 => number in Range::ABOVE_ZERO;
         /// Spark gap, mm. See `wire-diameter`.
         gap: f64 = 0.01 => number in Range::FROM_ZERO;
-        /// Where the wire runs, for contours whose entity and layer do not say.
+        /// Wire radius + spark gap, mm. This is the distance of the wire's centre from the contour. A later level that sets it and no
+        /// `passes.corrections` cuts in one pass.
+        correction: f64 = 0.10 => number in Range::ABOVE_ZERO;
+        /// Side on which the wire runs, for contours whose entity and layer state none.
         side: SideSetting = SideSetting::Both => name;
-        /// Unit of drawings that do not say.
+        /// Unit of drawings that do not state one.
         units: UnitSetting = UnitSetting::Mm => name;
         /// mm added to the correction when a fix chooses its radius.
         margin: f64 = 0.001 => number in Range::FROM_ZERO;
@@ -66,14 +66,14 @@ tables! {
         /// Role of the entities on a layer, by its name. An entity's own `role` comes first. A contour takes the role of its first entity that
         /// has one. A role other than `ignore` cuts also what is frozen or switched off.
         layers: BTreeMap<String, Role> => roles;
-        /// Role of what is drawn in a linetype, by itself or by its layer: by the name of the linetype, before layers and colours.
+        /// Role of entities by their linetype, their own or that of their layer; it comes before layers and colours.
         /// Without one, what is drawn in CENTER, HIDDEN, PHANTOM and their like is not cut: see
         /// [`unsupported-entity`](rules/unsupported-entity.md).
         linetypes: BTreeMap<String, Role> => roles;
-        /// Role of the contour that holds an entity, by the entity's handle, before layers and colours. Handles are those of one drawing:
-        /// in a `wedm.toml` that applies to several they mean each one's own entity of that name.
+        /// Role of the contour that holds an entity, by the entity's handle, before layers and colours. A handle belongs to one drawing:
+        /// in a `wedm.toml` for several drawings it means the entity of that handle in each.
         contours: BTreeMap<String, Role> => roles;
-        /// Role of what is drawn in a colour, by itself or by its layer, where neither entity nor layer has one. Colours are `red`, `yellow`,
+        /// Role of entities by their colour, their own or that of their layer, where neither entity nor layer has a role. Colours are `red`, `yellow`,
         /// `green`, `cyan`, `blue`, `magenta`, `white`, `1` to `255` (AutoCAD colour index), `#rrggbb`.
         colors: BTreeMap<String, Role> => colors;
         /// Settings of one drawing, by the name of its file: `[drawings."plate.dxf".suppress.2A]`.
@@ -81,7 +81,7 @@ tables! {
         /// How near the arcs lie to the ellipses and splines that they stand for, mm.
         #[serde(alias = "arc-fit")]
         arc_fit: f64 = 0.001 => number in ARC_FIT;
-        /// Severity of a rule, by its name. What is set here applies even where a case would be milder; the defaults are on
+        /// Severity of a rule, by its name. It applies to every case of the rule, to the milder ones too; the defaults are on
         /// [each rule's page](rules/).
         rules: BTreeMap<String, RuleSeverity> => rules;
         /// Address of the page of a rule, such as `https://edm.example/rules/{rule}.html`: `{rule}` stands for its name. Findings link there.
@@ -117,7 +117,7 @@ tables! {
 
     /// Settings of one contour of one drawing. Points are in mm, as all lengths are, whatever unit the drawing is in.
     ContourSettings() {
-        /// Where the wire runs.
+        /// Side on which the wire runs.
         side: Role => name;
         /// Thread hole `[x, y]`, mm.
         thread: [f64; 2] => point;
@@ -135,14 +135,14 @@ tables! {
         corrections: Vec<f64> => numbers in Range::ABOVE_ZERO;
         /// Spark gap of each pass, mm. Not set: `gap` for all.
         gaps: Vec<f64> => numbers in Range::FROM_ZERO;
-        /// Which way the passes of a contour go.
+        /// Direction of the passes of a contour.
         sequence: Sequence = Sequence::Alternate => name;
-        /// Words of an ISO program that say where the control finds the correction of each pass. Not set: the profile's `register` for the
-        /// first pass, its number counted on for the others.
+        /// Offset register of each pass in ISO programs. Not set: the profile's `register` for the first pass, and the next numbers for
+        /// the others.
         registers: Vec<String> => words;
         /// What each pass cuts in a minute, mm²/min: length × `job.thickness` / rate is its time. Not set: no times are reported.
         rates: Vec<f64> => numbers in Range::ABOVE_ZERO;
-        /// What the passes after the first make of a corner that the wire runs inside of. With `constant-stock` the last one leaves a
+        /// How the passes after the first go through a corner that the wire runs inside of. With `constant-stock` the last one leaves a
         /// radius there, the difference of the first and the last correction added to the wire's: [`sharp-corner`](rules/sharp-corner.md).
         #[serde(alias = "skim-corner")]
         skim_corner: SkimCorner = SkimCorner::Sharp => name;
@@ -162,16 +162,16 @@ tables! {
         direction: Direction = Direction::Ccw => name;
         /// How the wire goes round a convex corner of the part.
         corner: Corner = Corner::Arc => name;
-        /// Thread hole `[x, y]`, mm. A table has them by handle. Else the TEXT or MTEXT "O" nearest to the
-        /// contour, or a POINT on a layer of start holes (as START-HOLES) or where the contour has no other mark, else the centre of a round opening where neither entry nor `lead-in` is set, else found from the entry. An "O" on the
-        /// part's side, or within the correction of the contour, is not the hole but the entry beside it.
+        /// Thread hole `[x, y]`, mm. A table has them by handle. Not set: the TEXT or MTEXT "O" nearest to the contour; or a POINT on a layer
+        /// of start holes (such as START-HOLES), or where the contour has no other mark; else the centre of a round opening, where neither
+        /// entry nor `lead-in` is set; else it is found from the entry. An "O" on the part's side, or within the correction of the contour, is not the hole but the entry beside it.
         thread: PointSetting => point_setting;
-        /// Point `[x, y]` of the contour where the cut begins, mm. A table has them by handle. Else the point beside an "O"
-        /// that means it, under `as-picked` the beginning of the entity picked first, the point nearest to the thread hole, else the middle of
-        /// the longest line, else the point of the longest arc with the largest x, or its middle.
+        /// Point `[x, y]` of the contour where the cut begins, mm. A table has them by handle. Not set: the point beside
+        /// an "O" that means it; under `as-picked` the start of the entity picked first; the point nearest to the thread hole; else the
+        /// middle of the longest line; else the point of the longest arc with the largest x, or its middle.
         entry: PointSetting => point_setting;
-        /// Length of the lead from thread hole to the wire's path where no thread hole is given, mm. Halved until it fits. Not set: the hole
-        /// lies 3 mm from the contour.
+        /// Length of the lead from thread hole to the wire's path where no thread hole is given, mm. Halved until it fits. By default the
+        /// hole lies 3 mm from the contour.
         #[serde(alias = "lead-in")]
         lead_in: f64 = 3.0 => number in Range::ABOVE_ZERO;
         /// Length of the contour, mm, that all passes leave standing before the entry, so that a punch does not drop while it is cut: then comes
@@ -203,7 +203,7 @@ tables! {
         /// where its size suggests inches.
         units: UnitSetting => name;
         /// What a number without a decimal point is in an ISO program: whole millimetres, or micrometres (inches and ten-thousandths of
-        /// one under G20). Not set: [found from the program](programs.md#how-long-a-number-is), and said where its numbers do not tell.
+        /// one under G20). Not set: [found from the program](programs.md#how-long-a-number-is), and reported where its numbers leave it open.
         #[serde(alias = "whole-numbers")]
         whole_numbers: NumberUnit => name;
         /// The drawing that programs belong to, from their own folder on, which they are compared with:
@@ -229,7 +229,7 @@ tables! {
         /// thickness.
         #[serde(alias = "slug-limit")]
         slug_limit: f64 => number in Range::FROM_ZERO;
-        /// What an hour of the machine costs, in whatever money: the time of `passes.rates` has its price then.
+        /// Cost of an hour of the machine, in any currency: the times that follow from `passes.rates` then have a cost.
         #[serde(alias = "machine-rate")]
         machine_rate: f64 => number in Range::FROM_ZERO;
         /// Heading of the page of `wedm report`. Not set: the part, else the name of the drawing.
@@ -251,8 +251,8 @@ tables! {
         /// The part whose size is drawn where each contour is cut twice, once from outside as the punch and once from inside as the plate.
         #[serde(alias = "drawn-as")]
         drawn_as: DrawnAs => name;
-        /// Clearance between punch and plate, mm a side. The part that is not drawn is cut with a correction smaller by it. It asks for the
-        /// fit, [`does-not-fit`](rules/does-not-fit.md), which needs `wire-diameter` and `gap`.
+        /// Clearance between punch and plate, mm a side. The part that is not drawn is cut with a correction smaller by it. The fit is
+        /// then checked, [`does-not-fit`](rules/does-not-fit.md), which needs `wire-diameter` and `gap`.
         clearance: f64 => number in Range::ABOVE_ZERO;
         /// Clearance of the stripper about the punch, mm a side.
         stripper: f64 => number in Range::FROM_ZERO;
@@ -272,14 +272,14 @@ tables! {
         layer: f64 => number in Range::ABOVE_ZERO;
         /// Depth below the surface, mm.
         depth: f64 => number in Range::ABOVE_ZERO;
-        /// Volume that the electrode loses of each volume that it erodes.
+        /// Volume that the electrode loses for each unit of volume that it erodes.
         wear: f64 => number in WEAR;
         /// How the feed makes up for the wear of the electrode.
         #[serde(alias = "wear-compensation")]
         wear_compensation: WearCompensation = WearCompensation::Uniform => name;
-        /// Way after which `linear` feeds again, mm.
+        /// Distance after which `linear` feeds again, mm.
         step: f64 => number in MILLING_STEPS;
-        /// Whether the round ends of an open slot are counted among what a layer erodes.
+        /// Whether the round ends of a slot along an open contour count among what a layer erodes.
         #[serde(alias = "slot-ends")]
         slot_ends: bool = false => truth;
     }
@@ -312,13 +312,13 @@ tables! {
         line_end: LineEnd = LineEnd::Lf => name;
         /// Lines before everything else. `{x}` and `{y}` are the place where the wire is threaded first.
         begin: Vec<String> = [] => lines;
-        /// Word that says where the control finds the correction of the first pass; that of the second has the next number.
+        /// Offset register of the first pass; the second pass has the next number.
         register: String = "D1" => word;
-        /// Lines before each contour. `{side}` is G41 or G42, `{register}` where the correction of the pass is; a line with `{side}` is
+        /// Lines before each contour. `{side}` is G41 or G42, `{register}` the offset register of the pass; a line with `{side}` is
         /// left out where the offset is in the coordinates.
         #[serde(alias = "contour-begin")]
         contour_begin: Vec<String> = [] => lines;
-        /// Lines before the way out of each contour, where the control offsets it.
+        /// Lines before the lead-out of each contour, where the control offsets it.
         #[serde(alias = "contour-end")]
         contour_end: Vec<String> = [] => lines;
         /// Lines at which the wire is taken out or threaded, between contours.

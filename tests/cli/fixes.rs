@@ -51,7 +51,7 @@ fn repairs_of_every_rule_are_said() {
         &desk,
         "fix doubled.dxf -o fixed.dxf",
         0,
-        &["!doubled.dxf: 1 arc, 1 double repaired in 2 rounds"],
+        &["!doubled.dxf: 1 arc, 1 duplicate repaired in 2 rounds"],
     );
     check(&desk, "check fixed.dxf", 0, &["nothing found"]);
 }

@@ -158,12 +158,12 @@ fn a_program_says_what_it_comes_to() {
         "  contour A2, pass 1: ",
         "slug of contour A2: 24.7 g",
         "leads: at most 90.0° to the contour",
-        "largest wire: Ø 9.960 mm, by R 5.000 mm of A2, segment 0",
+        "largest wire: Ø 9.960 mm, limited by R 5.000 mm of A2, segment 0",
     ] {
         assert!(ended.stderr.contains(part), "{part} in {ended:?}");
     }
     let ended = desk.run("generate plate.dxf -o plate.3b --overwrite --lang zh");
-    assert!(ended.stderr.contains("轮廓 A2 的落料：24.7 g"), "{ended:?}");
+    assert!(ended.stderr.contains("轮廓 A2 的废料：24.7 g"), "{ended:?}");
     // What is asked for and cannot be said names its keys; where nothing is asked nothing is reported.
     desk.write("wedm.toml", "side = \"auto\"\n[job]\nthickness = 40\n");
     check(

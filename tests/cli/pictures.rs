@@ -206,8 +206,8 @@ fn pictures_of_milling_speak_of_the_electrode() {
             "en",
         ),
         ("milled.iso", "milled.iso · path of the electrode", "en"),
-        ("slot.dxf", "slot.dxf · 轮廓和电极路线", "zh"),
-        ("milled.iso", "milled.iso · 电极路线", "zh"),
+        ("slot.dxf", "slot.dxf · 轮廓和电极轨迹", "zh"),
+        ("milled.iso", "milled.iso · 电极轨迹", "zh"),
     ] {
         let drawn = desk.run(&format!("--lang {language} draw {file}"));
         assert_eq!(drawn.code, Some(0), "{drawn:?}");

@@ -399,7 +399,7 @@ fn fit_and_pair_ask_for_what_they_need_alike() {
             &desk,
             &run,
             2,
-            &["!expected pair.drawn-as, pair.clearance, wire-diameter and gap"],
+            &["!set pair.drawn-as, pair.clearance, wire-diameter and gap"],
         );
         check(
             &desk,

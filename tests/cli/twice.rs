@@ -38,12 +38,12 @@ fn what_is_given_twice_is_said_with_both_places() {
         (
             "layers.A = \"opening\"\ncontours.A0 = \"punch\"\n".to_owned(),
             &outside[..0],
-            "contour A0 is given two roles: punch by contours.A0, which decides, and opening by layers.A",
+            "contour A0 is given two roles: punch by contours.A0, which counts, and opening by layers.A",
         ),
         (
             "layers.A = \"opening\"\ncolors.red = \"punch\"\n".to_owned(),
             &outside[..0],
-            "opening by layers.A, which decides, and punch by its colour",
+            "opening by layers.A, which counts, and punch by its colour",
         ),
         (
             "side = \"punch\"\n".to_owned(),

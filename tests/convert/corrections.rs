@@ -69,7 +69,7 @@ fn each_place_of_a_correction_is_kept() {
             &both,
             "iso",
             Err("G41 D1, G42 D1"),
-            "D1, H1 would be one place",
+            "D1, H1 would become one offset register",
         ),
         (&none, "iso", Ok("G41 D1"), "D1 of the profile is written"),
         (

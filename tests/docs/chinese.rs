@@ -105,7 +105,7 @@ fn the_list_of_rules_in_chinese_is_the_english_one() {
 /// Whole pages in Chinese have the same parts, tables, examples and links.
 #[test]
 fn whole_pages_have_their_twins_in_chinese() {
-    for name in ["settings", "programs", "any-cad"] {
+    for name in ["settings", "programs", "any-cad", "command-line", "editing"] {
         let [english, chinese] = ["docs", "docs/zh"].map(|folder| {
             let page = read(&root().join(format!("{folder}/{name}.md")));
             let (headings, blocks, rows, targets) = shape(&page);

@@ -83,7 +83,13 @@ fn the_settings_shown_are_the_defaults() {
     let (set, default) = (Effective::of(&all).passes, Effective::default().passes);
     assert_eq!(set.sequence(), default.sequence());
     assert_eq!(set.skim_corner(), default.skim_corner());
+    // The correction that follows from wire and gap is the default one.
+    assert!((Effective::of(&all).correction - Effective::default().correction).abs() < 1e-12);
     let shown = Effective {
+        correction: Effective::default().correction,
+        corrections: Effective::default().corrections,
+        wire_diameter: None,
+        gap: None,
         passes: default,
         states_unit: false,
         states_order: false,

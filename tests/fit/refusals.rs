@@ -20,19 +20,19 @@ fn what_is_missing_for_a_fit_is_named() {
     };
     check(
         "",
-        "expected pair.drawn-as, pair.clearance, wire-diameter and gap to be set",
+        "set pair.drawn-as, pair.clearance, wire-diameter and gap",
     );
     check(
         "gap = 0.01\n[pair]\nclearance = 0.01\ndrawn-as = \"punch\"",
-        "expected wire-diameter to be set",
+        "set wire-diameter",
     );
     check(
         "wire-diameter = 0.2\n[pair]\nclearance = 0.01\ndrawn-as = \"punch\"",
-        "expected gap to be set",
+        "set gap",
     );
     check(
         "wire-diameter = 0.2\ngap = 0.01\n[pair]\nclearance = 0.01",
-        "expected pair.drawn-as to be set",
+        "set pair.drawn-as",
     );
 }
 

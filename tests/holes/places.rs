@@ -160,7 +160,7 @@ fn a_hole_that_has_no_room_is_said() {
         slot(),
         &[(
             error,
-            "its deepest point is 1.200 mm from the next contour, expected at most Ø 2.000 mm",
+            "its roomiest point is 1.200 mm from the nearest contour, expected at most Ø 2.000 mm",
         )],
     );
     check(

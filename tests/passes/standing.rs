@@ -117,7 +117,7 @@ fn a_tab_that_holds_nothing_is_said() {
             &PLATE,
             wire("tab = 2\nthread = [16.0, -0.5]\nentry = [20.0, 0.0]"),
             Severity::Warning,
-            &["of the tab of 2.000 mm at contour 2A a neck of 0.170 mm"],
+            &["the tab of 2.000 mm at contour 2A holds by a neck of 0.170 mm"],
         ),
         (
             Punch,
@@ -149,14 +149,14 @@ fn a_tab_that_holds_nothing_is_said() {
             &ARM,
             format!("{}{HEAVY}", wire("tab = 2\nentry = [16.0, 0.0]")),
             Severity::Warning,
-            &["7.6 mm² of the slug are loose", "meets itself at (16."],
+            &["7.6 mm² of the slug come loose", "meets itself at (16."],
         ),
         (
             Opening,
             &ARM,
             format!("{}{HEAVY}", wire("tab = 2\ndirection = \"cw\"")),
             Severity::Warning,
-            &["94.2 mm² of the slug are loose"],
+            &["94.2 mm² of the slug come loose"],
         ),
         (
             Opening,
@@ -166,7 +166,7 @@ fn a_tab_that_holds_nothing_is_said() {
                 wire("tab = 2\ndirection = \"cw\"\ncompensation = \"controller\"")
             ),
             Severity::Warning,
-            &["mm² of the slug are loose"],
+            &["mm² of the slug come loose"],
         ),
         (
             Opening,
@@ -197,7 +197,7 @@ fn a_tab_that_holds_nothing_is_said() {
             &DUMBBELL,
             wire("tab = { 2A = 1 }\nentry = [2.0, 0.0]"),
             Severity::Warning,
-            &["mm² of the slug are loose"],
+            &["mm² of the slug come loose"],
         ),
         (Punch, &DUMBBELL, wire("tab = 1"), Severity::Hint, &[]),
     ];

@@ -88,17 +88,17 @@ const ROWS: &[(&str, Format, &str)] = &[
     (
         "profile = \"s\"\n[profiles.s]\nbegin = [\"G92 X{x} Y{y}\", \"G68 X0. Y0. R45.\"]",
         Iso,
-        "elsewhere than it says, by G68",
+        "holds G68, which leads what follows elsewhere",
     ),
     (
         "profile = \"s\"\n[profiles.s]\nbegin = [\"G92 X{x} Y{y}\", \"G05\"]",
         Iso,
-        "elsewhere than it says, by G05",
+        "holds G05, which leads what follows elsewhere",
     ),
     (
         "profile = \"s\"\n[profiles.s]\nbegin = [\"G92 X{x} Y{y}\", \"G18\"]",
         Iso,
-        "elsewhere than it says, by G18",
+        "holds G18, which leads what follows elsewhere",
     ),
     (
         "profile = \"s\"\n[profiles.s]\nbegin = [\"G54 G92 X{x} Y{y}\", \"G69\", \"G17\"]",

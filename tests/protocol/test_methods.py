@@ -239,7 +239,7 @@ REFUSALS = [
     ("wedm/holes", {"uri": DXF, "format": "csv"}, -32803, "is not known"),
     ("wedm/holes", {"uri": PROGRAM, "format": "csv"}, -32803, "is a program, expected a drawing"),
     ("wedm/repairs", {"uri": PROGRAM, "rule": "small-radius", "handle": "2A"}, -32803, ""),
-    ("wedm/fit", {"uri": CAD}, -32803, "expected pair.drawn-as, pair.clearance, wire-diameter and gap to be set"),
+    ("wedm/fit", {"uri": CAD}, -32803, "set pair.drawn-as, pair.clearance, wire-diameter and gap"),
     ("wedm/fit", {"uri": CAD, "options": {"pair": {"clearance": 0.01, "drawnAs": "punch"}}}, -32602, "expected wire-diameter and gap as well"),
     ("wedm/pair", {"uri": DXF, "format": "3b", "options": PAIR}, -32803, "error"),
     ("wedm/simulate", {"uri": CAD}, -32803, "is a drawing, expected a program"),

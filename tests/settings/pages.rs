@@ -257,10 +257,8 @@ fn file_of_keys(tongue: Tongue) -> String {
             table = of;
         }
         let line = match &row.default {
-            // Each says the correction where it is set.
-            Some(default) if ["wire-diameter", "gap"].contains(&key) => {
-                format!("# {key} = {default}")
-            }
+            // It follows from wire and gap, which are set above it.
+            Some(default) if key == "correction" => format!("# {key} = {default}"),
             Some(default) => format!("{key} = {default}"),
             None => format!("# {key} = {}", example(&row.key)),
         };
@@ -274,13 +272,13 @@ fn the_pages_of_settings_show_every_key_with_its_default() {
     let text = file_of_keys(English);
     hold(
         "docs/settings.md",
-        "commented out:\n\n```toml\n",
+        "from wire and gap:\n\n```toml\n",
         "\n[rules]",
         &text,
     );
     hold(
         "docs/zh/settings.md",
-        "例子：\n\n```toml\n",
+        "也注释掉：\n\n```toml\n",
         "\n[rules]",
         &file_of_keys(Chinese),
     );

@@ -62,7 +62,7 @@ pub const CONTRADICTIONS: &[Contradiction] = &[
     row(ONE, "side = \"punch\"\nwire-diameter = 0.18\npasses.registers = [\"D1\", \"D2\"]\n", "pass-order", "one for the one pass"),
     row(ONE, "side = \"punch\"\npasses.corrections = [0.2, 0.1]\npasses.registers = [\"D1\", \"D1\"]\n", "pass-order", "a register of its own"),
     row(ONE, "side = \"punch\"\npasses.corrections = [0.2, 0.1]\npasses.registers = [\"D1\", \"d01\"]\n", "pass-order", "a register of its own"),
-    row(ONE, "side = \"punch\"\npasses.corrections = [0.2, 0.1]\npasses.registers = [\"D1\", \"M30\"]\n", "pass-order", "no place of a correction"),
+    row(ONE, "side = \"punch\"\npasses.corrections = [0.2, 0.1]\npasses.registers = [\"D1\", \"M30\"]\n", "pass-order", "not an offset register"),
     row(ONE, "side = \"punch\"\ncorrection = 0.11\nwire-diameter = 0.2\ngap = 0.5\n", "pass-order", "0.4900 mm beyond the contour"),
     row(ONE, wire!("side = \"punch\"\npasses.corrections = [0.2, 0.095]\n"), "pass-order", "0.0050 mm beyond the contour"),
     row(ONE, "side = \"punch\"\nwire-diameter = 0.18\npasses.gaps = [0.2, 0.01]\npasses.corrections = [0.2, 0.1]\n", "pass-order", "passes.corrections[0]"),
@@ -107,7 +107,7 @@ pub const CONTRADICTIONS: &[Contradiction] = &[
     row(NESTED, "side = \"auto\"\nprogram.thread = [-5, 5]\n", "settings", "2 contours"),
     row(ONE, "side = \"punch\"\nprogram.thread.ZZ = [-5, 5]\n", "settings", "the handle ZZ"),
     // Single contours, and what lies within what.
-    row(ONE, "side = \"punch\"\n[drawings.\"x.dxf\".contours.ZZ]\nside = \"opening\"\n", "settings", "is ZZ"),
+    row(ONE, "side = \"punch\"\n[drawings.\"x.dxf\".contours.ZZ]\nside = \"opening\"\n", "settings", "has no ZZ"),
     row(ONE, "side = \"punch\"\n[drawings.\"x.dxf\".suppress.ZZ]\ngap = \"it is so\"\n", "settings", "suppresses nothing"),
     row(NESTED, "side = \"punch\"\n", "settings", "A1 is a punch within the punch A0"),
     row(NESTED, "side = \"auto\"\ncontours.A1 = \"punch\"\n", "settings", "A1 is a punch within the punch A0"),

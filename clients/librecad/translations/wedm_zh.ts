@@ -90,7 +90,7 @@
         </translation>
     </message>
     <message>
-        <source>The wire path is taken away.</source>
+        <source>The wire path is cleared.</source>
         <translation>已清除切割轨迹。</translation>
     </message>
     <message>
@@ -98,8 +98,8 @@
         <translation>没有画出切割轨迹。</translation>
     </message>
     <message>
-        <source>what is there cannot take it, write it there yourself</source>
-        <translation>文件中已有的写法容不下它，请自行写入</translation>
+        <source>what the file holds leaves no place for it, write it there yourself</source>
+        <translation>文件中已有的写法加不进去，请自行写入</translation>
     </message>
     <message>
         <source>Another drawing has come to the front while the answer was on its way; nothing was changed.</source>
@@ -172,8 +172,8 @@
 <context>
     <name>wedm::LiveCheck</name>
     <message>
-        <source>waits: a look would end Redo</source>
-        <translation>等待中：检查会使重做失效</translation>
+        <source>paused: a check now would end Redo</source>
+        <translation>已暂停：现在检查会使重做失效</translation>
     </message>
 </context>
 <context>
@@ -251,7 +251,7 @@
         <translation>服务器…</translation>
     </message>
     <message>
-        <source>Look at the drawing now</source>
+        <source>Check the drawing now</source>
         <translation>立即检查图形</translation>
     </message>
     <message>
@@ -307,7 +307,7 @@
         <translation>撤销后未检查</translation>
     </message>
     <message>
-        <source>What is listed was found before. Check looks at the drawing again; what Redo could bring back is lost then.</source>
+        <source>The list is from an earlier check. Check looks at the drawing again; Redo is lost then.</source>
         <translation>列出的是以前的结果。重新检查后，不能再重做。</translation>
     </message>
     <message>
@@ -348,14 +348,14 @@
     </message>
     <message>
         <source>Clear path</source>
-        <translation>清除路线</translation>
+        <translation>清除轨迹</translation>
     </message>
     <message>
-        <source>Take the path of the wire away</source>
+        <source>Remove the path of the wire</source>
         <translation>清除切割轨迹</translation>
     </message>
     <message>
-        <source>Take the circles away</source>
+        <source>Remove the circles</source>
         <translation>清除这些圆圈</translation>
     </message>
     <message>
@@ -467,8 +467,8 @@
         <translation>看不懂修复中的修改 %1</translation>
     </message>
     <message>
-        <source>The server is not there; nothing was changed.</source>
-        <translation>没有服务器，未作任何修改。</translation>
+        <source>The server is not running; nothing was changed.</source>
+        <translation>服务器没有运行，未作任何修改。</translation>
     </message>
     <message>
         <source>Nothing was found at this segment; nothing was changed.</source>
@@ -483,8 +483,8 @@
         <translation>没有修复：%1。未作任何修改。</translation>
     </message>
     <message>
-        <source>The server is not there; nothing was written.</source>
-        <translation>没有服务器，未写出任何文件。</translation>
+        <source>The server is not running; nothing was written.</source>
+        <translation>服务器没有运行，未写出任何文件。</translation>
     </message>
     <message>
         <source>the server ended before it answered</source>
@@ -523,8 +523,8 @@
         <translation>没有切割轨迹：%1。</translation>
     </message>
     <message>
-        <source>The server is not there; nothing was drawn.</source>
-        <translation>服务器不在，未画出任何内容。</translation>
+        <source>The server is not running; nothing was drawn.</source>
+        <translation>服务器没有运行，未画出任何内容。</translation>
     </message>
 </context>
 <context>
@@ -621,7 +621,7 @@
     <name>wedm::programs</name>
     <message>
         <source>Written: %1, %2 blocks, cut %3 mm, jumps %4 mm. Every block was decoded again: at most %5 µm from the path.</source>
-        <translation>已写出：%1，%2 段，切割 %3 mm，跳步 %4 mm。每段均已重新解码：偏离路线最多 %5 µm。</translation>
+        <translation>已写出：%1，%2 段，切割 %3 mm，跳步 %4 mm。每段均已重新解码：偏离切割轨迹最多 %5 µm。</translation>
     </message>
     <message>
         <source>Rounding of J, added up: %1, %2 µm.</source>

@@ -6,7 +6,7 @@ declare! {
     chorded_arcs(count: usize) => { counted(*count, "chorded arc", "chorded arcs") };
     contours(count: usize) => { counted(*count, "contour", "contours") };
     diagnostics(count: usize) => { counted(*count, "diagnostic", "diagnostics") };
-    doubles(count: usize) => { counted(*count, "double", "doubles") };
+    doubles(count: usize) => { counted(*count, "duplicate", "duplicates") };
     entities(count: usize) => { counted(*count, "entity", "entities") };
     errors(count: usize) => { counted(*count, "error", "errors") };
     files(count: usize) => { counted(*count, "file", "files") };

@@ -4,9 +4,9 @@ declare! {
     the_edits_overlap => "the edits overlap";
     more_errors_than_before => "the repaired text has more errors than before; nothing is written";
     no_program_is_written => "no program is written";
-    no_program_of_a_drawing_with(path, errors, word) => "{path}: no program is written, the drawing has {errors}; repair it (wedm fix {word} --in-place), or insist with --force";
-    no_program_of_a_drawing_beyond_repair(path, errors) => "{path}: no program is written, the drawing has {errors}; repair it in CAD or change the settings, or insist with --force";
-    nothing_of_a_program_with(path, errors) => "{path}: nothing is written, the program has {errors}; repair it, or insist with --force";
+    no_program_of_a_drawing_with(path, errors, word) => "{path}: no program is written, the drawing has {errors}; repair it (wedm fix {word} --in-place), or write it all the same with --force";
+    no_program_of_a_drawing_beyond_repair(path, errors) => "{path}: no program is written, the drawing has {errors}; repair it in CAD or change the settings, or write it all the same with --force";
+    nothing_of_a_program_with(path, errors) => "{path}: nothing is written, the program has {errors}; repair it, or write it all the same with --force";
     a_drawing_where_a_program_is_expected => "it is a drawing, expected a program: wedm generate makes one from it";
     nothing_is_made_with_such_settings => "nothing is made with settings that do not fit, see above";
     it_is_not_utf_8_text => "it is not UTF-8 text";
@@ -62,7 +62,7 @@ declare! {
     it_is_there_already => "it already exists and holds something else, expected another name, or --overwrite";
     it_is_of_somebody_else => "it already exists and is not from an earlier run, expected another folder, or --overwrite";
     expected(what) => "expected {what}";
-    not_written_as_it_would_be_refused(reason) => "no settings come of these numbers: {reason}";
+    not_written_as_it_would_be_refused(reason) => "these numbers make no valid settings: {reason}";
     wire_diameter_mm => "diameter of the wire, mm";
     spark_gap_mm => "spark gap, mm";
     passes_along_each_contour => "passes along each contour";
@@ -106,7 +106,7 @@ declare! {
     cut_number(order) => ", cut number {order}";
     start_mark_at(x, y) => ", start mark at {x:.3}, {y:.3}";
     nothing_says_what_the_program_becomes => "nothing says what to convert to, expected -o OUT or --format";
-    the_contours_are_placed_by_a_correction(correction) => "the contours are those of the part, at a correction of {correction:.4} mm beside the wire's path: the program does not state it, --correction does";
+    the_contours_are_placed_by_a_correction(correction) => "the contours are those of the part, at a correction of {correction:.4} mm beside the wire's path: the program does not state it; set it with --correction";
     the_correction_is_not_in_the_contours => "the contours are those of the part: the correction is not in them";
     the_machine_misses_the_begin_of_a_contour_by_up_to_um(closure) => "the machine misses the start of a contour by up to {closure:.2} µm; its ends are joined there";
     the_option_is_for_4b_alone(option) => "{option} is for 4B, to it or from it to a drawing: another conversion takes the path as it is, and corrects nothing";
@@ -215,8 +215,8 @@ declare! {
     the_slug_weighs(contour, mass) => "slug of contour {contour}: {mass:.1} g";
     leads_turn_at_most(angle) => "leads: at most {angle:.1}° to the contour";
     left_out_of_the_program(what) => "left out: {what}";
-    the_largest_wire_passes_between(diameter, width, handle, segment, other, met) => "largest wire: Ø {diameter:.3} mm, by the {width:.3} mm between {handle}, segment {segment}, and {other}, segment {met}";
-    the_largest_wire_is(diameter, radius, handle, segment) => "largest wire: Ø {diameter:.3} mm, by R {radius:.3} mm of {handle}, segment {segment}";
+    the_largest_wire_passes_between(diameter, width, handle, segment, other, met) => "largest wire: Ø {diameter:.3} mm, limited by the {width:.3} mm between {handle}, segment {segment}, and {other}, segment {met}";
+    the_largest_wire_is(diameter, radius, handle, segment) => "largest wire: Ø {diameter:.3} mm, limited by R {radius:.3} mm of {handle}, segment {segment}";
     the_largest_wire_needs_the_gap => "largest wire: not known, since gap is not set";
     keys_are_missing(keys) => "not known, since not set: {keys}";
     the_program_is_written(heading, target, program, contours, length) => "{heading} {target}: {program}, {contours}, {length}";
@@ -275,7 +275,7 @@ declare! {
     column_of_end_x => "end X";
     column_of_end_y => "end Y";
     column_of_lines => "line";
-    a_way => "way";
+    a_way => "jump";
     length_of_blocks(blocks, length) => "{blocks}, {length}";
     takes_minutes(minutes) => ", {minutes:.1} min";
     meant_elsewhere(x, y, deviation) => "meant {x:.4}, {y:.4}: {deviation:.2} µm off";

@@ -2,8 +2,8 @@
 //! of its help, `check-examples`, `check output` for an option of it, `output` for the same option of several commands.
 
 pub(in crate::message) const HELP: &[(&str, &str)] = &[
-    ("wedm", "Language server and command line for wire EDM"),
-    ("wedm/", "Finds every arc that is tighter than the wire's correction, repairs it, and writes proved 3B, 4B and ISO programs. Without a command it is the language server on stdin and stdout; on a terminal, this help."),
+    ("wedm", "Checks and repairs drawings for wire EDM, and writes proved 3B, 4B and ISO programs"),
+    ("wedm/", "Finds every arc that is tighter than the wire's correction, repairs it, and decodes each program again before it is written. Without a command it is the language server on stdin and stdout; on a terminal, this help."),
     ("wedm-examples", "Examples:
   wedm check plate.dxf                     every arc tighter than 0.10 mm, and its place
   wedm check --correction 0.12 drawings/   a whole folder, with another correction
@@ -33,12 +33,12 @@ Exit codes: 0 no error found, 1 errors in the drawing, 2 could not read, or wron
     ("fix", "Repair what can be repaired safely"),
     ("fix/", "Only the numbers that change are written, every other byte stays: code page, line ends, content that wedm does not know. The result is read again and checked before it is written. A repair that the text cannot take (lines next to it are damaged) is named, the others are made. Ends with 1 when errors are left or a repair was not made."),
     ("fix paths", "Drawings and programs, or folders of them"),
-    ("fix quiet", "Say nothing of what was repaired"),
+    ("fix quiet", "Do not list the repairs"),
     ("fix output", "Write the repaired drawing there (`-` is stdout)"),
     ("fix in_place", "Write the repaired drawing over the input"),
     ("fix diff", "Print what would change, and write nothing"),
     ("format", "Bring programs into one layout"),
-    ("format/", "Blocks, words, comments and block numbers stay, and so does the machine's way: every line is read again before it is accepted. Lines that cannot be read stay as they are. Without a layout, here or in the settings, a program keeps that of most of its blocks. Ends with 1 when `--check` or `--diff` finds something to change."),
+    ("format/", "Blocks, words, comments and block numbers stay, and so does the path of the machine: every line is read again before it is accepted. Lines that cannot be read stay as they are. Without a layout, here or in the settings, a program keeps that of most of its blocks. Ends with 1 when `--check` or `--diff` finds something to change."),
     ("format paths", "Programs, and folders to search for them"),
     ("format output", "Write the formatted program there (`-` is stdout); one PATH"),
     ("format in_place", "Write formatted programs over the inputs"),
@@ -74,17 +74,17 @@ Exit codes: 0 no error found, 1 errors in the drawing, 2 could not read, or wron
     ("draw output", "Write the picture there, as .svg, .png, .pdf or .dxf [default: SVG to stdout]"),
     ("contours", "List the contours: which entities are chained, closed or open, with role, area and length"),
     ("convert", "Turn a program into a drawing, or into a program of another language"),
-    ("convert/", "The contours become polylines with arcs on the layer CUT, the ways in and out lines on LEAD, ways without the wire lines on WAY. The coordinates in a 3B program (the checking layout) are used; without them the machine's drift on the way round is reported. A program with errors is refused, unless --force says otherwise."),
+    ("convert/", "The contours become polylines with arcs on the layer CUT, the leads lines on LEAD, the jumps lines on WAY. The coordinates in a 3B program (the checking layout) are used; without them the machine's drift on the way round is reported. A program with errors is refused, unless --force says otherwise."),
     ("convert path", "The program: .3b, .4b, .iso or .nc"),
     ("convert output", "Write it there; the ending gives the result: .dxf, .3b, .4b, .iso or .nc"),
     ("convert format", "The result, if no OUT gives it: dxf, 3b, 4b, iso"),
-    ("convert force", "Convert it although it has errors; blocks that lead nowhere are left out"),
+    ("convert force", "Convert it although it has errors; blocks without a move are left out"),
     ("simulate", "Show where the machine really goes"),
     ("simulate/", "A 3B controller counts micrometres on one axis and stops. Every block is followed the same way, one µm at a time; where its end differs from the line or arc that was meant, both ends are shown. Points are mm from the program's start, or absolute where the program gives its start. JSON is the result of `wedm/simulate`, in µm."),
     ("simulate path", "The program"),
     ("simulate feed", "Speed of the cut, for the time"),
     ("report", "Write a page for each drawing, and an index: picture, contours, radius list, findings, passes, times, drill list, fit, program"),
-    ("report/", "Each page is one HTML file that needs nothing else, light or dark as its viewer likes, and prints on A4. Ends with 1 when a drawing has errors; its page is written all the same. Files that are no pages of wedm are only overwritten with --overwrite."),
+    ("report/", "Each page is one HTML file that needs nothing else, light or dark as its viewer likes, and prints on A4. Ends with 1 when a drawing has errors; its page is written all the same. Files that are not pages of wedm are only overwritten with --overwrite."),
     ("report paths", "Drawings, or folders of them"),
     ("report output", "The folder for the pages; it is made if it does not exist"),
     ("report format", "Language of the programs: 3b, 4b, iso; milling by an electrode [default: `program.format`, else 3b]"),

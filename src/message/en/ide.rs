@@ -55,7 +55,7 @@ declare! {
     // of programs: where a step leads
     pause => "pause";
     end => "end";
-    way_to(place) => "way to {place}";
+    way_to(place) => "jump to {place}";
     block_that_leads_nowhere => "block that leads nowhere";
     line_to(place) => "line to {place}";
     circle_r(radius) => "circle R {radius}";
@@ -70,7 +70,7 @@ declare! {
     step_at(name, what, place) => "**{name}{what}** at {place} mm";
     step_leads_nowhere(name, place) => "**{name}block that leads nowhere**: the machine stays at {place} mm";
     step_to(name, what, place) => "**{name}{what}** to {place} mm";
-    way_without_the_wire => "way without the wire";
+    way_without_the_wire => "jump, nothing is cut";
     from_length_and_direction(place, length, direction) => "from {place}, length {length} mm, direction {direction}";
     circle => "circle";
     step_about(name, what, turn, centre, radius, sweep) => "**{name}{what}** {turn} about {centre} mm, R {radius} mm, {sweep}";
@@ -129,9 +129,9 @@ declare! {
     pause_for_the_wire => "pause: the wire is cut or threaded";
     end_of_the_program => "end of the program";
     // of ISO: what a word means
-    value_for_a_place_of_the_table(word, letter, mm) => "**{word}** value for the control's table: where {letter} names this place, the correction is {mm} mm";
-    value_reckoned_from_others(word, holds) => "**{word}** value for the control's table, calculated from others in it: {holds}";
-    it_hangs_on_places_that_the_program_does_not_fill => "its value depends on places that the program does not fill";
+    value_for_a_place_of_the_table(word, letter, mm) => "**{word}** value of an offset register: where {letter} names it, the correction is {mm} mm";
+    value_reckoned_from_others(word, holds) => "**{word}** value of an offset register, calculated from others: {holds}";
+    it_hangs_on_places_that_the_program_does_not_fill => "its value depends on registers that the program does not set";
     it_comes_to_mm(mm) => "it comes to {mm} mm";
     the_corner_is_rounded(word, mm) => "**{word}** the corner at the end of this cut is rounded with R {mm} mm";
     the_corner_is_chamfered(word, mm) => "**{word}** the corner at the end of this cut is chamfered, {mm} mm along each of its walls";
@@ -157,8 +157,8 @@ declare! {
     centre_and_how_that_is_known(word, meant, known) => "**{word}** {meant} ({known})";
     the_arcs_leave_that_open => "the arcs leave that open, so it is taken as the profile has it";
     found_from_the_arcs_of_this_program => "found from the arcs of this program; machines differ in it";
-    place_of_the_table_as_set(word, index, mm) => "**{word}** place {index} of the control's table of corrections: {mm} mm, as this program sets it";
-    place_of_the_table_of_the_machine(word, index, mm) => "**{word}** place {index} of the control's table of corrections, not a length. What it holds depends on the machine: arcs are compared with the setting, {mm} mm";
+    place_of_the_table_as_set(word, index, mm) => "**{word}** offset register {index}: {mm} mm, as this program sets it";
+    place_of_the_table_of_the_machine(word, index, mm) => "**{word}** offset register {index}, not a length. What it holds depends on the machine: arcs are compared with the setting, {mm} mm";
     upper_guide_along_x_or_y => "the upper guide's way along X or Y, or the taper's";
     a_height => "a height: of the guides, or of the part";
     an_angle_of_the_taper => "an angle, mostly the taper's";
@@ -174,10 +174,10 @@ declare! {
     lengths_are_inches => "lengths are inches";
     lengths_are_millimetres => "lengths are millimetres";
     ends_the_correction_from_the_next_cut_on => "ends the correction: from the next straight cut on the wire runs on the contour";
-    correction_on_the_left => "correction: the control lets the wire run on the left of the contour, as far as D or H says";
-    correction_on_the_right => "correction: the control lets the wire run on the right of the contour, as far as D or H says";
+    correction_on_the_left => "correction: the control keeps the wire on the left of the contour, as far as D or H says";
+    correction_on_the_right => "correction: the control keeps the wire on the right of the contour, as far as D or H says";
     coordinates_are_absolute_from_the_zero => "coordinates are absolute, counted from the program's zero";
-    coordinates_count_from_the_wire => "coordinates count from where the wire stands";
+    coordinates_count_from_the_wire => "coordinates are incremental, counted from where the wire stands";
     says_where_the_wire_stands_in_this_line => "says where the wire stands: X and Y of this line";
     says_how_i_and_j_are_meant => "says how I and J are meant, which is found from the arcs themselves";
     mirrors_or_swaps_the_axes => "on fast-wire controls it mirrors or swaps the axes; G12 ends that";
@@ -216,14 +216,14 @@ declare! {
     y_of_the_centre => "the centre's own Y";
     radius_with_its_sign => "radius; negative where the arc turns by more than 180°";
     where_the_wire_stands => "where the wire stands";
-    place_that_holds_the_correction => "place in the control's table that holds the correction; some controls say H";
+    place_that_holds_the_correction => "offset register that holds the correction; some controls say H";
     number_at_which_the_subprogram_begins => "number at which the subprogram begins: its N or O";
     how_often_it_is_run => "how often it is run";
     how_long_some_controls_say_x => "how long; some controls say X";
     // of ISO: what can follow
     written_by_the_profile => "written by the profile";
     correction_as_this_program_sets_it(mm) => "correction {mm:.3} mm, as this program sets it";
-    place_in_the_table_of_corrections => "place in the control's table of corrections";
+    place_in_the_table_of_corrections => "offset register";
     line_by_number(number, text) => "line {number}: {text}";
     the_next_block_number => "the next block number";
     the_wire_stands_at_the_zero => "the wire stands at the zero";
@@ -239,7 +239,7 @@ declare! {
     stop_to_thread_the_wire => "stop, for instance to thread the wire";
     a_line_of_the_profile => "a line of the profile";
     line_back_to_where_the_cut_began => "line back to where the cut began";
-    line_to_the_end_of_the_way_in => "line to the end of the way in";
+    line_to_the_end_of_the_way_in => "line to the end of the lead-in";
     radius_and_turn_of_the_arc(radius, degrees, about) => "R {radius:.3}, {degrees:.1}°{about}";
     the_arc_that_r_means => ", the arc that R means";
     leaves_the_block_before_without_a_corner => ", leaves the block before it without a corner";

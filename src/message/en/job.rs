@@ -21,9 +21,9 @@ declare! {
     parts_of_have_a_program_each(parts, path) => "it is a pair, whose parts ({parts}) have a program each: `wedm pair {path}` writes them";
     holes_of_a_pair_are_csv => "the holes of a pair are written as .csv: in one drawing the hole of a part would be taken for that of the other, too";
     a_pair_is_not_milled => "a pair is cut by a wire: expected 3b, 4b or iso";
-    the_electrode_wears_more_than_a_layer(wear) => "the electrode gets {wear:.2} layers shorter in each layer along this contour: the floor is uneven within one layer; a larger electrode or a shorter contour wears less";
+    the_electrode_wears_more_than_a_layer(wear) => "the electrode gets shorter by {wear:.2} times the layer's height in each layer along this contour: the floor is uneven within one layer; a larger electrode or a shorter contour wears less";
     the_step_is_longer(step, length) => "milling.step is {step} mm, longer than a layer of this contour, {length:.3} mm: expected a shorter step";
-    the_floor_is_uneven(wear, least, most) => "the electrode gets {wear:.2} layers shorter in each layer along this contour: the floor is uneven within one layer, in the end {least:.4} to {most:.4} mm deep; a larger electrode or a shorter contour wears less";
+    the_floor_is_uneven(wear, least, most) => "the electrode gets shorter by {wear:.2} times the layer's height in each layer along this contour: the floor is uneven within one layer, in the end {least:.4} to {most:.4} mm deep; a larger electrode or a shorter contour wears less";
     it_is_milled => "an electrode mills it layer by layer: its heights belong to its moves, and it is not the path of a wire";
     nothing_is_picked(key, other) => "{key} is as-picked, but no contour is picked: they are cut in the order of {other}";
 }

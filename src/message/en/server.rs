@@ -76,8 +76,8 @@ declare! {
     path_of_the_electrode_axis(distance) => "path of the electrode's axis, {distance:.3} mm from the contour";
     contour_that_the_control_offsets(distance) => "contour, which the control offsets by {distance:.3} mm";
     path_of_the_wire_centre(distance) => "path of the wire's centre, {distance:.3} mm from the contour";
-    segment_stock(handle, segment, stock) => "{handle} segment {segment}, stock {stock:.3}";
-    segment_overcut(handle, segment, overcut) => "{handle} segment {segment}, overcut {overcut:.3}";
+    segment_stock(handle, segment, stock) => "{handle} segment {segment}, stock {stock:.3} mm";
+    segment_overcut(handle, segment, overcut) => "{handle} segment {segment}, overcut {overcut:.3} mm";
     the_drawing_has_no_lines => "the drawing has no lines, arcs or circles";
     contour_and_wire_path => "contours and wire path";
     n1_arc_is_too_tight => "1 arc is tighter than the correction";
@@ -132,8 +132,8 @@ declare! {
     cut_of(contours, length, jumps, minutes) => "cut of {contours}: {length:.3} mm{jumps}{minutes}";
     and_jumps(length) => ", jumps {length:.3} mm";
     and_minutes(minutes) => ", {minutes:.2} min";
-    largest_wire_by_a_narrow_place(diameter, width) => "largest wire Ø {diameter:.3} mm, by a narrow place of {width:.3} mm";
-    largest_wire(diameter, radius) => "largest wire Ø {diameter:.3} mm, by R {radius:.3} mm";
+    largest_wire_by_a_narrow_place(diameter, width) => "largest wire Ø {diameter:.3} mm, limited by a narrow place of {width:.3} mm";
+    largest_wire(diameter, radius) => "largest wire Ø {diameter:.3} mm, limited by R {radius:.3} mm";
     thread_hole_at_mm(x, y) => "thread hole at {x:.3}, {y:.3} mm";
     change_by_number(index, reason) => "change {index}: {reason}";
     an_entity_needs(name, kind, key) => "entity {name}: a {kind} needs {key}";

@@ -60,7 +60,7 @@ translate! {
     the_settings_of_this_session => "本次会话的设置";
     left_in_all(counts, path) => "{counts}；用 wedm check {path} 查看位置";
     it_is_there_already => "文件已存在，内容不同；请换一个名称，或加 --overwrite";
-    it_is_of_somebody_else => "文件已存在，且不是以前生成的，请换一个文件夹，或加 --overwrite";
+    it_is_of_somebody_else => "文件已存在，且不是以前生成的；请换一个文件夹，或加 --overwrite";
     expected(what) => "应为{what}";
     not_written_as_it_would_be_refused(reason) => "这些数值得不出可用的设置：{reason}";
     wire_diameter_mm => "电极丝直径，mm";
@@ -106,10 +106,10 @@ translate! {
     cut_number(order) => "，第 {order} 个切割";
     start_mark_at(x, y) => "，起点标记位于 {x:.3}, {y:.3}";
     nothing_says_what_the_program_becomes => "没有说明程序要转成什么，请给 -o OUT 或 --format";
-    the_contours_are_placed_by_a_correction(correction) => "轮廓是工件轮廓，按补偿量 {correction:.4} mm 置于电极丝轨迹旁：程序中没有该值，可用 --correction 给出";
+    the_contours_are_placed_by_a_correction(correction) => "轮廓是工件轮廓，按补偿量 {correction:.4} mm 置于切割轨迹旁：程序中没有该值，可用 --correction 给出";
     the_correction_is_not_in_the_contours => "轮廓是工件轮廓：不含补偿量";
     the_machine_misses_the_begin_of_a_contour_by_up_to_um(closure) => "机床回到轮廓起点最大差 {closure:.2} µm；首尾已并为一点";
-    the_option_is_for_4b_alone(option) => "{option} 只用于转成 4B 或由 4B 转成图形：其他变换照搬轨迹，不作补偿";
+    the_option_is_for_4b_alone(option) => "{option} 只用于转成 4B 或由 4B 转成图形：其他转换照搬轨迹，不作补偿";
     the_option_does_nothing_there(option) => "{option} 在这里不起作用：结果里没有它所设定的内容";
     left_out_since_they_lead_nowhere(lines, more) => "没有去向、已略去的行：{lines}{more}";
     the_program_does_not_find_itself(error) => "找不到程序自身：{error}";
@@ -212,7 +212,7 @@ translate! {
     which_costs(cost) => "，费用 {cost:.2}";
     the_cut_of_a_pass_takes(contour, pass, length, minutes) => "  轮廓 {contour}，第 {pass} 次：{length:.3} mm，{minutes:.2} min";
     the_tab_takes(contour, pass, length, minutes) => "  轮廓 {contour} 的暂留段，第 {pass} 次：{length:.3} mm，{minutes:.2} min";
-    the_slug_weighs(contour, mass) => "轮廓 {contour} 的落料：{mass:.1} g";
+    the_slug_weighs(contour, mass) => "轮廓 {contour} 的废料：{mass:.1} g";
     leads_turn_at_most(angle) => "引线与轮廓的最大夹角：{angle:.1}°";
     left_out_of_the_program(what) => "未写入程序：{what}";
     the_largest_wire_passes_between(diameter, width, handle, segment, other, met) => "最粗可用电极丝：Ø {diameter:.3} mm，由 {handle} 段 {segment} 与 {other} 段 {met} 之间的 {width:.3} mm 决定";
@@ -281,8 +281,8 @@ translate! {
     meant_elsewhere(x, y, deviation) => "应在 {x:.4}, {y:.4}：偏离 {deviation:.2} µm";
     read_as_gb_18030(note) => "{note}不是 UTF-8 的文件按 GB 18030 读入，写出时仍为 GB 18030";
     written => "已写出";
-    suppressed_since(reason) => "已忽略：{reason}";
-    and_so_many_suppressed(count) => "，已忽略 {count} 个";
+    suppressed_since(reason) => "已允许保留：{reason}";
+    and_so_many_suppressed(count) => "，允许保留 {count} 个";
     column_of_handles => "句柄";
     extents_from(width, height, x, y) => "范围 {width:.3} × {height:.3} mm，自 {x:.3}, {y:.3}";
     smallest_radius(radius) => "，最小 R {radius:.3} mm";

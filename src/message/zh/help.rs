@@ -11,21 +11,21 @@ pub(in crate::message) const BESIDE: [(&str, &str); 4] = [
 pub(in crate::message) const HELP: &[(&str, &str)] = &[
     (
         "wedm",
-        "检查线切割图形，修正圆角，生成并核对 3B、4B、ISO 程序",
+        "检查并修复线切割图形，生成经过校核的 3B、4B、ISO 程序",
     ),
     (
         "wedm/",
-        "找出半径小于补偿量的每一段圆弧，给出修复，写出校核过的 3B、4B、ISO 程序。不带命令时是标准输入输出上的语言服务器；在终端上显示本帮助。",
+        "找出半径小于补偿量的每一段圆弧并修复；每个程序写出前都重新解码校核。不带命令时是标准输入输出上的语言服务器；在终端上显示本帮助。",
     ),
     (
         "wedm-examples",
         "示例：
   wedm check plate.dxf                     半径小于 0.10 mm 的每段圆弧及其位置
   wedm check --correction 0.12 drawings/   整个文件夹，用另一补偿量
-  wedm fix plate.dxf -o fixed.dxf          修复能修复的
+  wedm fix plate.dxf -o fixed.dxf          自动修复可安全修复的问题
   wedm generate fixed.dxf --side opening -o plate.3b
   wedm format plate.3b --layout checking   带段号和终点
-  wedm convert plate.3b -o plate.dxf       程序变回图形，或变成 ISO
+  wedm convert plate.3b -o plate.dxf       程序转回图形，或转成 ISO
   wedm demo                                用自带的图形演示全过程
 
 退出码：0 没有错误，1 图形有错误，2 读不出，或用法不对。",
@@ -41,8 +41,8 @@ pub(in crate::message) const HELP: &[(&str, &str)] = &[
     ("check output github", "GitHub 工作流的注释"),
     ("check output junit", "JUnit 的 XML"),
     ("check statistics", "不列出问题，只列出每条规则的次数"),
-    ("check select", "只要这些规则，以及说明文件无法判断的规则"),
-    ("check ignore", "不要这些规则"),
+    ("check select", "只查这些规则，以及无法检查的文件"),
+    ("check ignore", "不查这些规则"),
     (
         "check exclude",
         "跳过符合此模式的文件和文件夹，写法同 .gitignore",
@@ -52,13 +52,13 @@ pub(in crate::message) const HELP: &[(&str, &str)] = &[
         "check stdin_name",
         "标准输入的名称：扩展名说明是什么，没有时看内容；所在文件夹说明用哪个 wedm.toml",
     ),
-    ("check watch", "文件一改就再查，直到进程结束"),
+    ("check watch", "文件一改就再查，直到按 Ctrl-C 结束"),
     ("check show_suppressed", "也列出允许保留的问题及其理由"),
     ("check deny", "有此级别的问题也以 1 结束"),
     ("fix", "自动修复可安全修复的问题"),
     (
         "fix/",
-        "只写出改变的数值，其余字节不动：代码页、换行、wedm 不认识的内容。写出之前重新读一遍并检查。文本容不下的修复（旁边的行已损坏）会指明，其余照做。还有错误或有修复没有做时以 1 结束。",
+        "只写出改变的数值，其余字节不动：代码页、换行、wedm 不认识的内容。写出之前重新读一遍并检查。旁边的行已损坏、无法写入的修复会指明，其余照做。还有错误或有修复没有做时以 1 结束。",
     ),
     ("fix paths", "图形和程序，或放它们的文件夹"),
     ("fix quiet", "不说修复了什么"),
@@ -89,7 +89,7 @@ pub(in crate::message) const HELP: &[(&str, &str)] = &[
     ),
     (
         "generate format",
-        "程序的语言：3b、4b、iso；milling 为电极铣削 [默认：按 OUT 的扩展名，否则 3b]",
+        "程序的语言：3b、4b、iso；milling 为电极铣削 [默认：按 OUT 的扩展名，否则 `program.format`，否则 3b]",
     ),
     ("generate output", "程序写到这里 [默认：标准输出]"),
     (
@@ -118,7 +118,7 @@ pub(in crate::message) const HELP: &[(&str, &str)] = &[
         "fit/",
         "配不上时以 1 结束。两个零件是切两次的同一轮廓（pair.drawn-as），或两个工件（[workpieces]）。",
     ),
-    ("fit output", "图片写到这里（.svg）"),
+    ("fit output", "图片写到这里（.svg、.png 或 .pdf）"),
     ("fit format", "输出的形式"),
     ("holes", "列出要钻的穿丝孔：CSV，或 DXF 的一个图层"),
     (
@@ -135,7 +135,7 @@ pub(in crate::message) const HELP: &[(&str, &str)] = &[
     ("inspect handle", "只列此图元"),
     (
         "draw",
-        "把图形的轮廓、问题和切割轨迹，或程序的路线画成 SVG、PNG 或 PDF；轮廓和切割轨迹也可画成 DXF",
+        "把图形的轮廓、问题和切割轨迹，或程序的轨迹画成 SVG、PNG 或 PDF；轮廓和切割轨迹也可画成 DXF",
     ),
     ("draw path", "图形或程序"),
     (
@@ -144,9 +144,9 @@ pub(in crate::message) const HELP: &[(&str, &str)] = &[
     ),
     (
         "contours",
-        "列出轮廓：什么与什么相接，封闭与否，用途、面积和长度",
+        "列出轮廓：哪些图元相接，封闭与否，用途、面积和长度",
     ),
-    ("convert", "把程序变成图形，或变成另一种语言的程序"),
+    ("convert", "把程序转成图形，或转成另一种语言的程序"),
     (
         "convert/",
         "轮廓成为图层 CUT 上带圆弧的多段线，引线成为 LEAD 上的直线，跳步成为 WAY 上的直线。3B 程序带有坐标（checking 排版）的用坐标；否则说明机床走一圈累计的偏差。有错误的程序会被拒绝，除非用 --force。",
@@ -154,17 +154,17 @@ pub(in crate::message) const HELP: &[(&str, &str)] = &[
     ("convert path", "程序：.3b、.4b、.iso 或 .nc"),
     (
         "convert output",
-        "写到这里；扩展名说明变成什么：.dxf、.3b、.4b、.iso 或 .nc",
+        "写到这里；扩展名说明转成什么：.dxf、.3b、.4b、.iso 或 .nc",
     ),
     (
         "convert format",
-        "没有 OUT 说明时，变成什么：dxf、3b、4b、iso",
+        "没有 OUT 说明时，转成什么：dxf、3b、4b、iso",
     ),
-    ("convert force", "有错误也变换；不知走向哪里的程序段略去"),
+    ("convert force", "有错误也转换；没有移动的程序段略去"),
     ("simulate", "说明机床实际走到哪里"),
     (
         "simulate/",
-        "3B 控制器在一个轴上数微米，数到就停：逐段照此走，每次 1 µm，终点与本意的直线、圆弧不同的，两个终点都列出。点以 mm 计，自程序起点；程序说明起点的，为绝对坐标。JSON 是 `wedm/simulate` 的结果，单位 µm。",
+        "3B 控制器在一个轴上计数，以微米计，数完就停：逐段照此走，每次 1 µm，终点与理论直线、圆弧不同的，两个终点都列出。点以 mm 计，自程序起点；程序说明起点的，为绝对坐标。JSON 是 `wedm/simulate` 的结果，单位 µm。",
     ),
     ("simulate path", "程序"),
     ("simulate feed", "切割速度，用来算时间"),
@@ -180,7 +180,7 @@ pub(in crate::message) const HELP: &[(&str, &str)] = &[
     ("report output", "放这些页的文件夹；没有则建立"),
     (
         "report format",
-        "程序的语言：3b、4b、iso；milling 为电极铣削",
+        "程序的语言：3b、4b、iso；milling 为电极铣削 [默认：`program.format`，否则 3b]",
     ),
     (
         "explain",
@@ -191,7 +191,7 @@ pub(in crate::message) const HELP: &[(&str, &str)] = &[
     ("init", "为图形文件夹写出带注释的 wedm.toml"),
     (
         "init/",
-        "在终端上会询问选项没有给出的内容。多次切割时算出各次补偿量：粗切为电极丝半径 + 间隙 + 余量，n 次修切中的第 i 次为半径 + 精切间隙 + 余量 × (n − i) / n。",
+        "在终端上会询问选项没有给出的内容；不在终端上时说明写了什么、补偿量是多少。多次切割时算出各次补偿量：粗切为电极丝半径 + 放电间隙 + 余量，n 次修切中的第 i 次为半径 + 修切放电间隙 + 余量 × (n − i) / n。",
     ),
     ("init folder", "文件写到此文件夹"),
     ("init wire", "电极丝直径，mm"),
@@ -219,7 +219,7 @@ pub(in crate::message) const HELP: &[(&str, &str)] = &[
         "serve",
         "在标准输入输出上提供语言服务器协议（不带命令时就是这样）",
     ),
-    ("stdio", "有的编辑器会给出；没有别的方式"),
+    ("stdio", "不起作用；为兼容而接受"),
     (
         "no_parent_watch",
         "客户端所指的进程结束后继续运行：在容器中它的编号没有意义",

@@ -82,7 +82,7 @@ translate! {
     is_no_block_number(name) => "{name:?} 不是段号，最多 8 位数字";
     the_number_is_that_of_another_block(number, line) => "N{number} 是第 {line} 行的程序段";
     // of 3B: what a word means
-    number_without_meaning_for_the_path => "**N** 段号：与路线无关";
+    number_without_meaning_for_the_path => "**N** 段号：与轨迹无关";
     b_leads_each_number => "**B** 分隔符，放在每个数前：`B` X `B` Y `B` J `G` Z";
     coordinate_of_a_line(axis) => "直线的 **{axis}**：终点相对起点的 {axis} 坐标绝对值，µm；正负由 Z 决定";
     coordinate_of_an_arc(axis) => "圆弧的 **{axis}**：起点相对圆心的 {axis} 坐标绝对值，µm；正负由 Z 决定";
@@ -140,7 +140,7 @@ translate! {
     the_row_of_the_table_is_in_line(line, row) => "由程序第 {line} 行给出：`{row}`";
     begin_and_end_on_tape => "**%** 纸带上程序的开头和结尾";
     block_that_may_be_left_out => "**/** 操作者打开跳段开关时略去本段：由机床决定";
-    number_that_a_call_may_name(word) => "**{word}** 段号：与路线无关，但调用指令（`M98 P…`）可以指定它";
+    number_that_a_call_may_name(word) => "**{word}** 段号：与轨迹无关，但调用指令（`M98 P…`）可以指定它";
     number_of_a_program(word) => "**{word}** 程序号，或由 `M98 P…` 调用的子程序号";
     radius_of_the_arc(word, mm) => "**{word}** 圆弧半径，{mm} mm；为负时圆心角大于 180°";
     feed_in_a_unit_of_the_machine(word) => "**{word}** 进给速度；单位由机床决定";
@@ -186,7 +186,7 @@ translate! {
     how_the_correction_is_switched => "补偿的建立方式，或拐角的处理方式";
     whether_corners_are_rounded => "拐角是否倒圆";
     ends_the_taper => "取消锥度";
-    taper_to_the_left_or_right => "锥度：丝向路线左侧（G51）或右侧（G52）倾斜";
+    taper_to_the_left_or_right => "锥度：丝向前进方向的左侧（G51）或右侧（G52）倾斜";
     chooses_a_system_of_coordinates => "选择坐标系";
     how_exactly_a_corner_is_run => "拐角的准停方式，或锥度在拐角的处理";
     moves_until_the_wire_touches => "移动到电极丝接触工件";

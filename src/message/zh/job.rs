@@ -21,9 +21,9 @@ translate! {
     parts_of_have_a_program_each(parts, path) => "这是一对零件（{parts}），每件各有自己的程序：由 `wedm pair {path}` 写出";
     holes_of_a_pair_are_csv => "成对零件的穿丝孔写为 .csv：放在同一张图里，一件的孔也会被当作另一件的";
     a_pair_is_not_milled => "成对的零件用电极丝切割：应为 3b、4b 或 iso";
-    the_electrode_wears_more_than_a_layer(wear) => "沿此轮廓每铣一层，电极缩短 {wear:.2} 层：一层之内底面不平；电极粗一些或轮廓短一些，损耗就小";
+    the_electrode_wears_more_than_a_layer(wear) => "沿此轮廓每铣一层，电极缩短 {wear:.2} 个层高：一层之内底面不平；电极粗一些或轮廓短一些，损耗就小";
     the_step_is_longer(step, length) => "milling.step 是 {step} mm，比此轮廓一层的长度 {length:.3} mm 还长：步长应更短";
-    the_floor_is_uneven(wear, least, most) => "沿此轮廓每铣一层，电极缩短 {wear:.2} 层：一层之内底面不平，最后深 {least:.4} 到 {most:.4} mm；电极粗一些或轮廓短一些，损耗就小";
-    it_is_milled => "它由电极分层铣削：高度与各段运动相关，不是电极丝的路径";
+    the_floor_is_uneven(wear, least, most) => "沿此轮廓每铣一层，电极缩短 {wear:.2} 个层高：一层之内底面不平，最后深 {least:.4} 到 {most:.4} mm；电极粗一些或轮廓短一些，损耗就小";
+    it_is_milled => "它由电极分层铣削：高度与各段运动相关，不是电极丝的轨迹";
     nothing_is_picked(key, other) => "{key} 是 as-picked，但没有选取轮廓：按 {other} 的顺序切割";
 }

@@ -8,7 +8,7 @@ translate! {
     head_contours => "轮廓";
     head_findings => "问题";
     head_radius_list => "半径表";
-    head_passes => "加工次数";
+    head_passes => "各次切割";
     head_program => "程序";
     column_drawing => "图形";
     column_number => "序号";
@@ -38,7 +38,7 @@ translate! {
     hole_given => "给定";
     hole_found => "建议";
     column_time => "工时";
-    column_register => "寄存器";
+    column_register => "补偿号";
     column_offset => "偏移 mm";
     column_side => "侧";
     in_the_coordinates => "已计入坐标";
@@ -65,13 +65,13 @@ translate! {
     field_electrode => "电极";
     field_date => "日期";
     field_correction => "补偿量";
-    column_slug => "落料 g";
+    column_slug => "废料 g";
     column_left => "剩余 mm";
     column_part => "零件";
     the_cut_is_long(length) => "切割：{length:.3} mm";
     the_jumps_are_long(length) => "跳步：{length:.3} mm";
     cut_off_in_pass(pass) => "切断，第 {pass} 次";
-    a_program_and_its_proof(language, blocks, contours, length, deviation) => "{language}：{blocks}，{contours}，{length}；反解校核，偏离路线不超过 {deviation:.2} µm";
+    a_program_and_its_proof(language, blocks, contours, length, deviation) => "{language}：{blocks}，{contours}，{length}；重新解码，偏离切割轨迹不超过 {deviation:.2} µm";
     all_drawings => "全部图形";
     wire_of_mm(mm) => "电极丝 Ø {mm} mm";
     gap_of_mm(mm) => "放电间隙 {mm} mm";

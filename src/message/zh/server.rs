@@ -76,17 +76,17 @@ translate! {
     path_of_the_electrode_axis(distance) => "电极轴线轨迹，离轮廓 {distance:.3} mm";
     contour_that_the_control_offsets(distance) => "轮廓，由控制系统补偿 {distance:.3} mm";
     path_of_the_wire_centre(distance) => "丝中心轨迹，离轮廓 {distance:.3} mm";
-    segment_stock(handle, segment, stock) => "{handle} 第 {segment} 段，余量 {stock:.3}";
-    segment_overcut(handle, segment, overcut) => "{handle} 段 {segment}，过切 {overcut:.3}";
+    segment_stock(handle, segment, stock) => "{handle} 段 {segment}，余量 {stock:.3} mm";
+    segment_overcut(handle, segment, overcut) => "{handle} 段 {segment}，过切 {overcut:.3} mm";
     the_drawing_has_no_lines => "图形中没有直线、圆弧或圆";
     contour_and_wire_path => "轮廓和切割轨迹";
     n1_arc_is_too_tight => "1 处圆弧半径小于补偿量";
     arcs_are_too_tight(count) => "{count} 处圆弧半径小于补偿量";
     the_cut_begins_here => "由此开始切割";
-    contours_and_electrode_path => "轮廓和电极路线";
-    contours_without_an_electrode_path => "轮廓，无电极路线";
+    contours_and_electrode_path => "轮廓和电极轨迹";
+    contours_without_an_electrode_path => "轮廓，无电极轨迹";
     contours_without_a_wire_path => "轮廓，无切割轨迹";
-    no_electrode_path_because(why) => "无电极路线：{why}";
+    no_electrode_path_because(why) => "无电极轨迹：{why}";
     no_wire_path_because(why) => "无切割轨迹：{why}";
     contour_length(mm) => "轮廓 {mm:.1} mm";
     extents_mm(width, height) => "{width:.3} × {height:.3} mm";
@@ -102,7 +102,7 @@ translate! {
     the_program_moves_nothing => "程序没有任何移动";
     it_would_change_nothing => "不会有任何改变：程序已经如此";
     start_of_a_contour => "轮廓的起点";
-    path_of_the_electrode => "电极路线";
+    path_of_the_electrode => "电极轨迹";
     path_of_the_wire => "切割轨迹";
     way_without_a_cut_mm(length) => "跳步，{length:.3} mm";
     leads_nowhere => "没有去向";
@@ -149,6 +149,6 @@ translate! {
     the_tab => "暂留段，最后切断";
     the_upper_end => "丝的上端";
     what_the_wire_cuts => "切缝（按比例）";
-    what_stays_uncut => "未切除";
+    what_stays_uncut => "未切到";
     the_correction => "补偿量";
 }

@@ -36,7 +36,7 @@ translate! {
     is_not_known_did_you_mean(key, near) => "未知的 {key}，是否想写 {near}？";
     mark_did_you_mean(bearer, mark, near) => "{bearer} 的标记 {mark:?} 不起作用，应为 \"suppress 规则名：理由\"：是否想写 {near}？";
     mark_is_not_understood(bearer, mark) => "{bearer} 的标记 {mark:?} 不起作用，应为 \"suppress 规则名：理由\"";
-    suppresses_nothing(handle, rule) => "对 {handle} 处 {rule} 的忽略不起作用：请删去";
+    suppresses_nothing(handle, rule) => "{handle} 处允许保留 {rule} 的设置不起作用：请删去";
     no_contour_of_that_name(drawing, key) => "本图中没有 {key}：[drawings.\"{drawing}\".contours] 中对它的规定不起作用";
     one_or_other(ones, other) => "{ones} 或 {other}";
     is_not_what_is_expected(key: dyn crate::message::Shown, found: dyn crate::message::Shown, expected: dyn crate::message::Shown) => { format!("{key} 是{}，应为{}", apart(found), apart(expected)) };
@@ -70,7 +70,7 @@ translate! {
     the_control_runs_beside_the_drawn_contour(key, other) => "{key} 是 constant-stock，而 {other} 是 controller：每次切割都会沿图中轮廓走，与 sharp 一样；{other} 应为 path，或应为 sharp";
     a_lead_within_the_kerf(key, length, correction) => "{key} 是 {length}，小于补偿量 {correction}：穿丝处会落在自身的切缝内；应至少为补偿量";
     passes_on_the_drawn_line(key, other, count) => "{key} 列出 {count} 次切割，而 {other} 是 none：丝只沿图中的线本身走一次，其余各次不起作用";
-    registers_need_the_control(key, other) => "{other} 是 path 时 {key} 不起作用：程序写的就是丝的轨迹，不引用补偿寄存器";
+    registers_need_the_control(key, other) => "{other} 是 path 时 {key} 不起作用：程序写的就是切割轨迹，不用补偿号";
     a_stock_needs_skims(key, other) => "{key} 是 constant-stock，只切一次时不起作用：{other} 应列出多次切割";
     a_pause_needs_passes(key, other) => "只切一次时 {key} 不起作用：{other} 应列出多次切割";
     a_stop_needs_a_tab(key, other) => "没有 {other}，{key} 不起作用：没有暂留段";
@@ -79,15 +79,15 @@ translate! {
     a_mass_needs_a_height(key) => "{key} 是废料的质量：应同时设置 job.thickness";
     a_rate_needs_minutes(key, missing) => "{key} 不起作用：算费用需要切割的分钟数；还应设置 {missing}";
     a_limit_needs_a_tab(key) => "没有 program.tab，{key} 不起作用：应设废料更重的型孔暂留段的长度，mm";
-    roles_of_no_layer(key, names, layers) => "{key} 给 {names} 定了角色，而图形中没有这个图层：图形的图层有 {layers}";
-    a_contour_of_two_roles(name, role, by, other, other_by) => "轮廓 {name} 有两个角色：{by} 定为 {role}，以它为准；{other_by} 定为 {other}";
+    roles_of_no_layer(key, names, layers) => "{key} 给 {names} 指定了用途，而图形中没有这个图层：图形的图层有 {layers}";
+    a_contour_of_two_roles(name, role, by, other, other_by) => "轮廓 {name} 有两种用途：{by} 定为 {role}，以它为准；{other_by} 定为 {other}";
     its_color => "其颜色";
     the_entity_itself => "图元本身";
     a_point_that_is_given_twice(what, name, at, by, other, other_by) => "轮廓 {name} 的{what}给了两次：{by} 给 {at}，以它为准；{other_by} 给 {other}";
     a_mark_o => "标记 O";
     a_punch_within_a_punch(inner, outer, others) => "轮廓 {inner} 是凸模，却在凸模 {outer} 之内{others}：丝会切入那个工件；应作为型孔，或画在另一个工件中";
     and_more_punches(more) => "，这样的还有 {more} 个";
-    an_outline_that_may_be_a_copy(copy, outline, thin) => "轮廓 {copy} 处处与轮廓 {outline} 相距不到 {thin:.3} mm：若是重复绘制，应删去；若真是这样薄的壁，应给两者都指定角色；其内所有轮廓的加工侧都取决于此";
+    an_outline_that_may_be_a_copy(copy, outline, thin) => "轮廓 {copy} 处处与轮廓 {outline} 相距不到 {thin:.3} mm：若是重复绘制，请删去；若真是这样薄的壁，请给两者都指定用途；其内所有轮廓的加工侧都取决于此";
     a_layer_above_the_depth(key, layer, depth) => "{key} 是 {layer}，最多应为 milling.depth {depth}";
     too_many_layers(key, layer, layers, most) => "{key} 是 {layer}，milling.depth 要分 {layers:.0} 层，最多允许 {most} 层";
     the_file_has_too_many_bytes(bytes, most) => "文件有 {bytes} 字节，最多允许 {most}：整个文件无效";

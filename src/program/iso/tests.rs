@@ -203,7 +203,7 @@ fn the_wire_runs_where_the_role_and_its_way_in_say() {
     let finding = &document.findings()[0];
     assert_eq!(
         finding::sentence(finding, 1.0),
-        "G42 lets the wire run on the right, which is outside this contour: the settings say opening, so the wire cuts into the part"
+        "G42 puts the wire on the right, which is outside this contour: the settings say opening, so the wire cuts into the part"
     );
     let fix = &document.offered(finding, Renumbering::Offered)[0];
     let mut fixed = document.clone();

@@ -1,7 +1,7 @@
 //! `small-radius`: an arc that curves round the wire more tightly than the correction.
 //!
 //! An arc is at fault when its centre lies on the wire side and `r < c − tolerance`. Its offset would have a negative
-//! radius: the control loses the arc or cuts into the part. `r = c` is the limit and passes.
+//! radius: the control drops the arc or cuts into the part. `r = c` is the limit and passes.
 //!
 //! The fix replaces a run of such arcs by one arc of radius `R = c + margin`. From foot to foot the new outline is the
 //! boundary of the morphological opening of the wire's region by a disc of radius R; elsewhere

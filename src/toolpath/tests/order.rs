@@ -195,12 +195,12 @@ fn a_lead_that_would_cut_the_part_is_a_finding() {
     let cases = [
         (Role::Punch, at(5.0, 5.0), 3.0, "crosses the contour"),
         (Role::Opening, at(0.05, 5.0), 3.0, "crosses the contour"),
-        (Role::Opening, None, 0.05, "no lead-in from 0.050 mm down"),
+        (Role::Opening, None, 0.05, "no lead-in of at most 0.050 mm"),
         (
             Role::Opening,
             None,
             f64::INFINITY,
-            "no lead-in from inf mm down",
+            "no lead-in of at most inf mm",
         ),
     ];
     for (role, thread, lead_in, sentence) in cases {

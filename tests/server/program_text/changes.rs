@@ -176,7 +176,7 @@ fn faults_of_iso_are_repaired() {
     let titles: Vec<_> = actions.iter().map(|action| &action["title"]).collect();
     assert_eq!(
         titles[0],
-        "Take I and J as other controls do, and write them as this program does (R 5.000 mm)"
+        "Read I and J as other controls do, and rewrite them as this program does (R 5.000 mm)"
     );
     assert!(
         titles[1..]

@@ -166,7 +166,7 @@ fn each_question_about_iso_has_its_answer() {
         16,
         &["-5.000 mm along X from the arc's start to its centre"],
     );
-    editor.check_said(3, 9, &["place 1 of the control's table"]);
+    editor.check_said(3, 9, &["offset register 1"]);
     let partner = |line, character, expected: u64| {
         let path = "/0/range/start/line";
         ("definition", at(line, character), path, json!(expected))
@@ -186,7 +186,7 @@ fn each_question_about_iso_has_its_answer() {
             "documentSymbol",
             json!({}),
             "*/name",
-            json!(["contour 1", "N90", "way to (20.000, 0.000)", "N110"]),
+            json!(["contour 1", "N90", "jump to (20.000, 0.000)", "N110"]),
         ),
         (
             "documentSymbol",

@@ -132,7 +132,7 @@ void Session::watchRadii(const QString &uri, bool on)
 void Session::requestRepair(const QString &uri, const QString &handle, int segment)
 {
     withServer(uri, [=] { askRepair(uri, handle, segment); },
-               [=] { emit repairFailed(uri, tr("The server is not there; nothing was changed.")); });
+               [=] { emit repairFailed(uri, tr("The server is not running; nothing was changed.")); });
 }
 
 void Session::askRepair(const QString &uri, const QString &handle, int segment)
@@ -190,7 +190,7 @@ void Session::generate(const QString &uri, const QString &format, const QString 
             fail(tr("No program was written: %1.").arg(reason), findings);
         });
     };
-    withServer(uri, ask, [=] { fail(tr("The server is not there; nothing was written."), QStringList()); });
+    withServer(uri, ask, [=] { fail(tr("The server is not running; nothing was written."), QStringList()); });
 }
 
 void Session::requestToolpath(const QString &uri)
@@ -204,7 +204,7 @@ void Session::requestToolpath(const QString &uri)
                                              .arg(answer.code == Connection::ENDED ? tr("the server ended before it answered") : answer.message));
         });
     };
-    withServer(uri, ask, [=] { emit toolpathFailed(uri, tr("The server is not there; nothing was drawn.")); });
+    withServer(uri, ask, [=] { emit toolpathFailed(uri, tr("The server is not running; nothing was drawn.")); });
 }
 
 void Session::requestContour(const QString &uri, const QPointF &hole)

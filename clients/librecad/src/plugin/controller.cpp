@@ -178,7 +178,7 @@ void Controller::run(const QString &command, Document_Interface &drawing)
         m_panel->setMessage(tr("%n mark(s) removed.", nullptr, count), Panel::Tone::Plain);
     } else if (command == QLatin1String(command::CLEAR_PATH)) {
         const bool any = clearLayer(drawing, PATH_LAYER) > 0;
-        m_panel->setMessage(any ? tr("The wire path is taken away.") : tr("No wire path is drawn."), Panel::Tone::Plain);
+        m_panel->setMessage(any ? tr("The wire path is cleared.") : tr("No wire path is drawn."), Panel::Tone::Plain);
     } else if (command == QLatin1String(command::LIVE)) {
         setLive(!m_looks.live().isOn());
         m_kept.setLive(m_looks.live().isOn());
@@ -272,7 +272,7 @@ void Controller::connectSession()
             m_hole.takeBack();
             post([](Session &session) { session.reloadSettings(); });
         }
-        holeKept(holds ? QString() : tr("what is there cannot take it, write it there yourself"));
+        holeKept(holds ? QString() : tr("what the file holds leaves no place for it, write it there yourself"));
     });
     connect(m_session, &Session::inspected, this, [this](const QString &uri, int, const QSharedPointer<Inspection> &inspection) {
         if (OpenDrawing *open = m_drawings.find(uri)) {

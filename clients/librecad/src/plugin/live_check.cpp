@@ -103,7 +103,7 @@ void LiveCheck::tick()
     if (!host::currentWindow() || host::userIsBusy())
         return;
     if (host::redoIsPossible()) {
-        emit held(tr("waits: a look would end Redo"));
+        emit held(tr("paused: a check now would end Redo"));
         return;
     }
     m_touched = false;

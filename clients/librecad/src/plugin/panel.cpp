@@ -152,7 +152,7 @@ Panel::Panel(QWidget *parent)
     m_list->setWordWrap(true);
     m_list->setUniformItemSizes(false);
 
-    QPushButton *check = button(tr("Check"), command::CHECK, tr("Look at the drawing now"));
+    QPushButton *check = button(tr("Check"), command::CHECK, tr("Check the drawing now"));
     QPushButton *fix = button(tr("Fix all"), command::FIX, tr("Make every repair that is safe, in one undo step"));
     QPushButton *program = button(tr("Program"), nullptr, tr("Write the program to a file"));
     QMenu *formats = new QMenu(program);
@@ -161,9 +161,9 @@ Panel::Panel(QWidget *parent)
     program->setMenu(formats);
     QPushButton *hole = button(tr("Thread hole…"), command::HOLE, tr("Click where the wire is threaded for the contour nearest to that point; it is kept in wedm.toml"));
     QPushButton *path = button(tr("Wire path"), command::PATH, tr("Draw the path of the wire on the layer WEDM_PATH, which is never checked"));
-    QPushButton *noPath = button(tr("Clear path"), command::CLEAR_PATH, tr("Take the path of the wire away"));
+    QPushButton *noPath = button(tr("Clear path"), command::CLEAR_PATH, tr("Remove the path of the wire"));
     QPushButton *mark = button(tr("Mark"), command::MARK, tr("Draw a circle about each fault, on the layer WEDM_MARKS"));
-    QPushButton *unmark = button(tr("Clear marks"), command::CLEAR, tr("Take the circles away"));
+    QPushButton *unmark = button(tr("Clear marks"), command::CLEAR, tr("Remove the circles"));
     QPushButton *server = button(tr("Server…"), nullptr, tr("Choose the program of the wedm server"));
     m_fixOne->setToolTip(tr("Repair the selected segment"));
     m_fixOne->setObjectName(QStringLiteral("wedm_fix_one"));
@@ -333,7 +333,7 @@ void Panel::showCount()
     }
     if (m_stale != Stale::No) {
         m_count->setText(m_stale == Stale::Undone ? tr("not checked since Undo") : tr("not checked since the last change"));
-        m_count->setToolTip(tr("What is listed was found before. Check looks at the drawing again; what Redo could bring back is lost then."));
+        m_count->setToolTip(tr("The list is from an earlier check. Check looks at the drawing again; Redo is lost then."));
         m_count->setStyleSheet(QStringLiteral("font-weight: bold; padding: 2px; color: %1; background: %2").arg(staleLook().text.name(), staleLook().ground.name()));
         return;
     }

@@ -132,9 +132,9 @@ class DrawingSettings(TypedDict, total=False):
 class Settings(TypedDict, total=False):
     """Only what is set counts; lengths are mm, thread and entry are drawing units."""
 
-    correction: float
     wire_diameter: float
     gap: float
+    correction: float
     side: Literal["both", "auto", "opening", "punch", "left", "right"]
     units: Literal["mm", "inch"]
     margin: float

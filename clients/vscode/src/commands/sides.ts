@@ -39,7 +39,7 @@ export async function askSides(server: Server, pictures: Pictures, uri: vscode.U
     detail: t("What lies outermost is a punch, a contour within it an opening, and so on") + (several ? t(": {0} contours", unknown.length) : ""),
     choice: "nesting",
   };
-  const each: Way = { label: t("Say for Each Contour…"), detail: t("They are marked in the picture one after another"), choice: "each" };
+  const each: Way = { label: t("Choose for Each Contour…"), detail: t("They are marked in the picture one after another"), choice: "each" };
   const one = [opening(mills), punch(mills)].map((answer): Way => ({ ...answer, choice: answer.role }));
   const ways = several ? [byNesting, each] : [byNesting, ...one];
   try {
@@ -101,7 +101,7 @@ export async function offerToKeep(server: Server, uri: vscode.Uri, sides: Sides,
     return;
   }
   const yes = t("Keep in wedm.toml");
-  const asked = mills ? t("Keep what you said of the electrode's side for the next time?") : t("Keep what you said of the wire's side for the next time?");
+  const asked = mills ? t("Keep these sides of the electrode for the next time?") : t("Keep these sides of the wire for the next time?");
   if ((await vscode.window.showInformationMessage(asked, yes)) !== yes) {
     return;
   }

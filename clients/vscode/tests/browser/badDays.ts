@@ -107,7 +107,7 @@ async function killed(checks: Checks): Promise<void> {
       await host.page.locator(".view-lines", { hasText: "19.951" }).waitFor();
       process.kill(server, "SIGSTOP");
       try {
-        await window.command("Wire EDM: Fix All Arcs That Are Too Tight");
+        await window.command("Wire EDM: Fix All That Is Safe to Fix");
         // Asked, and not answered.
         await host.page.locator(".statusbar", { hasText: "looking for repairs" }).waitFor();
         await host.page.keyboard.press("Control+1");

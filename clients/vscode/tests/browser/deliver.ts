@@ -35,7 +35,7 @@ export async function deliver(checks: Checks): Promise<void> {
       await window.openOurs("washer.dxf");
       await window.command("Wire EDM: Generate the Programs of the Pair…");
       await answer("What the machine reads");
-      const refused = window.notification("No program: the corrections of a pair are not known: expected pair.drawn-as");
+      const refused = window.notification("No program: the corrections of a pair are not known: set pair.drawn-as");
       await refused.waitFor();
       await checks.shot("pair-not-set");
       await refused.getByRole("button", { name: "Create wedm.toml…" }).click();
@@ -188,7 +188,7 @@ export async function deliver(checks: Checks): Promise<void> {
       await answer("Wire EDM", "Get Started with Wire EDM");
       const steps = host.page.locator(".gettingStartedContainer .getting-started-step");
       await expectSoon("five steps", async () => (await steps.count()) === 5, async () => String(await steps.count()));
-      for (const title of ["Open a Drawing", "See an Arc", "Write a Proved Program", "Punch and Plate", "Say What Your Machine"]) {
+      for (const title of ["Open a Drawing", "See an Arc", "Write a Proved Program", "Punch and Plate", "Set Wire, Gap and Machine"]) {
         await steps.filter({ hasText: title }).first().click();
         await expectSoon(`the page of ${title}`, async () => (await read()).trim() !== "");
         await host.page.waitForTimeout(1_000);
@@ -204,7 +204,7 @@ export async function deliver(checks: Checks): Promise<void> {
       await host.page.locator(".tabs-container .tab", { hasText: "Walkthrough" }).click();
       const done = steps.filter({ has: host.page.locator(".codicon.complete") });
       const ticked = async (): Promise<string> => (await done.locator(".step-title").allInnerTexts()).join(", ");
-      await expectSoon("what has been done is ticked", async () => (await ticked()) === "Open a Drawing, Say What Your Machine Cuts With", ticked);
+      await expectSoon("what has been done is ticked", async () => (await ticked()) === "Open a Drawing, Set Wire, Gap and Machine", ticked);
       await checks.shot("walkthrough-ticked");
     });
   } finally {

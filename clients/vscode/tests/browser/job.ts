@@ -113,7 +113,7 @@ export async function job(checks: Checks): Promise<void> {
       await host.page.keyboard.press("Enter");
       await window.path(join(host.folder, "pocket.iso"));
       await window.tab("pocket.iso");
-      await window.notification("Keep what you said of the electrode's side").waitFor();
+      await window.notification("Keep these sides of the electrode").waitFor();
     });
   } finally {
     await host.stop();

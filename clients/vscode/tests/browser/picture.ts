@@ -103,7 +103,7 @@ export async function picture(checks: Checks): Promise<void> {
     });
     await checks.check("the picture follows an edit", async () => {
       await window.goToLine(1);
-      await window.command("Wire EDM: Fix All Arcs That Are Too Tight");
+      await window.command("Wire EDM: Fix All That Is Safe to Fix");
       await expectSoon("no faults", async () => (await page.locator("svg .drawing .fault").count()) === 0);
       expectEqual("chips", await page.locator("#faults").isVisible(), false);
     });
@@ -150,7 +150,7 @@ export async function picture(checks: Checks): Promise<void> {
       // Punch 20 × 10 and hole of R 3 with a correction of 0.1 mm: the hole first, from within; the outline from without.
       await expectSoon("a program", async () => (await readFile(target, "utf8")).includes("B20000B0B20000GXL"), () => readFile(target, "utf8"));
       expectEqual("the hole is cut from within", /B2900B0B11600G[XY]NR/.test(await readFile(target, "utf8")), true);
-      await window.notification("Keep what you said").getByRole("button", { name: "Keep in wedm.toml" }).click();
+      await window.notification("Keep these sides").getByRole("button", { name: "Keep in wedm.toml" }).click();
       const kept = join(host.folder, "wedm.toml");
       await expectSoon("the answer kept by layer", async () => (await readFile(kept, "utf8")) === '[layers]\n"DIE" = "punch"\n"HOLES" = "opening"\n', () => readFile(kept, "utf8"));
       await window.command("Notifications: Clear All Notifications");

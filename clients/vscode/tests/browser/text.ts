@@ -90,7 +90,7 @@ export async function text(checks: Checks): Promise<void> {
       await expectSoon("the old file", async () => (await readFile(file, "utf8")) === FILLET);
     });
     await checks.check("fix all repairs in one undo step", async () => {
-      await window.command("Wire EDM: Fix All Arcs That Are Too Tight");
+      await window.command("Wire EDM: Fix All That Is Safe to Fix");
       await window.squiggles.first().waitFor({ state: "hidden" });
       await host.page.keyboard.press("Control+z");
       await window.squiggles.first().waitFor();

@@ -50,15 +50,12 @@ fn every_word_says_what_it_means() {
         "the arc's centre lies at X 0.000 mm",
     );
     check("G03 X0. Y0. |I5. J0.", "the arcs leave that open");
-    check(
-        "G41 |D3",
-        "place 3 of the control's table of corrections, not a length",
-    );
+    check("G41 |D3", "offset register 3, not a length");
     check(
         "H1=110\nG41 |H1\nG01 X5",
         "0.110 mm, as this program sets it",
     );
-    check("|H1=110\nG01 X5", "value for the control's table");
+    check("|H1=110\nG01 X5", "value of an offset register");
     check("G01 X1. |F3.2", "feed; its unit depends on the machine");
     check("|T84", "depends on the machine: a switch");
     check("|G50", "depends on the machine: ends the taper");
@@ -165,7 +162,7 @@ fn a_new_line_is_offered_what_the_cut_and_the_profile_want() {
         &any,
         &[
             ("G01 X0. Y0.", "back to where the cut began"),
-            ("G01 X5. Y0.", "end of the way in"),
+            ("G01 X5. Y0.", "end of the lead-in"),
             ("G91", ""),
             ("M00", "stop"),
         ],
@@ -185,7 +182,11 @@ fn a_new_line_is_offered_what_the_cut_and_the_profile_want() {
         &any,
         &[("G41 H3", "left"), ("G42 H3", "right")],
     );
-    offers("G01 X5. \nG41 |", &any, &[("D0", "place"), ("D1", "place")]);
+    offers(
+        "G01 X5. \nG41 |",
+        &any,
+        &[("D0", "register"), ("D1", "register")],
+    );
     offers("H3=110\nG41 H|", &any, &[("H3", "0.110 mm")]);
     offers("N10 G01 X5.\nN20 X6.\n|", &any, &[("N30", "next")]);
     offers("N10 G01 X5.\nN20 X6.\nN|", &any, &[("N30", "next")]);
@@ -257,7 +258,7 @@ fn the_form_of_a_block_shows_where_the_cursor_is() {
     check("G02 X5. Y5. R3|.", Some(("G02 X Y R", "R", "radius")));
     check("G03\nX5.|", Some(("G03 X Y I J", "X", "")));
     check("G92 X|", Some(("G92 X Y", "X", "where the wire stands")));
-    check("G41 D|", Some(("G41 D", "D", "table")));
+    check("G41 D|", Some(("G41 D", "D", "register")));
     check("M98 P|", Some(("M98 P L", "P", "subprogram")));
     check("G04 P|", Some(("G04 P", "P", "how long")));
     check("|", None);

@@ -92,7 +92,7 @@ fn programs_are_mirrored_and_turned_about_their_zero() {
     refuses(
         "rotate.left",
         "G91\nG01 X5 U1\nM02\n",
-        "line 2: the way of the upper guide",
+        "line 2: the moves of the upper guide",
     );
     refuses("mirror.y", "G51 A1.\nG01 X5.\nM02\n", "a taper");
 }

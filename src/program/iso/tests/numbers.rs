@@ -405,7 +405,7 @@ fn an_arc_that_ends_in_the_zero_is_about_a_center_by_its_coordinates() {
         .iter()
         .find(|finding| finding.rule.name() == "ambiguous-center");
     let sentence = told.map(|finding| crate::finding::sentence(finding, 1.0));
-    assert!(sentence.is_some_and(|told| told.contains("own coordinates")));
+    assert!(sentence.is_some_and(|told| told.contains("coordinates of the centre")));
 }
 
 #[test]

@@ -39,7 +39,7 @@ fn what_can_be_repaired_is_repaired_and_the_finding_goes() {
     let right = off("G03 X-5. Y0. I0. J-5.");
     check(
         "arc-off-radius",
-        "Take I and J as other controls",
+        "Read I and J as other controls",
         &off("G03 X-5. Y0. I0. J5."),
         &right,
     );

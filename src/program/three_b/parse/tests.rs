@@ -116,7 +116,7 @@ fn every_layout_is_read() {
     // The only way to part the digits is that in which J has its zero.
     check(
         "B17000B9234017000GXL1",
-        "! 0..17 a B of the block is missing / 17000,9234,17000 X L1",
+        "! 0..17 the block lacks a B / 17000,9234,17000 X L1",
     );
     check("N13: DD ; the end", "N13 End");
     check("Start Point = -1.5 , 2", "start [-1.5, 2.0]");
@@ -207,39 +207,39 @@ fn headings_and_comments_are_no_faults() {
 fn what_was_meant_is_read_and_the_fault_said() {
     check(
         "9900B0B9900GXL1",
-        "! 0..4 a B of the block is missing / 9900,0,9900 X L1",
+        "! 0..4 the block lacks a B / 9900,0,9900 X L1",
     );
     check(
         "N3 9900B0B9900GXL1",
-        "! 3..7 a B of the block is missing / N3 9900,0,9900 X L1",
+        "! 3..7 the block lacks a B / N3 9900,0,9900 X L1",
     );
     check(
         "B9900 0B9900GXL1",
-        "! 6..7 a B of the block is missing / 9900,0,9900 X L1",
+        "! 6..7 the block lacks a B / 9900,0,9900 X L1",
     );
     check(
         "B9900B0 9900GXL1",
-        "! 8..12 a B of the block is missing / 9900,0,9900 X L1",
+        "! 8..12 the block lacks a B / 9900,0,9900 X L1",
     );
     check(
         "12 9900B0B9900GXL1",
-        "! 3..7 a B of the block is missing / N12 9900,0,9900 X L1",
+        "! 3..7 the block lacks a B / N12 9900,0,9900 X L1",
     );
     check(
         "12 B9900 0B9900GXL1",
-        "! 9..10 a B of the block is missing / N12 9900,0,9900 X L1",
+        "! 9..10 the block lacks a B / N12 9900,0,9900 X L1",
     );
     check(
         "12 B9900B0 9900GXL1",
-        "! 11..15 a B of the block is missing / N12 9900,0,9900 X L1",
+        "! 11..15 the block lacks a B / N12 9900,0,9900 X L1",
     );
     check(
         "0B5000B10000B5000GXDDNR1",
-        "! 0..1 a B of the block is missing / 0,5000,10000 X NR1 R5000 DD",
+        "! 0..1 the block lacks a B / 0,5000,10000 X NR1 R5000 DD",
     );
     check(
         "B99000B9900GXL1",
-        "! 0..11 a B of the block is missing / 9900,0,9900 X L1",
+        "! 0..11 the block lacks a B / 9900,0,9900 X L1",
     );
     check(
         "B25B9900B0B9900GXL1",

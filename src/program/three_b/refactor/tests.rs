@@ -86,7 +86,7 @@ fn a_contour_begins_where_the_cursor_is() {
     refused(
         "startHere",
         "|B5000B0B5000GXL1\nB5000B0B20000GYNR1\nB5000B0B5000GXL3\n",
-        "the block leads to the contour",
+        "the block is a lead-in or lead-out",
     );
     refused("startHere", "; x|\nB5B0B5GXL1\n", "no block is selected");
     // The wire stands beside the contour of a 4B program, by a correction in the direction in which it begins there.
@@ -364,7 +364,7 @@ proptest! {
         marked.insert(at, '|');
         match run("startHere", &marked) {
             Ok(moved) => prop_assert!(near(measure(&moved), 1.0, 1.0), "{text}\n{moved}"),
-            Err(reason) => prop_assert!(reason.contains("cut the contour") || reason.contains("leads to the contour"), "{reason}\n{text}"),
+            Err(reason) => prop_assert!(reason.contains("cut the contour") || reason.contains("is a lead-in or lead-out"), "{reason}\n{text}"),
         }
     }
 }
