@@ -22,7 +22,7 @@ const MEANINGS: &[(&str, &str)] = &[
     ("units", "没有说明单位的图形的单位。"),
     ("units = mm", "毫米。"),
     ("units = inch", "英寸。"),
-    ("margin", "修复选半径时加在补偿量上的值，mm。"),
+    ("margin", "裕量：修复选半径时加在补偿量上的值，mm。"),
     ("resolution", "小于它（mm）的偏差不提示。更短的段（最多 0.005）不属于任何轮廓，它掩盖的拐角按拐角判断；`gap`、`near-tangent`、`sharp-corner` 和 `overlap` 不提示更小的。"),
     ("layers", "图层上图元的用途，按图层名。图元自己的 `role` 优先。轮廓取其中第一个有用途的图元的用途。用途不是 `ignore` 时，冻结或关闭的也切割。"),
     ("linetypes", "某线型图元的用途，线型由图元自己或其图层给出：按线型名，先于图层和颜色。没有设置时，CENTER、HIDDEN、PHANTOM 之类线型所画的不切割：见 [`unsupported-entity`](rules/unsupported-entity.md)。"),

@@ -25,11 +25,11 @@ export type Role = "opening" | "punch" | "both" | "left" | "right" | "ignore";
 export type SideSetting = "both" | "auto" | "opening" | "punch" | "left" | "right";
 export type UnitSetting = "mm" | "inch";
 /**
- * Which way the passes of a contour go.
+ * Direction of the passes of a contour.
  */
 export type Sequence = "alternate" | "one-way";
 /**
- * What the passes after the first make of a corner that the wire runs inside of.
+ * How the passes after the first go through a corner that the wire runs inside of.
  */
 export type SkimCorner = "sharp" | "constant-stock";
 /**
@@ -78,7 +78,7 @@ export type Lead = "straight" | "perpendicular" | "arc";
  */
 export type Order = "as-drawn" | "inside-first" | "nearest" | "as-picked";
 /**
- * What happens between the contours of one program.
+ * What comes between the contours of one program.
  */
 export type Jumps = "blocks" | "none";
 /**
@@ -403,11 +403,7 @@ export interface OptionsOf {
  */
 export interface Settings {
   /**
-   * Wire radius + spark gap, mm. It says how far the wire's centre runs from the contour. A later level that sets it and no `passes.corrections` cuts in one pass.
-   */
-  correction?: number;
-  /**
-   * Diameter of the wire, mm. With `gap` it gives the correction where no `correction` is set: half the diameter + gap; when one of the two is set the other has its default there. Together with `correction` or `passes.corrections` it says how thick the wire is, see `pass-order`. A later level that sets one of the two and no `correction` sets the correction again.
+   * Diameter of the wire, mm. With `gap` it gives the correction where no `correction` is set: half the diameter + gap; where only one of the two is set, the other has its default. Together with `correction` or `passes.corrections` it says how thick the wire is, see `pass-order`. A later level that sets one of the two and no `correction` sets the correction again.
    */
   wireDiameter?: number;
   /**
@@ -415,11 +411,15 @@ export interface Settings {
    */
   gap?: number;
   /**
-   * Where the wire runs, for contours whose entity and layer do not say.
+   * Wire radius + spark gap, mm. This is the distance of the wire's centre from the contour. A later level that sets it and no `passes.corrections` cuts in one pass.
+   */
+  correction?: number;
+  /**
+   * Side on which the wire runs, for contours whose entity and layer state none.
    */
   side?: SideSetting;
   /**
-   * Unit of drawings that do not say.
+   * Unit of drawings that do not state one.
    */
   units?: UnitSetting;
   /**
@@ -441,19 +441,19 @@ export interface Settings {
     [k: string]: Role;
   };
   /**
-   * Role of what is drawn in a linetype, by itself or by its layer: by the name of the linetype, before layers and colours. Without one, what is drawn in CENTER, HIDDEN, PHANTOM and their like is not cut: see `unsupported-entity`.
+   * Role of entities by their linetype, their own or that of their layer; it comes before layers and colours. Without one, what is drawn in CENTER, HIDDEN, PHANTOM and their like is not cut: see `unsupported-entity`.
    */
   linetypes?: {
     [k: string]: Role;
   };
   /**
-   * Role of the contour that holds an entity, by the entity's handle, before layers and colours. Handles are those of one drawing: in a `wedm.toml` that applies to several they mean each one's own entity of that name.
+   * Role of the contour that holds an entity, by the entity's handle, before layers and colours. A handle belongs to one drawing: in a `wedm.toml` for several drawings it means the entity of that handle in each.
    */
   contours?: {
     [k: string]: Role;
   };
   /**
-   * Role of what is drawn in a colour, by itself or by its layer, where neither entity nor layer has one. Colours are `red`, `yellow`, `green`, `cyan`, `blue`, `magenta`, `white`, `1` to `255` (AutoCAD colour index), `#rrggbb`.
+   * Role of entities by their colour, their own or that of their layer, where neither entity nor layer has a role. Colours are `red`, `yellow`, `green`, `cyan`, `blue`, `magenta`, `white`, `1` to `255` (AutoCAD colour index), `#rrggbb`.
    */
   colors?: {
     [k: string]: Role;
@@ -469,7 +469,7 @@ export interface Settings {
    */
   arcFit?: number;
   /**
-   * Severity of a rule, by its name. What is set here applies even where a case would be milder; the defaults are on each rule's page.
+   * Severity of a rule, by its name. It applies to every case of the rule, to the milder ones too; the defaults are on each rule's page.
    */
   rules?: {
     [k: string]: RuleSeverity;
@@ -520,11 +520,11 @@ export interface Passes {
    */
   gaps?: number[];
   /**
-   * Which way the passes of a contour go.
+   * Direction of the passes of a contour.
    */
   sequence?: Sequence;
   /**
-   * Words of an ISO program that say where the control finds the correction of each pass. Not set: the profile's `register` for the first pass, its number counted on for the others.
+   * Offset register of each pass in ISO programs. Not set: the profile's `register` for the first pass, and the next numbers for the others.
    */
   registers?: string[];
   /**
@@ -532,7 +532,7 @@ export interface Passes {
    */
   rates?: number[];
   /**
-   * What the passes after the first make of a corner that the wire runs inside of. With `constant-stock` the last one leaves a radius there, the difference of the first and the last correction added to the wire's: `sharp-corner`.
+   * How the passes after the first go through a corner that the wire runs inside of. With `constant-stock` the last one leaves a radius there, the difference of the first and the last correction added to the wire's: `sharp-corner`.
    */
   skimCorner?: SkimCorner;
 }
@@ -560,7 +560,7 @@ export interface DrawingSettings {
  */
 export interface ContourSettings {
   /**
-   * Where the wire runs.
+   * Side on which the wire runs.
    */
   side?: Role;
   /**
@@ -607,15 +607,15 @@ export interface ProgramSettings {
    */
   corner?: Corner;
   /**
-   * Thread hole `[x, y]`, mm. A table has them by handle. Else the TEXT or MTEXT "O" nearest to the contour, or a POINT on a layer of start holes (as START-HOLES) or where the contour has no other mark, else the centre of a round opening where neither entry nor `lead-in` is set, else found from the entry. An "O" on the part's side, or within the correction of the contour, is not the hole but the entry beside it.
+   * Thread hole `[x, y]`, mm. A table has them by handle. Not set: the TEXT or MTEXT "O" nearest to the contour; or a POINT on a layer of start holes (such as START-HOLES), or where the contour has no other mark; else the centre of a round opening, where neither entry nor `lead-in` is set; else it is found from the entry. An "O" on the part's side, or within the correction of the contour, is not the hole but the entry beside it.
    */
   thread?: PointSetting;
   /**
-   * Point `[x, y]` of the contour where the cut begins, mm. A table has them by handle. Else the point beside an "O" that means it, under `as-picked` the beginning of the entity picked first, the point nearest to the thread hole, else the middle of the longest line, else the point of the longest arc with the largest x, or its middle.
+   * Point `[x, y]` of the contour where the cut begins, mm. A table has them by handle. Not set: the point beside an "O" that means it; under `as-picked` the start of the entity picked first; the point nearest to the thread hole; else the middle of the longest line; else the point of the longest arc with the largest x, or its middle.
    */
   entry?: PointSetting;
   /**
-   * Length of the lead from thread hole to the wire's path where no thread hole is given, mm. Halved until it fits. Not set: the hole lies 3 mm from the contour.
+   * Length of the lead from thread hole to the wire's path where no thread hole is given, mm. Halved until it fits. By default the hole lies 3 mm from the contour.
    */
   leadIn?: number;
   /**
@@ -659,7 +659,7 @@ export interface ProgramSettings {
    */
   units?: UnitSetting;
   /**
-   * What a number without a decimal point is in an ISO program: whole millimetres, or micrometres (inches and ten-thousandths of one under G20). Not set: found from the program, and said where its numbers do not tell.
+   * What a number without a decimal point is in an ISO program: whole millimetres, or micrometres (inches and ten-thousandths of one under G20). Not set: found from the program, and reported where its numbers leave it open.
    */
   wholeNumbers?: NumberUnit;
   /**
@@ -696,7 +696,7 @@ export interface JobSettings {
    */
   slugLimit?: number;
   /**
-   * What an hour of the machine costs, in whatever money: the time of `passes.rates` has its price then.
+   * Cost of an hour of the machine, in any currency: the times that follow from `passes.rates` then have a cost.
    */
   machineRate?: number;
   /**
@@ -733,7 +733,7 @@ export interface PairSettings {
    */
   drawnAs?: DrawnAs;
   /**
-   * Clearance between punch and plate, mm a side. The part that is not drawn is cut with a correction smaller by it. It asks for the fit, `does-not-fit`, which needs `wire-diameter` and `gap`.
+   * Clearance between punch and plate, mm a side. The part that is not drawn is cut with a correction smaller by it. The fit is then checked, `does-not-fit`, which needs `wire-diameter` and `gap`.
    */
   clearance?: number;
   /**
@@ -767,7 +767,7 @@ export interface MillingSettings {
    */
   depth?: number;
   /**
-   * Volume that the electrode loses of each volume that it erodes.
+   * Volume that the electrode loses for each unit of volume that it erodes.
    */
   wear?: number;
   /**
@@ -775,11 +775,11 @@ export interface MillingSettings {
    */
   wearCompensation?: WearCompensation;
   /**
-   * Way after which `linear` feeds again, mm.
+   * Distance after which `linear` feeds again, mm.
    */
   step?: number;
   /**
-   * Whether the round ends of an open slot are counted among what a layer erodes.
+   * Whether the round ends of a slot along an open contour count among what a layer erodes.
    */
   slotEnds?: boolean;
 }
@@ -836,15 +836,15 @@ export interface ProfileSettings {
    */
   begin?: string[];
   /**
-   * Word that says where the control finds the correction of the first pass; that of the second has the next number.
+   * Offset register of the first pass; the second pass has the next number.
    */
   register?: string;
   /**
-   * Lines before each contour. `{side}` is G41 or G42, `{register}` where the correction of the pass is; a line with `{side}` is left out where the offset is in the coordinates.
+   * Lines before each contour. `{side}` is G41 or G42, `{register}` the offset register of the pass; a line with `{side}` is left out where the offset is in the coordinates.
    */
   contourBegin?: string[];
   /**
-   * Lines before the way out of each contour, where the control offsets it.
+   * Lines before the lead-out of each contour, where the control offsets it.
    */
   contourEnd?: string[];
   /**

@@ -275,7 +275,7 @@ translate! {
     the_block_stands_twice_and_moves_nothing => "程序段重复：电极丝已在终点";
     nothing_says_by_how_much(side) => "{side}，但没有说明补偿多少：应给出补偿号，如 D1";
     the_side_changes_within_the_cut(side) => "从这里起 {side}，而切割正在中途：会穿过轮廓";
-    the_program_ends_with_the_correction_on => "程序结束时补偿未取消：退出前应有 G40";
+    the_program_ends_with_the_correction_on => "程序结束时补偿未取消：引出之前应有 G40";
     subprogram_has_no_m99(number) => "子程序 {number} 没有 M99：控制系统会接着执行后面的内容，或停机";
     the_word_for_a_corner_finds_none_here => "这里没有拐角指令所说的拐角，或放不下：拐角仍是尖角，或控制系统停机";
     has_no_decimal_point(word) => "{word} 没有小数点，其余数有：按整单位读，有的控制系统按最小单位读";

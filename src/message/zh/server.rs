@@ -16,7 +16,7 @@ translate! {
     was_changed_without_being_open(uri) => "{uri} 未作为文本打开就被修改：未作处理";
     was_closed_without_being_open(uri) => "{uri} 未作为文本打开就被关闭";
     a_change_could_not_be_read => "它的一次修改无法读取";
-    the_text_is_not_known => "它的一次修改无法读取，这里的文本已不是您看到的文本，因此不作任何提示：请关闭后重新打开，或发送全文";
+    the_text_is_not_known => "它的一次修改无法读取，这里的文本已不是你看到的文本，因此不作任何提示：请关闭后重新打开，或发送全文";
     no_reason_given => "没有说明原因";
     an_answer_came_late(id) => "对 {id} 的应答来迟，或无对应的请求";
     was_not_answered_within_s(method, seconds) => "{method} 在 {seconds} s 内没有应答";

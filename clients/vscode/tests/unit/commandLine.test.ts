@@ -19,7 +19,7 @@ test("of what is set in VS Code only what no wedm.toml sets becomes an option", 
 
 test("what is proposed for a wedm.toml are the defaults, and its machines are those of the program", async () => {
   const page = await readFile(new URL("../../../../docs/settings.md", import.meta.url), "utf8");
-  const of = (key: string): number => Number(new RegExp(`^# ${key} = ([\\d.]+)`, "m").exec(page)?.[1]);
+  const of = (key: string): number => Number(new RegExp(`^${key} = ([\\d.]+)`, "m").exec(page)?.[1]);
   assert.deepEqual([WIRE, GAP], [of("wire-diameter"), of("gap")]);
   const shipped = choices(null, []).flatMap(({ profile }) => profile ?? []);
   assert.deepEqual(machines().map(({ profile }) => profile), ["3b", ...shipped]);
