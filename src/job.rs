@@ -18,7 +18,7 @@ pub(crate) use corners::is_of_program;
 pub use pair::pair;
 pub(crate) use pair::{Cut, cuts, programs};
 pub use repairs::ROUNDS;
-pub(crate) use repairs::{Repairs, fix_all};
+pub(crate) use repairs::{Outcome, REPAIRED, Repairs, fix_all};
 pub(crate) use shown::{picture, picture_of_program};
 
 use crate::analysis;

@@ -47,8 +47,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let (opened, snapshot) =
         files::drawing_to_use(&arguments.path, target, &arguments.common, &last)?;
     if let Err(missing) = snapshot.settings.fit() {
-        let missing = say!(whether_it_fits_needs, missing.listed());
-        return Err(Failure::of(path, missing));
+        let needed = say!(whether_it_fits_needs, missing.listed());
+        return Err(Failure::of(path, Pairing::refusal(&last, &missing, needed)));
     }
     let unit_mm = opened.document.unit_mm();
     let fit = match job::fit(&opened.document, &snapshot, &()) {

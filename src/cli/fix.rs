@@ -8,7 +8,7 @@ use super::{Failure, Verdict, ending, files};
 use crate::disk::Seen;
 use crate::document::{Document, Source};
 use crate::finding::{Detail, Edit, Finding, Fix, FixKind, Place, Rule, Severity};
-use crate::job::{self, Repairs};
+use crate::job::{self, Outcome, REPAIRED, Repairs};
 use crate::message::{readable, said};
 use crate::protocol::FindingData;
 use crate::text::Writing;
@@ -50,21 +50,20 @@ struct Target {
 type Counted = fn(&usize) -> String;
 
 /// The rules whose findings are repaired without being asked for, with the words for their number.
-fn repaired_rules() -> [(Rule, Counted); 6] {
-    [
-        (Rule::SmallRadius, said::arcs),
-        (Rule::DuplicateEntity, said::doubles),
-        (Rule::Overlap, said::overlaps),
-        (Rule::ShortSegment, said::short_segments),
-        (Rule::Gap, said::gaps),
-        (Rule::ArcAsChords, said::chorded_arcs),
-    ]
+fn repaired_rules() -> impl Iterator<Item = (Rule, Counted)> {
+    let words: [Counted; REPAIRED.len()] = [
+        said::arcs,
+        said::doubles,
+        said::overlaps,
+        said::short_segments,
+        said::gaps,
+        said::chorded_arcs,
+    ];
+    REPAIRED.into_iter().zip(words)
 }
 
 fn is_repaired(finding: &Finding) -> bool {
-    repaired_rules()
-        .iter()
-        .any(|(rule, _)| *rule == finding.rule)
+    REPAIRED.contains(&finding.rule)
 }
 
 /// The repair of a finding that is made without being asked for.
@@ -158,6 +157,8 @@ struct Repair {
     /// The findings of a program that several repairs explain equally well: the line of each, and the repairs.
     choices: Vec<(usize, String)>,
     rounds: usize,
+    /// Findings that were repaired.
+    gone: usize,
     /// A line for each repair, as far as they were worked out.
     made: Vec<String>,
 }
@@ -183,7 +184,7 @@ fn repair(path: &Path, mut document: Document, lists: bool) -> Result<Repair, Fa
     let bytes_before = document
         .text()
         .map_or_else(Vec::new, |text| text.bytes().to_vec());
-    let mut rounds = 0;
+    let (mut rounds, mut gone) = (0, 0);
     let planned = match lists {
         true => planned(path, &document),
         false => Vec::new(),
@@ -194,6 +195,7 @@ fn repair(path: &Path, mut document: Document, lists: bool) -> Result<Repair, Fa
         ..
     }) = job::fix_all(&document)
     {
+        gone = Outcome::of(&document, &repaired).repaired;
         (document, rounds) = (*repaired, of_all);
     }
     let after = report::rows(path, &mut document);
@@ -225,6 +227,7 @@ fn repair(path: &Path, mut document: Document, lists: bool) -> Result<Repair, Fa
         refused,
         choices,
         rounds,
+        gone,
         made,
     };
     let errors = |rows: &[Row]| {
@@ -382,14 +385,12 @@ fn summarise(path: &Path, repair: &Repair) {
         let own = rows.iter().filter(|row| row.rule == rule);
         own.map(count).sum()
     };
-    let repaired = repaired_rules().into_iter().filter_map(|(rule, counted)| {
+    let repaired = repaired_rules().filter_map(|(rule, counted)| {
         let count = of_rule(&repair.before, rule).saturating_sub(of_rule(&repair.after, rule));
         (count > 0).then(|| counted(&count))
     });
     let repaired = repaired.collect::<Vec<_>>().join(say!(comma));
-    let is_sound = repaired_rules()
-        .iter()
-        .all(|&(rule, _)| of_rule(&repair.before, rule) == 0);
+    let is_sound = (REPAIRED.into_iter()).all(|rule| of_rule(&repair.before, rule) == 0);
     let name = output::name(path);
     for line in &repair.made {
         output::say(&say!(says, name, line));
@@ -403,22 +404,7 @@ fn summarise(path: &Path, repair: &Repair) {
         let repaired = styled(output::GOOD, say!(repaired, repaired));
         output::say(&say!(says, name, format!("{repaired}{rounds}")));
     } else if repair.is_changed() {
-        let count = |rows: &[Row]| {
-            rows.iter()
-                .filter(|row| row.severity <= Severity::Warning)
-                .count()
-        };
-        let gone = count(&repair.before).saturating_sub(count(&repair.after));
-        // Where a repair has brought hidden faults to light, those are reported below.
-        let is_gone = |row: &&Row| {
-            let same = |other: &Row| (other.rule, other.span.line) == (row.rule, row.span.line);
-            row.severity <= Severity::Warning && !repair.after.iter().any(same)
-        };
-        let gone = match gone {
-            0 => repair.before.iter().filter(is_gone).count().max(1),
-            gone => gone,
-        };
-        let repaired = styled(output::GOOD, say!(repaired, say!(findings, gone)));
+        let repaired = styled(output::GOOD, say!(repaired, say!(findings, repair.gone)));
         output::say(&say!(says, name, repaired));
     } else if is_sound {
         output::say(&say!(nothing_to_repair, name));

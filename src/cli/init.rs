@@ -101,6 +101,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         None if asks => ask(say!(passes_along_each_contour), "1", passes)?,
         None => 1,
     };
+    let is_silent_of_side = side.is_none();
     let mut set = vec![
         ("wire-diameter", wire.to_string()),
         ("gap", gap.to_string()),
@@ -149,6 +150,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         };
         output::say(&say!(a_key_and_its_value, key, value, why));
     }
+    if is_silent_of_side {
+        output::say(&say!(no_side_is_set, SIDES.join(", ")));
+    }
     let effective = Effective::of(&written);
     let corrections = effective.each_correction();
     let listed: Vec<String> = corrections.iter().map(|mm| format!("{mm:.4}")).collect();
@@ -187,52 +191,71 @@ fn ask<T>(
     }
 }
 
-/// The keys that are set on top, each with its meaning; the others behind them, short, commented out with their default.
+/// The keys of which people ask: those of every file first, then those of its tables.
+const SHOWN: [&str; 14] = [
+    "wire-diameter",
+    "gap",
+    "side",
+    "units",
+    "passes.corrections",
+    "program.format",
+    "program.profile",
+    "program.order",
+    "program.lead-in",
+    "program.start-hole",
+    "program.tab",
+    "job.thickness",
+    "pair.drawn-as",
+    "pair.clearance",
+];
+
+/// The keys that are set, each with its meaning, and those that are shown, commented out with their default: wire, gap and
+/// side on top, then the tables that hold something.
 fn file(set: &[(&str, String)]) -> String {
     let mut text = format!("# {}\n", say!(settings_of_wedm));
-    let rows = settings::rows();
-    let rows: Vec<_> = rows
-        .iter()
-        .filter(|row| !row.key.contains("NAME"))
-        .collect();
-    let parts = |key: &str| {
-        let (of, key) = key.rsplit_once('.').unwrap_or(("", key));
-        (of.to_owned(), key.to_owned())
+    let value = |key: &str| set.iter().find(|(name, _)| *name == key);
+    let others = set.iter().map(|(key, _)| *key);
+    let others = others.filter(|key| !SHOWN.contains(key));
+    let keys: Vec<&str> = SHOWN.into_iter().chain(others).collect();
+    let table = |key: &str| {
+        key.rsplit_once('.')
+            .map_or("", |(table, _)| table)
+            .to_owned()
     };
-    let mut sections: Vec<String> = Vec::new();
-    for row in &rows {
-        let (section, _) = parts(&row.key);
-        if !sections.contains(&section) {
-            sections.push(section);
+    let mut tables: Vec<String> = Vec::new();
+    for key in &keys {
+        if !tables.contains(&table(key)) {
+            tables.push(table(key));
         }
     }
-    let is_set = |section: &str| set.iter().any(|(key, _)| parts(key).0 == section);
-    // Those that hold something come first; keys of no table stand before all tables.
-    sections.sort_by_key(|section| (!section.is_empty(), !is_set(section)));
-    for section in sections {
-        if !section.is_empty() {
-            let _ = write!(text, "\n[{section}]\n");
+    let is_set = |name: &str| set.iter().any(|(key, _)| table(key) == name);
+    tables.sort_by_key(|name| (!name.is_empty(), !is_set(name)));
+    for name in tables {
+        if !name.is_empty() {
+            let _ = write!(text, "\n[{name}]\n");
         }
-        let of_section = || rows.iter().filter(|row| parts(&row.key).0 == section);
-        let value = |key: &str| {
-            set.iter()
-                .find(|(name, _)| *name == key)
-                .map(|(_, value)| value)
-        };
-        for row in of_section() {
-            if let Some(value) = value(&row.key) {
-                let key = parts(&row.key).1;
-                let _ = write!(text, "# {}\n{key} = {value}\n", row.first_sentence());
-            }
-        }
-        for row in of_section().filter(|row| value(&row.key).is_none()) {
-            let key = parts(&row.key).1;
-            let _ = match &row.default {
-                Some(default) => writeln!(text, "# {key} = {default}"),
-                None => writeln!(text, "# {key}: {}", row.first_sentence()),
+        let mut own: Vec<&str> = keys
+            .iter()
+            .copied()
+            .filter(|key| table(key) == name)
+            .collect();
+        own.sort_by_key(|key| *key != "side" && value(key).is_none());
+        for key in own {
+            let row = super::options::row(key);
+            let short = key.rsplit('.').next().unwrap_or(key);
+            let meaning = row.first_sentence();
+            let meaning = match row.words.is_empty() {
+                true => meaning,
+                false => say!(says, meaning, row.words.join(", ")),
+            };
+            let _ = match (value(key), &row.default) {
+                (Some((_, value)), _) => write!(text, "# {meaning}\n{short} = {value}\n"),
+                (None, Some(default)) => write!(text, "# {meaning}\n# {short} = {default}\n"),
+                (None, None) => writeln!(text, "# {short}: {meaning}"),
             };
         }
     }
+    let _ = write!(text, "\n# {}\n", say!(where_all_keys_are));
     text
 }
 

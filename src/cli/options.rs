@@ -1,7 +1,7 @@
 //! Options that several commands share. Those for keys of the settings are declared in `settings`;
 //! here they are only listed.
 
-use crate::settings::{LARGEST, Row, Settings, camel_case, rows};
+use crate::settings::{LARGEST, MissingForFit, Row, Settings, SideSetting, camel_case, rows};
 use clap::builder::{PossibleValuesParser, TypedValueParser, ValueParser};
 use clap::{Arg, ArgMatches, Args, Command, FromArgMatches, ValueEnum};
 use std::path::PathBuf;
@@ -119,6 +119,23 @@ impl Pairing {
     /// with the wire wins.
     pub(crate) fn beside(&self, settings: &Settings) -> Settings {
         self.wire.0.overlaid(&self.pair.0).overlaid(settings)
+    }
+
+    /// Why there is no pair where keys are missing: a side on the command line has ended the one of a `wedm.toml`.
+    pub(crate) fn refusal(
+        settings: &Settings,
+        missing: &MissingForFit,
+        else_said: String,
+    ) -> String {
+        let key = "pair.drawn-as";
+        let side = settings.side.filter(|side| *side != SideSetting::Both);
+        match side {
+            Some(side) if missing.0.contains(&key) => {
+                let refused = say!(a_pair_on_one_side, key, side.name());
+                say!(says, "--side", refused)
+            }
+            _ => else_said,
+        }
     }
 }
 

@@ -51,7 +51,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let format = arguments.format;
     let format = format.unwrap_or_else(|| ending::of_settings(&snapshot.settings));
     if let (Err(missing), true) = (snapshot.settings.fit(), format != Format::Milling) {
-        return Err(Failure::of(path, say!(a_pair_needs, missing.listed())));
+        let needed = say!(a_pair_needs, missing.listed());
+        return Err(Failure::of(path, Pairing::refusal(&last, &missing, needed)));
     }
     let document = &opened.document;
     let wanted = Wanted {

@@ -2,8 +2,9 @@
 
 use crate::document::{Document, Source};
 use crate::drawing::{Drawing, DrawingEdit};
-use crate::finding::Edit;
+use crate::finding::{Edit, Finding, Rule, Severity};
 use crate::text::{Patch, TextEdit};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Repairs in several rounds, since one may make room for another.
@@ -15,8 +16,58 @@ pub(crate) enum Repairs {
         rounds: usize,
         repaired: Box<Document>,
     },
-    /// For a drawing without text, each with the drawing that it applies to.
-    OfDrawing(Vec<(Arc<Drawing>, DrawingEdit)>),
+    /// For a drawing without text, each with the drawing that it applies to; and the document after the repairs.
+    OfDrawing {
+        rounds: Vec<(Arc<Drawing>, DrawingEdit)>,
+        repaired: Box<Document>,
+    },
+}
+
+/// What repairs have done, in findings.
+pub(crate) struct Outcome {
+    pub(crate) repaired: usize,
+    /// Errors and warnings.
+    pub(crate) left: usize,
+}
+
+/// The rules of drawings whose findings are repaired without being asked for.
+pub(crate) const REPAIRED: [Rule; 6] = [
+    Rule::SmallRadius,
+    Rule::DuplicateEntity,
+    Rule::Overlap,
+    Rule::ShortSegment,
+    Rule::Gap,
+    Rule::ArcAsChords,
+];
+
+impl Outcome {
+    /// Of repairs that made one document of the other. By rule, since a repair may bring hidden faults to light.
+    pub(crate) fn of(before: &Document, after: &Document) -> Outcome {
+        let is_heavy = |it: &&Finding| it.severity <= Severity::Warning;
+        let counts = |document: &Document| {
+            let findings = document.all_findings();
+            let own = findings.iter();
+            let own = own.filter(|it| is_heavy(it) || REPAIRED.contains(&it.rule));
+            let mut counts: BTreeMap<Rule, usize> = BTreeMap::new();
+            own.for_each(|finding| *counts.entry(finding.rule).or_default() += 1);
+            (counts, findings.iter().filter(is_heavy).count())
+        };
+        let ((before, _), (after, left)) = (counts(before), counts(after));
+        let less = |(rule, count): (&Rule, &usize)| {
+            count.saturating_sub(after.get(rule).copied().unwrap_or_default())
+        };
+        let repaired = before.iter().map(less).sum::<usize>().max(1);
+        Outcome { repaired, left }
+    }
+
+    /// For people.
+    pub(crate) fn said(&self) -> String {
+        let repaired = say!(findings, self.repaired);
+        match self.left {
+            0 => say!(repaired_and_none_left, repaired),
+            left => say!(repaired_and_left, repaired, left),
+        }
+    }
 }
 
 /// At most this many rounds. Each leaves less to repair than the one before, so that they end by themselves long before.
@@ -38,7 +89,8 @@ pub(crate) fn fix_all(document: &Document) -> Option<Repairs> {
             }
             rounds.push((before, edit));
         }
-        return (!rounds.is_empty()).then_some(Repairs::OfDrawing(rounds));
+        let repaired = Box::new(present);
+        return (!rounds.is_empty()).then_some(Repairs::OfDrawing { rounds, repaired });
     }
     let mut patch = Patch::of(document.text()?.len());
     let mut repaired = None;

@@ -29,7 +29,13 @@ pub(crate) struct SettingsInForce {
     pub(crate) side: SideSetting,
     /// The level that the side comes from.
     pub(crate) side_from: Origin,
-    /// Correction and side, each with where it comes from: a sentence to be shown.
+    /// Millimetres in one unit of the drawing, where it is an open one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) units_to_mm: Option<f64>,
+    /// What says that unit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) units_from: Option<Origin>,
+    /// Correction, side and the unit of an open drawing, each with where it comes from: a sentence to be shown.
     pub(crate) said: String,
     /// URI of the `wedm.toml` that holds for the document, where there is one.
     #[serde(default, skip_serializing_if = "Option::is_none")]

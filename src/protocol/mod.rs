@@ -47,8 +47,8 @@ pub(crate) use locate::{Locate, Located};
 pub(crate) use milling::Milling;
 pub(crate) use requests::{
     Applied, ApplyDrawingEdit, ChangeDrawing, CloseDrawing, DrawingEdit, DrawingName, Export,
-    Exported, HoleForm, Holes, Inspect, OpenDrawing, OptionsOf, Picture, PictureForm, Repair,
-    Repairs, RepairsOf, ResendDrawing, Resent, RulePage, RulePageText, ScaleProgram,
+    Exported, FixAllData, HoleForm, Holes, Inspect, OpenDrawing, OptionsOf, Picture, PictureForm,
+    Repair, Repairs, RepairsOf, ResendDrawing, Resent, RulePage, RulePageText, ScaleProgram,
 };
 pub use schema::schema;
 pub(crate) use schema::settings_schema;

@@ -60,6 +60,20 @@ pub(crate) struct DrawingEdit {
     pub changes: Vec<DrawingChange>,
 }
 
+/// The `data` of an action of the kind `source.fixAll.wedm`: what it would do.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub(crate) struct FixAllData {
+    /// The document that it is made for, and its version.
+    pub(crate) uri: String,
+    pub(crate) version: i64,
+    /// Number of findings that go.
+    pub(crate) repaired: usize,
+    /// Number of errors and warnings that are left.
+    pub(crate) left: usize,
+    /// Both as a sentence to be shown: `3 findings repaired, 2 left`.
+    pub(crate) said: String,
+}
+
 /// The only argument of the command `wedm.scale`: a program, and the factor by which all its lengths grow.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

@@ -19,6 +19,7 @@ pub fn schema() -> Value {
     });
     let settings = of::<Settings>(&mut types);
     let data = of::<FindingData>(&mut types);
+    let of_fix_all = of::<FixAllData>(&mut types);
     let definitions = declared(&mut types);
     json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",
@@ -29,6 +30,7 @@ pub fn schema() -> Value {
         "commands": commands,
         "settings": settings,
         "diagnosticData": data,
+        "fixAllData": of_fix_all,
         "$defs": definitions,
     })
 }

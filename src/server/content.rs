@@ -83,6 +83,15 @@ impl Content {
         }
     }
 
+    /// The drawing, once it has been read.
+    pub(crate) fn drawing(&self) -> Option<&Drawing> {
+        match self {
+            Content::Read(document) => document.drawing().map(|drawing| &**drawing),
+            Content::Unread(Remains::Drawing(drawing)) => Some(drawing),
+            _ => None,
+        }
+    }
+
     /// Replaces bytes of the text; does not read the document first if it has not been read.
     pub(crate) fn edit_text(&mut self, range: std::ops::Range<usize>, replacement: &str) {
         match self {

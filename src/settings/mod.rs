@@ -49,7 +49,7 @@ pub(crate) use keys::{
 pub use keys::{Settings, rows};
 pub use milling::Electrode;
 pub use origins::{Origin, Origins};
-pub(crate) use pair::{Partners, Use, part_title};
+pub(crate) use pair::{MissingForFit, Partners, Use, part_title};
 pub(crate) use passes::{PassFault, pass_faults, passes_table};
 pub(crate) use row::LARGEST;
 pub use row::Row;
@@ -94,7 +94,8 @@ impl Settings {
     /// Lays `later` over `self`: `later` wins; tables are merged key by key.
     ///
     /// A later level with a correction resets the passes of earlier levels, and one with a wire diameter or a gap their
-    /// correction. One thread hole or one entry likewise resets those of single contours.
+    /// correction. One thread hole or one entry likewise resets those of single contours. A later side ends a pair whose
+    /// contours are cut on both, and a later pair an earlier side.
     pub(crate) fn overlaid(&self, later: &Settings) -> Settings {
         let mut laid = Overlay::overlaid(self, later);
         if later.wire_diameter.is_some() || later.gap.is_some() {
@@ -106,6 +107,18 @@ impl Settings {
             if later.gap.is_some() {
                 laid.gaps = own.gaps;
             }
+        }
+        let has_part = |level: &Settings| {
+            level
+                .pair
+                .as_ref()
+                .is_some_and(|own| own.drawn_as.is_some())
+        };
+        let is_one_side = |side: SideSetting| side != SideSetting::Both;
+        if has_part(later) {
+            laid.side = later.side;
+        } else if has_part(self) && later.side.is_some_and(is_one_side) {
+            laid.pair = later.pair.clone();
         }
         if let Some(program) = &later.program {
             let is_one = |point: &Option<PointSetting>| matches!(point, Some(PointSetting::One(_)));

@@ -226,6 +226,14 @@ impl Effective {
     }
 }
 
+impl SideSetting {
+    /// Its word in the settings.
+    pub(crate) fn name(self) -> String {
+        let name = serde_json::to_string(&self).unwrap_or_default();
+        name.replace('"', "")
+    }
+}
+
 /// A length in mm without the rounding of a difference.
 fn rounded(mm: f64) -> f64 {
     (mm * 1e6).round() / 1e6
@@ -263,8 +271,7 @@ pub(super) fn faults(settings: &Settings) -> Vec<PassFault> {
         if workpieces.len() > 1 {
             complain(key, say!(a_pair_drawn_and_cut_twice, key));
         } else if side != SideSetting::Both {
-            let side = serde_json::to_string(&side).unwrap_or_default();
-            complain(key, say!(a_pair_on_one_side, key, side.replace('"', "")));
+            complain(key, say!(a_pair_on_one_side, key, side.name()));
         }
         if pair.clearance.is_none() {
             complain(key, say!(a_pair_without_clearance, key));

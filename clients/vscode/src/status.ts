@@ -1,7 +1,8 @@
-// The item in the status bar: the correction in force for the document in front, or what is wrong with the server.
+// The item in the status bar: against what the document in front is checked, or what is wrong with the server.
 
 import * as vscode from "vscode";
 import type { Front } from "./front";
+import { inShort } from "./inShort";
 import type { SettingsInForce } from "./protocol";
 import type { Server, State } from "./server/server";
 import { t } from "./words";
@@ -61,19 +62,12 @@ export class Status implements vscode.Disposable {
   }
 
   #show(settings: SettingsInForce): void {
-    const passes = settings.corrections.length > 1 ? t(" · {0} passes", settings.corrections.length) : "";
-    this.#item.text = `$(record-small) ${settings.correction.toFixed(3)} mm${passes}`;
+    this.#item.text = `$(record-small) ${inShort(settings)}`;
     this.#item.backgroundColor = undefined;
     this.#item.command = "wedm.changeCorrection";
-    const from = { default: t("the default"), client: t("from the settings of VS Code"), file: t("from wedm.toml") }[settings.correctionFrom];
-    const list = settings.corrections.map((correction) => correction.toFixed(3)).join(", ");
-    const tooltip = new vscode.MarkdownString(
-      `${t("**Correction {0} mm**, {1}", settings.correction.toFixed(3), from)}\n\n` +
-        (passes === "" ? "" : `${t("Passes: {0} mm", list)}\n\n`) +
-        `${t("Side: {0}", settings.side)}\n\n${t("Inner arcs with a smaller radius cannot be cut. Click to change.")}`,
-    );
-    this.#item.tooltip = tooltip;
-    this.#item.accessibilityInformation = { label: t("Wire EDM: correction {0} millimetres", settings.correction.toFixed(3)) };
+    const checked = t("Checked against: {0}", settings.said);
+    this.#item.tooltip = new vscode.MarkdownString(`${checked}\n\n${t("Inner arcs with a smaller radius cannot be cut. Click to change.")}`);
+    this.#item.accessibilityInformation = { label: `Wire EDM: ${checked}` };
     this.#item.show();
   }
 

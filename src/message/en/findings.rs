@@ -206,6 +206,8 @@ declare! {
     let_the_wire_run_on_the_other_side => "Let the wire run on the other side (swap G41 and G42)";
     replace_the_chords_by_one_arc_of_r_mm(chords, radius) => "Replace the {chords} chords by one arc of R {radius} mm";
     fix_all_that_can_be_fixed_safely => "Fix all that can be fixed safely";
+    repaired_and_left(repaired, left) => "{repaired} repaired, {left} left";
+    repaired_and_none_left(repaired) => "{repaired} repaired, none left";
     keeps_the_contour_open_with(found, meant) => "{found} keeps the contour open: with {meant} it closes";
     may_keep_the_contour_open(found, meant) => "{found} may be wrong: the contour does not close, and with {meant} here, and nothing else changed, it would";
     a_missing_b_shifts_the_numbers => "the block lacks a B: the controller misreads its numbers, or stops";

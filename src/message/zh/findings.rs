@@ -201,6 +201,8 @@ translate! {
     let_the_wire_run_on_the_other_side => "让电极丝走另一侧（G41 与 G42 对换）";
     replace_the_chords_by_one_arc_of_r_mm(chords, radius) => "把 {chords} 段短直线换成一段 R {radius} mm 的圆弧";
     fix_all_that_can_be_fixed_safely => "自动修复可安全修复的问题";
+    repaired_and_left(repaired, left) => "已修复 {repaired}，还剩 {left} 个";
+    repaired_and_none_left(repaired) => "已修复 {repaired}，没有剩余问题";
     keeps_the_contour_open_with(found, meant) => "{found} 使轮廓不封闭：改为 {meant} 即封闭";
     may_keep_the_contour_open(found, meant) => "{found} 可能有错：轮廓不封闭，只把这里改为 {meant}，就能封闭";
     a_missing_b_shifts_the_numbers => "程序段缺一个 B：控制器会把数字认错，或停机";

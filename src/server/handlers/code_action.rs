@@ -4,7 +4,7 @@
 
 use crate::document::{Document, Source};
 use crate::finding::{Edit, Finding, Keep, Place};
-use crate::job::{self, Repairs};
+use crate::job::{self, Outcome, Repairs};
 use crate::program::{self, Offer};
 use crate::protocol::{self, FindingData, method};
 use crate::server::context::RequestContext;
@@ -176,16 +176,33 @@ fn fix_all(
     if is_long && !is_meant {
         return with_edit(context, document, action, &document.fix_all()?);
     }
-    match job::fix_all(document)? {
-        Repairs::OfText { edits, .. } => with_edit(context, document, action, &Edit::Text(edits)),
-        Repairs::OfDrawing(rounds) => {
+    let (made, repaired) = match job::fix_all(document)? {
+        Repairs::OfText {
+            edits, repaired, ..
+        } => {
+            let edit = Edit::Text(edits);
+            (with_edit(context, document, action, &edit)?, repaired)
+        }
+        Repairs::OfDrawing { rounds, repaired } => {
             let changes = rounds
                 .iter()
                 .flat_map(|(drawing, edit)| protocol::changes_of(drawing, edit))
                 .collect();
-            with_changes(context, action, changes)
+            (with_changes(context, action, changes)?, repaired)
         }
-    }
+    };
+    let outcome = Outcome::of(document, &repaired);
+    let data = protocol::FixAllData {
+        uri: context.uri.to_string(),
+        version: context.version,
+        said: outcome.said(),
+        repaired: outcome.repaired,
+        left: outcome.left,
+    };
+    Some(CodeAction {
+        data: serde_json::to_value(data).ok(),
+        ..made
+    })
 }
 
 /// False where an editor only wants to know whether to show a light bulb, at every move of the cursor.

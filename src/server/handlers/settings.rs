@@ -9,7 +9,10 @@ pub(in crate::server) fn settings(state: &mut State, uri: &str) -> SettingsInFor
     let file = state.file_for(uri);
     let effective = state.config.effective_for(uri, file.as_deref());
     let effective: &Effective = &effective;
-    let said = [effective.said_corrections(), effective.said_side()];
+    let open = state.documents.get(uri);
+    let drawing = open.and_then(|open| open.content.drawing());
+    let mut said = vec![effective.said_corrections(), effective.said_side()];
+    said.extend(drawing.map(|drawing| effective.said_unit(drawing)));
     SettingsInForce {
         correction: as_stated(effective.correction),
         corrections: effective
@@ -21,6 +24,8 @@ pub(in crate::server) fn settings(state: &mut State, uri: &str) -> SettingsInFor
         correction_from: source(effective.origins.correction),
         side: effective.side,
         side_from: effective.origins.side,
+        units_to_mm: drawing.map(|drawing| effective.unit_of(drawing).mm),
+        units_from: drawing.map(|drawing| effective.unit_from(drawing)),
         said: said.join(say!(comma)),
         file: file.as_ref().and_then(|file| uri_of(&file.path)),
         contours: effective.own.clone(),

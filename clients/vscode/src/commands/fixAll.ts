@@ -20,13 +20,21 @@ export async function fixAll(server: Server, front: Front): Promise<void> {
   );
   if (offered === "none") {
     void vscode.window.showInformationMessage(t("Wire EDM: there is nothing that can be repaired safely."));
-  } else if (offered === "outdated" || offered.textDocument.version !== document.version || !(await apply(document, offered))) {
+  } else if (offered === "outdated" || offered.edit.textDocument.version !== document.version || !(await apply(document, offered.edit))) {
     void vscode.window.showWarningMessage(t("Wire EDM: the text has changed in the meantime, nothing was done."));
+  } else if (offered.said !== undefined) {
+    void vscode.window.showInformationMessage(t("Wire EDM: {0}.", offered.said));
   }
 }
 
+interface Repairs {
+  edit: TextDocumentEdit;
+  /** How many findings go and how many are left, as a sentence of the server. */
+  said: string | undefined;
+}
+
 /** Asked of the server itself: VS Code's own way answers with nothing when the text changes, and does not say why. */
-async function repairs(server: Server, document: vscode.TextDocument): Promise<TextDocumentEdit | "none" | "outdated"> {
+async function repairs(server: Server, document: vscode.TextDocument): Promise<Repairs | "none" | "outdated"> {
   const range = { start: { line: 0, character: 0 }, end: { line: document.lineCount, character: 0 } };
   const context = { diagnostics: [], only: [FIX_ALL] };
   let actions: CodeAction[] | null;
@@ -38,8 +46,10 @@ async function repairs(server: Server, document: vscode.TextDocument): Promise<T
     }
     throw error;
   }
-  const changes = actions?.find(({ kind }) => kind === FIX_ALL)?.edit?.documentChanges ?? [];
-  return changes.find((change) => TextDocumentEdit.is(change)) ?? "none";
+  const action = actions?.find(({ kind }) => kind === FIX_ALL);
+  const edit = action?.edit?.documentChanges?.find((change) => TextDocumentEdit.is(change));
+  const data = action?.data as { said?: string } | undefined;
+  return edit === undefined ? "none" : { edit, said: data?.said };
 }
 
 async function apply(document: vscode.TextDocument, repairs: TextDocumentEdit): Promise<boolean> {
