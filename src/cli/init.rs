@@ -255,7 +255,7 @@ fn file(set: &[(&str, String)]) -> String {
             };
         }
     }
-    let _ = write!(text, "\n# {}\n", say!(where_all_keys_are));
+    let _ = write!(text, "\n# {}\n", say!(list_of_all_keys));
     text
 }
 

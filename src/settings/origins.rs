@@ -118,6 +118,17 @@ mod tests {
                 "",
                 (File, Default, Default),
             ),
+            // A later side ends a pair that is cut on both, and a later pair a side.
+            (
+                "[pair]\ndrawn-as = \"plate\"",
+                "side = \"auto\"",
+                (Default, Option, Default),
+            ),
+            (
+                "side = \"auto\"",
+                "[pair]\ndrawn-as = \"plate\"",
+                (Default, Default, Default),
+            ),
         ] {
             assert_eq!(of(file, option), expected, "{file} | {option}");
         }

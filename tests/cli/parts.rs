@@ -168,3 +168,52 @@ fn leads_meet_no_contour_of_another_workpiece() {
         &[",2A,found,1\n", ",2B,found,2\n"],
     );
 }
+
+/// An option for the side wins over the pair of a `wedm.toml`, and options for the pair over its side.
+#[test]
+fn an_option_wins_over_the_pair() {
+    let desk = desk();
+    let generate = "generate twice/a.dxf -o - --format 3b";
+    check(&desk, generate, 1, &["!it is a pair"]);
+    let alone = |side: &str| {
+        desk.write("alone/wedm.toml", WIRE);
+        desk.write("alone/a.dxf", desk.read("twice/a.dxf"));
+        desk.run(&format!(
+            "generate alone/a.dxf -o - --format 3b --side {side}"
+        ))
+    };
+    for side in ["opening", "punch", "auto"] {
+        let made = desk.run(&format!("{generate} --side {side}"));
+        assert_eq!(made.code, Some(0), "{made:?}");
+        assert_eq!(made.stdout, alone(side).stdout);
+        check(&desk, &format!("check twice/a.dxf --side {side}"), 0, &[]);
+    }
+    check(
+        &desk,
+        &format!("{generate} --side both"),
+        1,
+        &["!it is a pair"],
+    );
+    // A pair is cut on both sides: there is none on one.
+    check(
+        &desk,
+        "pair twice/a.dxf --side punch",
+        2,
+        &["!--side: side is \"punch\""],
+    );
+    check(
+        &desk,
+        "fit twice/a.dxf --side punch",
+        2,
+        &["!--side: side is \"punch\""],
+    );
+    desk.write("alone/wedm.toml", format!("side = \"opening\"\n{WIRE}"));
+    let pair =
+        "pair alone/a.dxf -o out --drawn-as plate --clearance 0.01 --gap 0.01 --wire-diameter 0.18";
+    check(
+        &desk,
+        pair,
+        0,
+        &["!a-punch.3b", "!a-plate.3b", "!both sides (default)"],
+    );
+}

@@ -13,18 +13,35 @@ fn a_settings_file_is_begun() {
     );
     std::fs::create_dir(desk.path("work")).unwrap();
     let begin = "init --wire 0.25 --gap 0.03 --passes 3 --machine robofil work";
-    check(&desk, begin, 0, &["!work/wedm.toml written"]);
+    check(
+        &desk,
+        begin,
+        0,
+        &["!work/wedm.toml written", "!side is not set"],
+    );
     let text = String::from_utf8(desk.read("work/wedm.toml")).unwrap();
     for line in [
         "wire-diameter = 0.25",
         "corrections = [0.2150, 0.1700, 0.1400]",
         "gaps = [0.0300, 0.0150, 0.0150]",
         "profile = \"robofil\"",
-        "# margin = 0.001",
+        "# side = \"both\"",
     ] {
         assert!(text.contains(&format!("\n{line}\n")), "{line}: {text}");
     }
     assert!(!text.contains("#:schema"), "{text}");
+    assert!(text.lines().count() < 45, "{text}");
+    let on_top: Vec<&str> = text.lines().filter(|line| line.contains(" = ")).collect();
+    let keys = ["wire-diameter = 0.25", "gap = 0.03", "# side = \"both\""];
+    assert_eq!(on_top.get(..3), Some(&keys[..]), "{text}");
+    std::fs::create_dir(desk.path("aside")).unwrap();
+    check(
+        &desk,
+        "init --side auto aside",
+        0,
+        &["!side = \"auto\" (option)"],
+    );
+    check(&desk, "init --side left other", 2, &[]);
     check(&desk, begin, 2, &["!it already exists"]);
     desk.write(
         "work/wedm.schema.json",

@@ -73,7 +73,7 @@ CASES = [
         [
             {"kind": "quickfix", "isPreferred": True, "title": text("R 0.101"), "edit": {"documentChanges": [{"textDocument": {"uri": DXF, "version": 1}}]}},
             {"kind": "quickfix", "title": text("Keep the end points")},
-            {"kind": "source.fixAll.wedm"},
+            {"kind": "source.fixAll.wedm", "data": {"uri": DXF, "version": 1, "repaired": 1, "left": anything, "said": text("1 finding repaired, ")}},
         ],
         {**lines(BULGE, BULGE), "context": {"diagnostics": []}},
     ),
@@ -98,7 +98,7 @@ CASES = [
     Case("wedm/locate", DXF, {"handle": "2A", "segment": 1, "range": {"start": {"line": BULGE}}}, at(BULGE, 0)),
     Case("wedm/locate", DXF, {"handle": "2A", "segment": 1, "range": {"start": {"line": BULGE}}}, {"handle": "2A", "segment": 1}),
     Case("wedm/rulePage", DXF, {"text": anything}, {"rule": "small-radius"}),
-    Case("wedm/settings", DXF, {"correction": near(0.1), "correctionFrom": "default", "side": "both"}),
+    Case("wedm/settings", DXF, {"correction": near(0.1), "correctionFrom": "default", "side": "both", "unitsToMm": 1.0, "unitsFrom": anything, "said": text("correction 0.100 mm (default), both sides (default), mm (")}),
     Case(
         "wedm/generate",
         "cad:clean",

@@ -287,6 +287,26 @@ fn fix_all_goes_on_until_nothing_safe_is_left() {
         rules(&found)
     );
     let offered = actions(&mut client, DXF, everywhere(), &[], Some("source.fixAll"));
+    let count = |found: &[Value], all: bool| {
+        let is_counted = |one: &&Value| {
+            one["severity"].as_u64() <= Some(2) || all && one["code"] == "arc-as-chords"
+        };
+        found.iter().filter(is_counted).count() as u64
+    };
+    let before = count(&found, true);
+    let says = |action: &Value, after: &[Value]| {
+        let left = count(after, false);
+        let data = &action["data"];
+        assert_eq!(data["left"], left, "{data}");
+        assert_eq!(data["repaired"], before - left, "{data}");
+        let left = if left == 0 {
+            "none".to_owned()
+        } else {
+            left.to_string()
+        };
+        let said = format!("{} findings repaired, {left} left", data["repaired"]);
+        assert_eq!(data["said"], said);
+    };
     let mut edits = offered[0]["edit"]["documentChanges"][0]["edits"]
         .as_array()
         .unwrap()
@@ -307,6 +327,7 @@ fn fix_all_goes_on_until_nothing_safe_is_left() {
         "{:?}",
         rules(&found)
     );
+    says(&offered[0], &found);
     assert!(actions(&mut client, DXF, everywhere(), &[], Some("source.fixAll")).is_empty());
 
     let found = client.open_drawing(CAD, entities);
@@ -323,6 +344,7 @@ fn fix_all_goes_on_until_nothing_safe_is_left() {
         "{:?}",
         rules(&found)
     );
+    says(&offered[0], &found);
     assert!(actions(&mut client, CAD, everywhere(), &[], Some("source.fixAll")).is_empty());
     client.shut_down();
 }

@@ -279,16 +279,60 @@
         <translation>补偿方向</translation>
     </message>
     <message>
-        <source>the built-in default</source>
-        <translation>内置默认值</translation>
-    </message>
-    <message>
         <source>this dock</source>
         <translation>此面板</translation>
     </message>
     <message>
-        <source>in force: correction %1 mm, from %2</source>
-        <translation>当前补偿量 %1 mm，来自%2</translation>
+        <source>drawing</source>
+        <translation>图形</translation>
+    </message>
+    <message>
+        <source>default</source>
+        <translation>默认</translation>
+    </message>
+    <message>
+        <source>sides by nesting</source>
+        <translation>按嵌套</translation>
+    </message>
+    <message>
+        <source>opening</source>
+        <translation>型孔</translation>
+    </message>
+    <message>
+        <source>punch</source>
+        <translation>凸模</translation>
+    </message>
+    <message>
+        <source>wire on the left</source>
+        <translation>丝在左侧</translation>
+    </message>
+    <message>
+        <source>wire on the right</source>
+        <translation>丝在右侧</translation>
+    </message>
+    <message>
+        <source>inches</source>
+        <translation>英寸</translation>
+    </message>
+    <message>
+        <source>units of %1 mm</source>
+        <translation>单位 %1 mm</translation>
+    </message>
+    <message>
+        <source>correction %1 mm (%2)</source>
+        <translation>补偿量 %1 mm（%2）</translation>
+    </message>
+    <message>
+        <source>%1 (%2)</source>
+        <translation>%1（%2）</translation>
+    </message>
+    <message>
+        <source>, </source>
+        <translation>，</translation>
+    </message>
+    <message>
+        <source>against: %1</source>
+        <translation>依据：%1</translation>
     </message>
     <message>
         <source>, entity %1</source>

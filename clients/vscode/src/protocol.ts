@@ -1696,7 +1696,15 @@ export interface SettingsInForce {
    */
   sideFrom: Origin;
   /**
-   * Correction and side, each with where it comes from: a sentence to be shown.
+   * Millimetres in one unit of the drawing, where it is an open one.
+   */
+  unitsToMm?: number;
+  /**
+   * What says that unit.
+   */
+  unitsFrom?: Origin;
+  /**
+   * Correction, side and the unit of an open drawing, each with where it comes from: a sentence to be shown.
    */
   said: string;
   /**

@@ -69,7 +69,7 @@ declare! {
     what_the_machine_reads(names) => "what the machine reads: {names}";
     settings_of_wedm => "Settings of wedm for the drawings in this folder and below. What follows # is the default.";
     no_side_is_set(words) => "  side is not set: radii are checked on both sides, and a program needs to know it (--side: {words})";
-    where_all_keys_are => "All keys: docs/settings.md; for editors: wedm config schema > wedm.schema.json";
+    list_of_all_keys => "All keys: docs/settings.md; for editors: wedm config schema > wedm.schema.json";
     side_of_the_wire(sides) => "side of the contours on which the wire runs, auto by nesting: {sides}";
     as_answered => "as answered";
     a_key_and_its_value(key, value, origin) => "  {key} = {value} ({origin})";

@@ -69,7 +69,7 @@ translate! {
     what_the_machine_reads(names) => "机床所读格式：{names}";
     settings_of_wedm => "wedm 的设置，用于本文件夹及其下的图形。# 后面是默认值，不写也有效。";
     no_side_is_set(words) => "  未设置 side：两侧的半径都会检查，而生成程序需要知道是哪一侧（--side：{words}）";
-    where_all_keys_are => "全部设置见 docs/zh/settings.md；供编辑器使用：wedm config schema > wedm.schema.json";
+    list_of_all_keys => "全部设置见 docs/zh/settings.md；供编辑器使用：wedm config schema > wedm.schema.json";
     side_of_the_wire(sides) => "丝在轮廓的哪一侧，auto 按嵌套自动判定：{sides}";
     as_answered => "按回答";
     a_key_and_its_value(key, value, origin) => "  {key} = {value}（{origin}）";

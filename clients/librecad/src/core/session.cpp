@@ -316,9 +316,14 @@ void Session::askSettings(const QString &uri)
             return;
         const QJsonObject result = answer.result.toObject();
         InForce settings;
-        settings.correction = result.value("correction").toDouble();
+        const QJsonArray corrections = result.value("corrections").toArray();
+        for (const QJsonValue &each : corrections)
+            settings.corrections += each.toDouble();
         settings.from = result.value("correctionFrom").toString();
         settings.side = result.value("side").toString();
+        settings.sideFrom = result.value("sideFrom").toString();
+        settings.unitsToMm = result.value("unitsToMm").toDouble(1);
+        settings.unitsFrom = result.value("unitsFrom").toString();
         settings.file = result.value("file").toString();
         emit settingsInForce(uri, settings);
     });
@@ -421,7 +426,9 @@ void Session::takeRepair(const QString &uri, const QJsonArray &actions)
     Repair repair;
     repair.uri = uri;
     repair.version = document->drawing.version;
-    repair.title = chosen.value("title").toString();
+    // Of all repairs at once the server says how many they are, and how much is left.
+    const QString said = chosen.value("data").toObject().value("said").toString();
+    repair.title = said.isEmpty() ? chosen.value("title").toString() : said;
     repair.before = document->drawing.entities;
     repair.after = after.entities;
     emit repairReady(repair);

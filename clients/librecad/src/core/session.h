@@ -40,12 +40,16 @@ struct Program {
     QStringList warnings;
 };
 
-/// The correction that the server uses, and where it comes from.
+/// Against what the server checks, and where each comes from: "default", "client", "file" or "drawing".
 struct InForce {
-    double correction = 0;
-    /// "default", "client" or "file".
+    /// mm; of each pass.
+    QVector<double> corrections;
     QString from;
     QString side;
+    QString sideFrom;
+    double unitsToMm = 1;
+    /// Empty while the drawing is not read.
+    QString unitsFrom;
     /// URI of the wedm.toml, where there is one.
     QString file;
 };

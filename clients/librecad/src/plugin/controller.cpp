@@ -431,7 +431,7 @@ void Controller::showCurrent()
         return;
     m_panel->setFindings(open->findings);
     m_panel->setStale(open->staleness());
-    if (open->settings.correction > 0)
+    if (!open->settings.corrections.isEmpty())
         m_panel->setInForce(open->settings);
 }
 

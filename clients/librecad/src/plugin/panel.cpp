@@ -78,6 +78,35 @@ const char PLAIN[] = "";
 const char GOOD[] = "background: #d8f0d8; color: #064006;";
 const char BAD[] = "background: #ffd9d0; color: #6a1000;";
 
+QString originOf(const QString &from)
+{
+    if (from == QLatin1String("file"))
+        return QStringLiteral("wedm.toml");
+    if (from == QLatin1String("client"))
+        return Panel::tr("this dock");
+    return from == QLatin1String("drawing") ? Panel::tr("drawing") : Panel::tr("default");
+}
+
+QString sideOf(const QString &side)
+{
+    if (side == QLatin1String("auto"))
+        return Panel::tr("sides by nesting");
+    if (side == QLatin1String("opening"))
+        return Panel::tr("opening");
+    if (side == QLatin1String("punch"))
+        return Panel::tr("punch");
+    if (side == QLatin1String("left"))
+        return Panel::tr("wire on the left");
+    return side == QLatin1String("right") ? Panel::tr("wire on the right") : Panel::tr("both sides");
+}
+
+QString unitOf(double mm)
+{
+    if (mm == 1)
+        return QStringLiteral("mm");
+    return mm == 25.4 ? Panel::tr("inches") : Panel::tr("units of %1 mm").arg(mm);
+}
+
 /// The middle of an arc or line, from its ends, its centre and the sign of its sweep.
 QPointF middleOf(const Row &row)
 {
@@ -251,12 +280,15 @@ void Panel::setServer(Server::State state, const QString &text)
 
 void Panel::setInForce(const InForce &settings)
 {
-    QString from = tr("the built-in default");
-    if (settings.from == QLatin1String("file"))
-        from = QDir::toNativeSeparators(QUrl(settings.file).toLocalFile());
-    else if (settings.from == QLatin1String("client"))
-        from = tr("this dock");
-    say(m_inForce, tr("in force: correction %1 mm, from %2").arg(settings.correction, 0, 'f', 3).arg(from), PLAIN);
+    QStringList corrections;
+    for (const double each : settings.corrections)
+        corrections += QString::number(each, 'f', 3);
+    QStringList against{tr("correction %1 mm (%2)").arg(corrections.join(QStringLiteral(" / ")), originOf(settings.from)),
+                        tr("%1 (%2)").arg(sideOf(settings.side), originOf(settings.sideFrom))};
+    if (!settings.unitsFrom.isEmpty())
+        against += tr("%1 (%2)").arg(unitOf(settings.unitsToMm), originOf(settings.unitsFrom));
+    say(m_inForce, tr("against: %1").arg(against.join(tr(", "))), PLAIN);
+    m_inForce->setToolTip(QDir::toNativeSeparators(QUrl(settings.file).toLocalFile()));
 }
 
 void Panel::setMessage(const QString &text, Tone tone)

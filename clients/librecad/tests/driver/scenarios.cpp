@@ -76,7 +76,8 @@ void Driver::fix()
     const QString radii = saved("radii");
     const QString layers = saved("layers");
     choose("Fix");
-    expectSoon("the repair is done", [this] { return text("wedm_message").startsWith("Done"); }, [this] { return text("wedm_message"); });
+    expectSoon("the repair is done, and counted", [this] { return text("wedm_message").startsWith("Done: 1 finding repaired, none left."); },
+               [this] { return text("wedm_message"); });
     expectSoon("no fault is left", [this] { return verdictOf("0.1010") == "ok"; }, [this] { return verdictOf("0.1010"); });
     save();
     expect("the file has R 0.101 in place of R 0.080", saved("radii") == QString(radii).replace("0.0800", "0.1010"), saved("radii"));
@@ -410,18 +411,18 @@ void Driver::settings()
 {
     choose("Check radii");
     expectSoon("R 0.0800 is at fault", [this] { return verdictOf("0.0800").contains("small-radius"); });
-    expectSoon("the correction in force is said", [this] { return text("wedm_in_force").contains("0.100 mm, from the built-in default"); },
+    expectSoon("the correction in force is said", [this] { return text("wedm_in_force").contains("correction 0.100 mm (default), both sides (default), mm (drawing)"); },
                [this] { return text("wedm_in_force"); });
     m_main->findChild<QDoubleSpinBox *>("wedm_correction")->setValue(0.05);
     expectSoon("with a correction of 0.05 mm it is not", [this] { return verdictOf("0.0800") == "ok"; }, [this] { return verdictOf("0.0800"); });
-    expectSoon("said to be the dock's", [this] { return text("wedm_in_force").contains("0.050 mm, from this dock"); },
+    expectSoon("said to be the dock's", [this] { return text("wedm_in_force").contains("0.050 mm (this dock)"); },
                [this] { return text("wedm_in_force"); });
     QFile file(QFileInfo(m_file).absoluteDir().filePath("wedm.toml"));
     expect("a wedm.toml is written beside the drawing", file.open(QIODevice::WriteOnly) && file.write("correction = 0.09\n") > 0);
     file.close();
     m_main->findChild<QDoubleSpinBox *>("wedm_correction")->setValue(0.04);
     expectSoon("it comes first", [this] { return verdictOf("0.0800").contains("small-radius"); }, [this] { return verdictOf("0.0800"); });
-    expectSoon("and is named", [this] { return text("wedm_in_force").contains("0.090 mm") && text("wedm_in_force").contains("wedm.toml"); },
+    expectSoon("and is named", [this] { return text("wedm_in_force").contains("0.090 mm (wedm.toml)"); },
                [this] { return text("wedm_in_force"); });
     expect("it is edited", file.open(QIODevice::WriteOnly) && file.write("correction = 0.07\n") > 0);
     file.close();
