@@ -166,10 +166,10 @@ fn command() -> clap::Command {
     help::explained(CommandLine::command())
 }
 
-/// A file where a command is expected.
+/// A file or folder where a command is expected.
 fn file_for_a_command(words: &[OsString]) -> Option<&Path> {
     let first = Path::new(words.get(1)?);
-    let is_file = FileKind::of_ending(&ending_of(first)).is_some() || first.is_file();
+    let is_file = FileKind::of_ending(&ending_of(first)).is_some() || first.exists();
     is_file.then_some(first)
 }
 

@@ -96,3 +96,14 @@ fn a_chosen_contour_has_its_entry() {
         "{ended:?}"
     );
 }
+
+/// A file or folder in the place of a command leads to `check`.
+#[test]
+fn a_path_is_no_command() {
+    let desk = Desk::new();
+    desk.write("parts/a.dxf", desk.read("clean.dxf"));
+    for path in ["clean.dxf", "nosuch.dxf", "parts"] {
+        let said = format!("!{path} is no command: wedm check {path}");
+        check(&desk, path, 2, &[&said]);
+    }
+}

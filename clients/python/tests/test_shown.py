@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import subprocess
 import sys
 import warnings
@@ -170,3 +171,25 @@ def test_a_report_has_a_page_for_each_drawing(data: Path, tmp_path: Path) -> Non
 def test_circles_show_one_segment(server: Server) -> None:
     (row,) = server.open([Circle((0, 0), 3.0, handle="C")]).inspect().rows()
     assert (row["kind"], row["radius"]) == ("circle", 3.0)
+
+
+def test_numbers_in_texts_are_rounded_and_values_are_not(server: Server) -> None:
+    drawing = server.open([Polyline(TIGHT, handle="2A")])
+    (contour,) = drawing.contours()
+    pieces = contour.segments
+    assert any(f"{piece.radius}" not in repr(piece) for piece in pieces if piece.radius is not None) or contour.length != round(contour.length, 4)
+    for answer in (contour, *pieces, *drawing.inspect(), *drawing.toolpath(PUNCH), drawing.settings()):
+        numbers = re.findall(r"\d+\.(\d+)", repr(answer))
+        assert numbers and max(map(len, numbers)) <= 4, repr(answer)
+        assert "None" not in repr(answer)
+
+
+def test_a_loop_goes_over_what_an_answer_lists(server: Server, tmp_path: Path) -> None:
+    drawing = server.open([SQUARE])
+    drawing.generate(options=PUNCH).save(tmp_path / "square.3b")
+    simulation = server.open(tmp_path / "square.3b").simulate()
+    contours, inspection, toolpath = drawing.contours(), drawing.inspect(), drawing.toolpath(PUNCH)
+    assert list(contours) == contours.contours and contours[0].closed
+    assert list(inspection) == inspection.entities and list(toolpath) == toolpath.paths and list(simulation) == simulation.blocks
+    assert [len(contours), len(inspection), len(toolpath)] == [1, 1, 4]
+    assert not list(server.open([]).contours())

@@ -3,7 +3,8 @@
 //! A refactoring rewrites the whole text: clients that resolve actions get its edit for the one that is chosen.
 
 use crate::document::{Document, Source};
-use crate::finding::{Edit, Finding, Keep, Place};
+use crate::drawing::{Drawing, EntityId};
+use crate::finding::{Edit, Finding, Keep, Place, Rule};
 use crate::job::{self, Outcome, Repairs};
 use crate::program::{self, Offer};
 use crate::protocol::{self, FindingData, method};
@@ -19,6 +20,7 @@ use ls_types::{
 use rustc_hash::FxHashSet;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
+use std::collections::BTreeSet;
 use tower_lsp::jsonrpc::Result;
 
 pub(in crate::server) const FIX_ALL: &str = "source.fixAll.wedm";
@@ -312,23 +314,64 @@ fn chosen(
     let chosen = findings.iter().filter(|finding| is_chosen(finding));
     let mut chosen: Vec<Finding> = chosen.take(LISTED).cloned().collect();
     // One finding may stand for several: each is repaired where it is.
-    let text = document.text().filter(|_| !is_named);
-    let bytes = text.map(|text| convert::bytes_of(text, params.range, context.encoding));
-    for at in bytes
-        .map(|bytes| document.segments_at(bytes))
-        .into_iter()
-        .flatten()
-        .take(LISTED)
-    {
+    let places = match (document.source(), document.text()) {
+        (Source::Cad(drawing), _) => {
+            let several = if is_named { &chosen[..] } else { &findings[..] };
+            stood_for(drawing, several, &named, params.range)
+        }
+        (_, Some(text)) if !is_named => {
+            let bytes = convert::bytes_of(text, params.range, context.encoding);
+            let segments = document.segments_at(bytes).into_iter();
+            segments.map(|at| (at, None)).collect()
+        }
+        _ => Vec::new(),
+    };
+    for (at, rule) in places.into_iter().take(LISTED) {
         let known = |one: &Finding| {
             let mut all = chosen.iter();
             all.any(|other| (other.rule, &other.place) == (one.rule, &one.place))
         };
+        let is_meant = |one: &Finding| rule.is_none_or(|rule| rule == one.rule) && !known(one);
         let each = document.each_at(at).into_iter();
-        let new: Vec<Finding> = each.filter(|one| !known(one)).collect();
+        let new: Vec<Finding> = each.filter(is_meant).collect();
         chosen.extend(new);
     }
     chosen
+}
+
+/// The places of a drawing without text that findings stand for, each with its rule: those that are named themselves, and
+/// those in the range of the findings, of the entities that these name.
+fn stood_for(
+    drawing: &Drawing,
+    findings: &[Finding],
+    named: &FxHashSet<(String, String, usize)>,
+    range: Range,
+) -> Vec<((EntityId, usize), Option<Rule>)> {
+    let of_name = |(rule, handle, segment): &(String, String, usize)| {
+        Some(((drawing.find(handle)?, *segment), Some(Rule::named(rule)?)))
+    };
+    let mut places: Vec<_> = named.iter().filter_map(of_name).collect();
+    places.sort_unstable();
+    for finding in findings
+        .iter()
+        .filter(|finding| !finding.related.is_empty())
+    {
+        let own = std::iter::once(&finding.place).chain(&finding.related);
+        let entities = own.filter_map(|place| Some(place.entity()?.0));
+        let entities: BTreeSet<EntityId> = entities.collect();
+        if places.len() >= LISTED {
+            break;
+        }
+        for entity in entities {
+            let count = drawing
+                .get(entity)
+                .map_or(0, |it| it.geometry.segment_count());
+            let lines = range.start.line as usize..count.min(range.end.line as usize + 1);
+            let at = lines.map(|segment| ((entity, segment), Some(finding.rule)));
+            places.extend(at.take(LISTED));
+        }
+    }
+    places
 }
 
 /// Rule, handle and segment in a client's diagnostic.

@@ -30,6 +30,26 @@ QByteArray uriOnly(const QString &uri)
     return "{\"uri\":" + toJson(uri) + "}";
 }
 
+/// Whether the finding stands for one at that segment, too.
+bool standsFor(const Finding &finding, const QString &handle, int segment)
+{
+    const QJsonArray others = finding.diagnostic.value("data").toObject().value("related").toArray();
+    return std::any_of(others.begin(), others.end(), [&](const QJsonValue &each) {
+        const QJsonObject other = each.toObject();
+        return other.value("handle").toString() == handle && other.value("segment").toInt(-1) == segment;
+    });
+}
+
+/// The diagnostic as if it were of that segment alone.
+QJsonObject at(QJsonObject diagnostic, const QString &handle, int segment)
+{
+    QJsonObject data = diagnostic.value("data").toObject();
+    data.insert("handle", handle);
+    data.insert("segment", segment);
+    diagnostic.insert("data", data);
+    return diagnostic;
+}
+
 } // namespace
 
 void registerSessionTypes()
@@ -145,6 +165,8 @@ void Session::askRepair(const QString &uri, const QString &handle, int segment)
         for (const Finding &finding : document->findings) {
             if (finding.handle == handle && finding.segment == segment)
                 diagnostics += finding.diagnostic;
+            else if (standsFor(finding, handle, segment))
+                diagnostics += at(finding.diagnostic, handle, segment);
         }
         if (diagnostics.isEmpty()) {
             emit repairFailed(uri, tr("Nothing was found at this segment; nothing was changed."));

@@ -77,6 +77,24 @@ private slots:
         QTRY_COMPARE_WITH_TIMEOUT(talk.noRepairs.size(), 1, LONG);
     }
 
+    /// Of corners that one finding stands for, the one that is asked for is repaired.
+    void oneOfSeveralCorners()
+    {
+        Talk talk;
+        talk.start();
+        talk.session.setSettings(QJsonObject{{"side", "opening"}});
+        talk.session.look("librecad:1", {polyline(1, {{0, 0, 0}, {20, 0, 0}, {20, 10, 0}, {0, 10, 0}})}, Units::Millimetre);
+        QTRY_COMPARE_WITH_TIMEOUT(talk.rules().filter("sharp-corner").size(), 1, LONG);
+        for (int segment = 0; segment < 4; ++segment) {
+            talk.session.requestRepair("librecad:1", "1", segment);
+            QTRY_COMPARE_WITH_TIMEOUT(talk.repairs.size() + talk.noRepairs.size(), segment + 1, LONG);
+            QVERIFY2(talk.noRepairs.isEmpty(), qPrintable(talk.noRepairs.value(0).value(1).toString()));
+            const QVector<Vertex> after = talk.repairs.last().at(0).value<Repair>().after.at(0).vertices;
+            const Vertex corner = QVector<Vertex>{{0, 0, 0}, {20, 0, 0}, {20, 10, 0}, {0, 10, 0}}.at(segment);
+            QVERIFY2(std::none_of(after.begin(), after.end(), [&](const Vertex &each) { return each.x == corner.x && each.y == corner.y; }), qPrintable(QString::number(segment)));
+        }
+    }
+
     /// A contour of lines and arcs is repaired too, entity by entity.
     void chainIsRepaired()
     {

@@ -14,7 +14,7 @@ from .entities import Point
 from .files import write_beside
 from .findings import Diagnostic
 from .results import StartHole, Work
-from .shown import Tabled, Value, counted, listed, plain, table
+from .shown import Listing, Tabled, Value, counted, listed, plain, table
 
 StepKind = Literal["line", "arc", "pause", "end", "rapid"]
 
@@ -231,7 +231,7 @@ class Bounds(Value):
 
 
 @dataclass(frozen=True)
-class Simulation(Tabled):
+class Simulation(Listing[SimulatedBlock]):
     """Where a program takes the machine. ``length`` is mm and the sum of ``cut`` and ``jumps``, ``deviation`` the largest of a block in µm."""
 
     blocks: list[SimulatedBlock]
@@ -245,6 +245,9 @@ class Simulation(Tabled):
     start_is_known: bool = False
     bounds: Bounds | None = None
     minutes: float | None = None
+
+    def _listed(self) -> list[SimulatedBlock]:
+        return self.blocks
 
     def rows(self) -> list[dict[str, Any]]:
         """A row for each block."""

@@ -13,7 +13,7 @@ from typing import Any, Literal
 from .entities import Point
 from .files import write_beside
 from .settings import Role, Side
-from .shown import Tabled, Value, counted
+from .shown import Listing, Value, counted
 
 SegmentKind = Literal["line", "arc", "circle"]
 Direction = Literal["ccw", "cw"]
@@ -49,12 +49,15 @@ class InspectedEntity(Value):
 
 
 @dataclass(frozen=True)
-class Inspection(Tabled):
+class Inspection(Listing[InspectedEntity]):
     """Every segment of a drawing with its radius and its verdict: the list of the "R minimum" tool."""
 
     units_to_mm: float
     entities: list[InspectedEntity]
     largest_wire: LargestWire | None = None
+
+    def _listed(self) -> list[InspectedEntity]:
+        return self.entities
 
     def rows(self) -> list[dict[str, Any]]:
         """A row for each segment."""
@@ -121,9 +124,12 @@ class Contour(Value):
 
 
 @dataclass(frozen=True)
-class Contours(Tabled):
+class Contours(Listing[Contour]):
     units_to_mm: float
     contours: list[Contour]
+
+    def _listed(self) -> list[Contour]:
+        return self.contours
 
     def rows(self) -> list[dict[str, Any]]:
         """A row for each contour."""
@@ -284,13 +290,16 @@ class ToolpathPart(Value):
 
 
 @dataclass(frozen=True)
-class Toolpath(Tabled):
+class Toolpath(Listing[WirePath]):
     units_to_mm: float
     paths: list[WirePath]
     holes: list[StartHole] = field(default_factory=list)
     # Of a pair that of each part is in `parts`.
     work: Work | None = None
     parts: list[ToolpathPart] = field(default_factory=list)
+
+    def _listed(self) -> list[WirePath]:
+        return self.paths
 
     def rows(self) -> list[dict[str, Any]]:
         """A row for each path."""
@@ -340,8 +349,11 @@ class SettingsInForce(Value):
     side: Side
     #: The level that the side comes from.
     side_from: Origin
-    #: Correction and side, each with where it comes from: a sentence to be shown.
+    #: Correction, side and the unit of an open drawing, each with where it comes from: a sentence to be shown.
     said: str
+    #: Millimetres in one unit of an open drawing, and what says that.
+    units_to_mm: float | None = None
+    units_from: Origin | None = None
     #: URI of the ``wedm.toml`` that holds, if there is one.
     file: str | None = None
     #: Settings for single contours of this drawing, by the handle of an entity or by a point.

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import fields, is_dataclass
 from html import escape
-from typing import Any, TypeVar
+from typing import Any, Generic, TypeVar
 
 T = TypeVar("T")
 
 #: Rows that a notebook shows of one table; what is left out is counted below it.
 MOST_ROWS = 200
+
+#: Digits after the point of the numbers in texts; the values themselves have all of them.
+DIGITS = 4
 
 
 def plain(value: Any) -> Any:
@@ -27,10 +30,33 @@ def plain(value: Any) -> Any:
 class Value:
     """What every result can do beside holding its values."""
 
+    def __init_subclass__(cls) -> None:
+        super().__init_subclass__()
+        # A dataclass writes its own `__repr__`, with all digits, unless the class has one.
+        if "__repr__" not in cls.__dict__:
+            setattr(cls, "__repr__", cls.__repr__)
+
+    def __repr__(self) -> str:
+        names: list[str] = [one.name for one in fields(self)] if is_dataclass(self) else []
+        named = [f"{name}={rounded(getattr(self, name))!r}" for name in names if getattr(self, name) is not None]
+        return f"{type(self).__name__}({', '.join(named)})"
+
     def to_dict(self) -> dict[str, Any]:
         """The values by the names of their fields, nested ones too: for JSON, or for a table of pandas."""
         written: dict[str, Any] = plain(self)
         return written
+
+
+def rounded(value: Any) -> Any:
+    """The value with no more digits than a text for people has."""
+    match value:
+        case float():
+            return round(value, DIGITS)
+        case tuple():
+            return tuple(map(rounded, value))
+        case list() if type(value) is list:
+            return [rounded(one) for one in value]
+    return value
 
 
 class Tabled(Value):
@@ -42,6 +68,22 @@ class Tabled(Value):
 
     def _repr_html_(self) -> str:
         return table(self.rows())
+
+
+class Listing(Tabled, Generic[T]):
+    """A result that lists things: `for one in result`, `len(result)` and `result[0]` are of these."""
+
+    def _listed(self) -> Sequence[T]:
+        raise NotImplementedError
+
+    def __iter__(self) -> Iterator[T]:
+        return iter(self._listed())
+
+    def __len__(self) -> int:
+        return len(self._listed())
+
+    def __getitem__(self, index: int) -> T:
+        return self._listed()[index]
 
 
 class Rows(list[T]):
@@ -91,7 +133,7 @@ def _said(value: Any) -> str:
         case bool():
             return "yes" if value else "no"
         case float():
-            return f"{value:.4f}"
+            return f"{value:.{DIGITS}f}"
         case list() | tuple():
             return ", ".join(map(_said, value))
     return str(value)

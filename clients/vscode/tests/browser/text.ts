@@ -47,7 +47,9 @@ export async function text(checks: Checks): Promise<void> {
       await window.goToLine(line);
     });
     await checks.check("the status bar has the correction in force, and changes it", async () => {
-      await expectSoon("0.100 mm", async () => (await window.status.innerText()).includes("0.100 mm"), () => window.status.innerText());
+      const inForce = "0.100 mm (default), opening, drawn in mm";
+      await expectSoon(inForce, async () => (await window.status.innerText()).includes(inForce), () => window.status.innerText());
+      await checks.shot("against");
       await window.status.click();
       await host.page.locator(".quick-input-widget input").fill("0.04");
       await host.page.keyboard.press("Enter");
@@ -91,6 +93,7 @@ export async function text(checks: Checks): Promise<void> {
     });
     await checks.check("fix all repairs in one undo step", async () => {
       await window.command("Wire EDM: Fix All That Is Safe to Fix");
+      await window.notification("1 finding repaired, none left.").waitFor();
       await window.squiggles.first().waitFor({ state: "hidden" });
       await host.page.keyboard.press("Control+z");
       await window.squiggles.first().waitFor();
