@@ -73,7 +73,7 @@ CASES = [
         [
             {"kind": "quickfix", "isPreferred": True, "title": text("R 0.101"), "edit": {"documentChanges": [{"textDocument": {"uri": DXF, "version": 1}}]}},
             {"kind": "quickfix", "title": text("Keep the end points")},
-            {"kind": "source.fixAll.wedm", "data": {"uri": DXF, "version": 1, "repaired": 1, "left": anything, "said": text("1 finding repaired, ")}},
+            {"kind": "source.fixAll.wedm", "data": {"uri": DXF, "version": 1, "repaired": 1, "left": 0, "said": text("1 finding repaired, none left")}},
         ],
         {**lines(BULGE, BULGE), "context": {"diagnostics": []}},
     ),
