@@ -105,7 +105,7 @@ rules! {
     DoesNotFit "does-not-fit" Error a_punch_does_not_go_into_its_plate Drawing;
     LeadIn "lead-in" Error the_lead_in_is_too_short_or_crosses_a_contour Drawing;
     StartHole "start-hole" Error a_start_hole_has_no_room_beside_the_contours Drawing;
-    PassOrder "pass-order" Error the_corrections_of_the_passes_do_not_fall_or_no_wire_is_so_thin Settings;
+    PassOrder "pass-order" Error the_corrections_of_the_passes_do_not_fall_or_no_wire_is_so_thin Iso Settings;
     UnsupportedEntity "unsupported-entity" Information something_in_the_drawing_is_not_cut Drawing;
     Units "units" Warning the_unit_is_missing_or_absurd Drawing ThreeB FourB Iso;
     ArcOffRadius "arc-off-radius" Error the_ends_of_an_arc_are_not_on_one_circle_about_its_centre FourB Iso;

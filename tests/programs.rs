@@ -1,6 +1,8 @@
 //! Programs as files: the right ones are silent; in the wrong ones every fault is found at its line and column, and what can be
 //! repaired safely is repaired.
 
+#[path = "programs/passes.rs"]
+mod passes;
 #[path = "programs/refactorings.rs"]
 mod refactorings;
 

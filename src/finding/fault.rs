@@ -135,6 +135,9 @@ faults! {
     /// A cut ends this far from its beginning.
     NotClosed { x: f64, y: f64 } [Rule::NotClosed]
         => say!(the_cut_does_not_close, mm(x.hypot(*y) / 1000.0), x / 1000.0, y / 1000.0);
+    /// The wire came back to where a cut began, and leads on from there by this much, µm.
+    LeadsOn { length: f64 } [Rule::NotClosed]
+        => say!(the_wire_leads_on_from_the_start_hole, mm(length / 1e3));
     MissingEnd { word: String } [Rule::MissingEnd] => say!(the_program_lacks_its_end, word);
     TextAfterEnd { word: String } [Rule::TextAfterEnd] => say!(text_behind_which_ends_the_program, word);
     DoubledNumber { number: u32 } [Rule::BlockNumber] => say!(block_number_n_stands_twice, number);
@@ -173,6 +176,21 @@ faults! {
     };
     /// The wire runs on `side` of a contour but approaches it from the other side.
     EntrySide { side: Side } [Rule::WrongSide] => say!(it_comes_from_the_other_side, runs_on(*side));
+    /// A pass on another side of its contour than most passes of it.
+    PassSide { side: Side, inside: bool } [Rule::WrongSide] => {
+        let (is, others) = match inside {
+            true => (say!(inside), say!(outside)),
+            false => (say!(outside), say!(inside)),
+        };
+        say!(the_other_passes_run_on_the_other_side, runs_on(*side), is, others)
+    };
+    /// Corrections of this pass and of the one before it, µm.
+    PassRises { correction: f64, before: f64 } [Rule::PassOrder]
+        => say!(this_pass_has_a_larger_correction, mm(correction / 1e3), mm(before / 1e3), mm((correction - before) / 1e3));
+    /// A pass whose contour lies this far beside that of the one before it, µm.
+    PassAside { by: f64 } [Rule::PassOrder] => say!(this_pass_lies_beside_the_one_before, mm(by / 1e3));
+    /// The last side of a contour is cut with the correction switched off.
+    SwitchedOffEarly [Rule::CompensationSwitch] => say!(the_correction_ends_before_the_contour);
     /// `word` occurs `count` times.
     Foreign { word: String, count: usize } [Rule::MachineDependent] => match count {
         1 => say!(is_a_matter_of_the_machine, word),
@@ -278,6 +296,9 @@ impl Fault {
             Fault::DoubledBlock { arc: true } => Severity::Error,
             Fault::ReversedArc { is_sure: false }
             | Fault::EntrySide { .. }
+            | Fault::LeadsOn { .. }
+            | Fault::PassRises { .. }
+            | Fault::PassAside { .. }
             | Fault::EndlessCalls => Severity::Warning,
             Fault::LooksLikeInches { .. } => Severity::Hint,
             _ => self.rule().default_severity(),

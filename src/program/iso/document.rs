@@ -153,9 +153,14 @@ impl Document {
 
     /// The correction in a place of the control's table, µm: from the program's own table, else the settings.
     pub(super) fn correction(&self, offset: Option<Offset>) -> f64 {
-        let stated = offset.and_then(|offset| self.table.get(&offset));
         let of_settings = self.limits.correction * 1e3;
-        stated.map_or(of_settings, |&value| (value as f64 / 1e3).abs())
+        self.stated_correction(offset).unwrap_or(of_settings)
+    }
+
+    /// The same where the program itself states it.
+    pub(super) fn stated_correction(&self, offset: Option<Offset>) -> Option<f64> {
+        let stated = self.table.get(&offset?)?;
+        Some((*stated as f64 / 1e3).abs())
     }
 
     /// Whether its words stand apart.

@@ -33,6 +33,8 @@ pub(crate) struct Part {
     /// The side on which the control let the wire run, where it is the same from the second move to the one before the
     /// last.
     pub(crate) side: WireSide,
+    /// Moves that switch the correction on.
+    pub(crate) switched_on: u32,
     /// Where the wire was first sent to the other side, and the line that did so.
     pub(crate) flip: Option<(Place, (u32, u32))>,
 }
@@ -73,6 +75,7 @@ impl Part {
             stop: None,
             ends_open: false,
             side,
+            switched_on: u32::from(first.switches == Some(true)),
             flip: None,
         }
     }
@@ -99,6 +102,7 @@ impl Part {
         self.last = [self.last[1], step];
         self.moves += 1;
         self.arcs += u32::from(step.is_arc());
+        self.switched_on += u32::from(step.switches == Some(true));
         self.last_range = range;
         self.side = joined(self.side, step.side.map_or(WireSide::None, WireSide::One));
     }
@@ -122,6 +126,7 @@ impl Part {
         };
         self.moves += next.moves;
         self.arcs += next.arcs;
+        self.switched_on += next.switched_on;
         self.whole &= next.whole;
         self.faulty |= next.faulty;
         self.open = next.open;

@@ -1,6 +1,7 @@
 //! The findings of a program, from those of its stretches.
 
 mod arcs;
+mod passes;
 mod text;
 mod told;
 
@@ -10,13 +11,13 @@ use super::document::{Document, Table};
 use super::limits::Limits;
 use super::moves::{Place as Spot, Reading, apart, meet, micrometres};
 use super::part::{Part, Spur, WireSide};
-use super::plain::word_at;
 use super::repair::found::Repair;
 use super::repair::{Troubles, cut_within};
 use super::stretch::Stretch;
 use crate::finding::{Detail, Fault, Finding, Place, Rule, Severity, Side};
 use crate::geometry::cross;
 use crate::program::by_chunk::ByChunk;
+use crate::program::followed::Followed;
 use crate::program::path::{HasCuts, tolerance};
 use crate::program::repair::gate::Tried;
 use crate::program::report::{self, place_of};
@@ -24,9 +25,6 @@ use crate::settings::{CenterRule, SideSetting};
 use crate::text::SourceText;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::ops::Range;
-
-/// The word that switches the correction is searched for in this many lines before its cut.
-const SWITCH_REACH: usize = 1_000;
 
 /// Twice the area of anything more than a line there and back, nm².
 const LEAST_TWICE_AREA: u128 = 2_000_000;
@@ -78,6 +76,9 @@ impl Document {
         }
         for cut in self.doubtful.untold() {
             report.judge(cut, Some(&self.doubtful));
+        }
+        if self.order().is_none() {
+            report.passes_between_stops();
         }
         // With subprograms nothing is kept.
         if self.order().is_some() {
@@ -134,7 +135,9 @@ impl Document {
             let of = &self.stretches[*index];
             let mut inner = of.inner();
             let is_sound = |part: usize| {
-                JoinedCut::of(of, *index, part).is_none_or(|cut| report.is_sound(&cut))
+                let cut = JoinedCut::of(of, *index, part);
+                // A pass is compared with the next one, behind a stop.
+                cut.is_none_or(|cut| cut.sum.switched_on != 1 && report.is_sound(&cut))
             };
             !of.is_clean && (inner.is_empty() || !touched.contains(index) && inner.all(is_sound))
         };
@@ -328,6 +331,16 @@ impl<'a> Report<'a> {
             let finding = self.document.not_closed(cut, is_fragment);
             self.findings.extend(finding);
         }
+        let is_last = self.document.behind(cut).0 >= self.document.stretches.len();
+        if closes
+            && !is_last
+            && let Some(length) = self.document.leads_on(cut)
+        {
+            let range = self.document.bytes_of(cut.last_line);
+            self.add(range, Fault::LeadsOn { length });
+        }
+        self.off_too_early(cut);
+        let has_passes = self.passes(cut);
         // Contours that are only a line there and back have no inside.
         let orientation = if closes && sum.twice_area.unsigned_abs() > LEAST_TWICE_AREA {
             sum.twice_area.signum()
@@ -335,7 +348,7 @@ impl<'a> Report<'a> {
             0
         };
         let side = match sum.side {
-            WireSide::One(side) if !is_fragment && orientation != 0 => Some(side),
+            WireSide::One(side) if !is_fragment && orientation != 0 && !has_passes => Some(side),
             _ => None,
         };
         if let Some(side) = side {
@@ -457,21 +470,6 @@ impl<'a> Report<'a> {
         } else {
             None
         }
-    }
-
-    /// The word that switched the correction on before the cut that begins at `start`; the cut's first line where it is
-    /// not found.
-    fn switch_range(&self, start: usize) -> Range<usize> {
-        let line = self.text.line_of(start);
-        for line in (line.saturating_sub(SWITCH_REACH)..=line).rev() {
-            let found = word_at(self.text, line, |letter, number| {
-                letter == b'G' && matches!(number.whole(), Some(41 | 42))
-            });
-            if let Some(found) = found {
-                return found;
-            }
-        }
-        start..self.text.line_range(line).end.max(start)
     }
 
     /// Sorted by place; a line that a subprogram runs several times is reported once.

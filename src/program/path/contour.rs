@@ -30,6 +30,17 @@ pub(crate) struct Ends {
 }
 
 impl Ends {
+    /// How far the last block leads on from the start, to which the way had come back, µm: the wire goes on to the next contour, and the
+    /// stop before that is lost.
+    pub(crate) fn lead_on(&self) -> Option<f64> {
+        let (start, [last, end]) = (self.begin[0], self.end);
+        let is_it = self.blocks > 3
+            && start.is_near(&last, self.tolerance)
+            && !start.is_near(&end, self.tolerance)
+            && !self.begin[1].is_near(&end, self.tolerance);
+        is_it.then(|| (end.meant - last.meant).norm())
+    }
+
     /// True where they return to the start or to the end of a way in of one or two blocks. A way out that leads
     /// elsewhere counts as one only where it runs neither back along the way in nor on in its direction.
     pub(crate) fn close(&self) -> bool {

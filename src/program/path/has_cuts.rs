@@ -63,6 +63,11 @@ pub(crate) trait HasCuts {
             || self.only_lay(cut).map_or_else(by_way, |lay| lay.goes_round)
     }
 
+    /// How far a cut leads on from its start, to which it had come back, µm.
+    fn leads_on(&self, cut: &Self::Cut) -> Option<f64> {
+        self.ends(cut).lead_on()
+    }
+
     /// `not-closed`, of a cut that is not.
     fn not_closed(&self, cut: &Self::Cut, is_fragment: bool) -> Option<Finding> {
         let finding = Finding::of(not_closed(&self.way(cut))?, self.last_block(cut)?);

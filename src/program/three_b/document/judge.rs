@@ -7,7 +7,8 @@ use super::Document;
 use super::sequence::OffPosition;
 use crate::finding::{Detail, Fault, Finding, Rule, Severity};
 use crate::geometry::{Bounds, Vector};
-use crate::program::path::absurd_size;
+use crate::program::followed::Followed;
+use crate::program::path::{HasCuts, absurd_size};
 use std::ops::Range;
 
 impl Document {
@@ -18,6 +19,7 @@ impl Document {
         self.judge_numbers(&mut findings);
         self.judge_positions(&mut findings, off);
         self.judge_size(&mut findings);
+        self.judge_ways(&mut findings);
         self.view.findings = findings;
     }
 
@@ -44,6 +46,23 @@ impl Document {
             && let Some(range) = first()
         {
             findings.push(Finding::of(fault, range));
+        }
+    }
+
+    /// `not-closed`, of a cut that leads on from the start hole to the next contour, without the stop before that.
+    fn judge_ways(&self, findings: &mut Vec<Finding>) {
+        let mut at = (0, 0);
+        while let Some(cut) = self.cut_from(at) {
+            at = self.behind(&cut);
+            // The last one may well end elsewhere.
+            let is_last = self.cut_from(at).is_none_or(|next| next.sum.blocks == 0);
+            if let (false, Some(length), Some(last)) = (
+                is_last,
+                self.leads_on(&cut),
+                HasCuts::last_block(self, &cut),
+            ) {
+                findings.push(Finding::of(Fault::LeadsOn { length }, last));
+            }
         }
     }
 
