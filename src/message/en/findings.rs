@@ -273,7 +273,7 @@ declare! {
     the_other_passes_run_on_the_other_side(side, is, others) => "{side}, which is {is} this contour: its other passes run {others} it, so one of them cuts into the part";
     this_pass_has_a_larger_correction(correction, before, by) => "the correction of this pass, {correction} mm, is above that of the pass before, {before} mm: this one cuts nothing, and the one before has cut {by} mm too deep; corrections decrease from pass to pass";
     this_pass_lies_beside_the_one_before(by) => "the contour of this pass lies {by} mm beside that of the pass before: it cuts into the part on one side and leaves stock on the other";
-    the_correction_ends_before_the_contour => "G40 stands at the last side of the contour: the wire moves over to it while the part is still cut; expected G40 on the lead-out";
+    the_correction_ends_before_the_contour => "G40 is on the last side of the contour: the wire moves over to it while the part is still cut; expected G40 on the lead-out";
     is_a_matter_of_the_machine(word) => "{word} depends on the machine: it is kept, not followed";
     is_often_a_matter_of_the_machine(word, count) => "{word} ({count} times) depends on the machine: it is kept, not followed";
     subprogram_does_not_stand_in_this_text(number) => "subprogram {number} is not in this text: it is not followed";

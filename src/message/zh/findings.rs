@@ -268,7 +268,7 @@ translate! {
     the_other_passes_run_on_the_other_side(side, is, others) => "{side}，即此轮廓的{is}：其余各次切割在{others}，其中必有一次切入工件";
     this_pass_has_a_larger_correction(correction, before, by) => "本次切割的补偿量 {correction} mm 大于上一次的 {before} mm：本次什么也切不到，而上一次已多切 {by} mm；补偿量应逐次递减";
     this_pass_lies_beside_the_one_before(by) => "本次切割的轮廓与上一次相差 {by} mm：一侧切入工件，另一侧留有余量";
-    the_correction_ends_before_the_contour => "G40 写在轮廓的最后一边上：工件尚未切完，电极丝就移到轮廓上；G40 应写在引出段";
+    the_correction_ends_before_the_contour => "G40 写在轮廓的最后一边上：工件尚未切完，电极丝就移到轮廓上；G40 应写在引出线上";
     is_a_matter_of_the_machine(word) => "{word} 由机床决定：保留，不模拟";
     is_often_a_matter_of_the_machine(word, count) => "{word}（{count} 次）由机床决定：保留，不模拟";
     subprogram_does_not_stand_in_this_text(number) => "本文中没有子程序 {number}：不模拟";
