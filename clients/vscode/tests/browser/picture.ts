@@ -132,7 +132,7 @@ export async function picture(checks: Checks): Promise<void> {
       await window.command("Wire EDM: Generate 3B Program…");
       const box = host.page.locator(".quick-input-widget");
       await box.getByText("By Nesting").waitFor();
-      await box.locator("input").fill("Say for Each");
+      await box.locator("input").fill("Choose for Each");
       await host.page.keyboard.press("Enter");
       const roles = { "Contour 1 of 2": "Punch", "Contour 2 of 2": "Opening" };
       for (const [title, role] of Object.entries(roles)) {
