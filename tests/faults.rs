@@ -26,9 +26,10 @@ mod properties;
 #[path = "faults/rivals.rs"]
 mod rivals;
 
+use crate::size::by_day;
 use chance::Chance;
 use contours::{Group, program};
-use inject::{Faulty, inject, kinds};
+use inject::{Faulty, inject, is_one_slip, kinds, more_kinds};
 use judge::{Outcome, Verdict, judge};
 use std::collections::BTreeMap;
 
@@ -77,6 +78,10 @@ impl Tally {
     }
 }
 
+fn all_kinds(group: Group) -> Vec<&'static str> {
+    [kinds(group), more_kinds(group)].concat()
+}
+
 /// Puts every kind of fault into this many programs of a group, and hands out how each came out.
 fn run(group: Group, seed: u64, programs: usize, each: &mut dyn FnMut(&str, &Faulty, &Verdict)) {
     let mut chance = Chance::of_seed(seed);
@@ -93,7 +98,7 @@ fn run(group: Group, seed: u64, programs: usize, each: &mut dyn FnMut(&str, &Fau
             continue;
         }
         taken += 1;
-        for kind in kinds(group) {
+        for kind in all_kinds(group) {
             let Some(faulty) = inject(group, kind, &sound, &mut chance) else {
                 continue;
             };
@@ -126,13 +131,16 @@ fn shown(group: Group, sound: &str, faulty: &Faulty, verdict: &Verdict) -> Strin
     )
 }
 
-/// Whatever is wrong with a program, what fix-all makes of it is what it was, or what stood there.
+/// Whatever is wrong with a program, what fix-all makes of it is what it was, or what stood there. In ISO a line that is typed like
+/// the one before may still be taken for a copy.
 #[test]
 fn fix_all_spoils_no_program() {
     let mut failures = Vec::new();
     for group in Group::ALL {
-        run(group, 1, 3, &mut |sound, faulty, verdict| {
-            if verdict.outcome == Outcome::Wrong {
+        let programs = by_day(2, 6);
+        run(group, 1, programs, &mut |sound, faulty, verdict| {
+            let is_plausible = verdict.outcome == Outcome::Plausible && is_one_slip(faulty.kind);
+            if verdict.outcome == Outcome::Wrong || is_plausible && group != Group::Iso {
                 failures.push(shown(group, sound, faulty, verdict));
             }
         });
@@ -193,7 +201,7 @@ fn table() {
             }
         });
         println!("{}", all.row(group.name()));
-        for kind in kinds(group) {
+        for kind in all_kinds(group) {
             details += &by_kind.get(kind).map_or_else(String::new, |tally| {
                 format!("{}\n", tally.row(&format!("{}: {kind}", group.name())))
             });

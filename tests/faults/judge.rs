@@ -16,7 +16,7 @@ use wedm::text::{TextEdit, edited};
 pub enum Outcome {
     /// It means again what it meant.
     Right,
-    /// It means what the fault made of it.
+    /// It means what the fault made of it, or what some of several slips made.
     Untouched,
     /// It means something else, which closes as exactly as what was meant, and nothing is reported about it.
     Plausible,
@@ -196,9 +196,13 @@ pub fn judge(group: Group, sound: &str, faulty: &Faulty) -> Option<Verdict> {
         .is_some_and(|text| is_same(&meant, &acts(&read(group, text))));
     let mut present = fixed(&document);
     let left = acts(&present);
+    let is_between = || {
+        let mut between = faulty.between.iter();
+        between.any(|text| is_same(&left, &acts(&read(group, text))))
+    };
     let outcome = if is_same(&left, &meant) {
         Outcome::Right
-    } else if is_same(&left, &of_fault) {
+    } else if is_same(&left, &of_fault) || is_between() {
         Outcome::Untouched
     } else if closure(&left) <= closure(&meant) + 1.0 && self::findings(&mut present).is_empty() {
         Outcome::Plausible

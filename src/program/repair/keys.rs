@@ -93,6 +93,46 @@ pub(in crate::program) fn meant(text: &str, pointed: Option<bool>) -> Vec<(Strin
     meant
 }
 
+/// The whole numbers that may have been meant by some digits, each one keystroke away; without zeros in front, but where
+/// numbers are filled up with them.
+pub(in crate::program) fn numbers(digits: &str, is_padded: bool) -> Vec<i64> {
+    let is_plain = !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit());
+    let value = digits.parse::<i64>().ok();
+    let Some(value) = value.filter(|_| is_plain && digits.len() < 18) else {
+        return Vec::new();
+    };
+    let count = digits.len() as u32;
+    let power = |place: u32| 10_i64.pow(place);
+    let digit = |place: u32| value / power(place) % 10;
+    let mut found = Vec::new();
+    for place in 0..=count {
+        let (behind, before) = (value % power(place), value / power(place));
+        for other in 0..10 {
+            found.push(((before * 10 + other) * power(place) + behind, count + 1));
+            if place < count && other != digit(place) {
+                found.push((value + (other - digit(place)) * power(place), count));
+            }
+        }
+        if place < count && count > 1 {
+            let without = value / power(place + 1) * power(place) + behind;
+            found.push((without, count - 1));
+        }
+        if place + 1 < count {
+            let by = digit(place) - digit(place + 1);
+            found.push((value + by * (power(place + 1) - power(place)), count));
+        }
+    }
+    let has_no_zero_more = |(number, long): &(i64, u32)| {
+        is_padded && *long == count || *long == 1 || *number >= power(*long - 1)
+    };
+    found.retain(has_no_zero_more);
+    let mut found: Vec<i64> = found.into_iter().map(|(number, _)| number).collect();
+    found.retain(|number| *number != value);
+    found.sort_unstable();
+    found.dedup();
+    found
+}
+
 /// Superfluous leading zeros of a number.
 fn zeros(text: &str) -> usize {
     let digits = text.trim_start_matches(['-', '+']);
@@ -173,6 +213,23 @@ mod tests {
                     "{text}: {meant}"
                 );
             }
+        }
+    }
+
+    proptest::proptest! {
+        /// Text and numbers agree on what a keystroke makes.
+        #[test]
+        fn numbers_one_key_away_are_those_that_keys_make(digits in "0|[1-9][0-9]{0,7}") {
+            let all = meant(&digits, None).into_iter();
+            let all = all.filter(|(text, key)| {
+                let is_led = text.len() > 1 && text.starts_with('0');
+                !matches!(key, Key::Sign | Key::Point) && !is_led
+            });
+            let mut expected: Vec<i64> = all.filter_map(|(text, _)| text.parse().ok()).collect();
+            expected.retain(|number| number.to_string() != digits);
+            expected.sort_unstable();
+            expected.dedup();
+            proptest::prop_assert_eq!(numbers(&digits, false), expected);
         }
     }
 

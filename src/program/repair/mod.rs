@@ -1,10 +1,14 @@
 //! Repairs of a program in any language: filling a gap, finding the slip that explains the faults, offering repairs,
 //! and choosing those to be made.
 
+pub(super) mod cut;
 pub(super) mod gap;
 pub(super) mod gate;
 pub(super) mod keys;
+pub(super) mod rule;
 pub(super) mod search;
+pub(super) mod slip;
+mod weigh;
 
 use crate::finding::{FixKind, TextFix};
 use crate::geometry::Segment;

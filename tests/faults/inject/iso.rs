@@ -40,6 +40,31 @@ pub(super) fn is_move(line: &str) -> bool {
     has(&['X', 'Y', 'I', 'J']) && !is_setting
 }
 
+/// Whether a line has a centre or a radius.
+pub(super) fn is_arc(line: &str) -> bool {
+    words(line)
+        .iter()
+        .any(|(letter, _)| "IJR".contains(*letter))
+}
+
+/// A line with a coordinate of the one before: none of its own differs then.
+pub(super) fn equal_to(line: &str, before: &str) -> Option<String> {
+    let (own, its) = (words(line), words(before));
+    let number = |text: &str, (letter, range): &(char, Range<usize>)| {
+        (*letter, text[range.clone()].to_owned())
+    };
+    let is_same_shape = own.len() == its.len() && own.iter().zip(&its).all(|(a, b)| a.0 == b.0);
+    let others: Vec<usize> = (0..own.len().min(its.len()))
+        .filter(|&at| own[at].0 != 'N' && number(line, &own[at]) != number(before, &its[at]))
+        .collect();
+    match &others[..] {
+        &[at] if is_same_shape && "XY".contains(own[at].0) => {
+            Some(with(line, own[at].1.clone(), &before[its[at].1.clone()]))
+        }
+        _ => None,
+    }
+}
+
 /// An ISO line with a fault.
 pub(super) fn in_words(kind: &str, line: &str, chance: &mut Chance) -> Option<String> {
     let words = words(line);
@@ -90,6 +115,34 @@ pub(super) fn in_words(kind: &str, line: &str, chance: &mut Chance) -> Option<St
     });
     let is_arc = word('I').is_some() || word('J').is_some();
     let changed = match kind {
+        "arc: digit lost" if !is_arc => return None,
+        "digit lost anywhere" | "arc: digit lost" => {
+            let lost = damaged(&line[any_range.clone()], "digit lost", chance)?;
+            with(line, any_range, &lost)
+        }
+        "lead cut short" => {
+            let text = &line[any_range.clone()];
+            let decimals = text.split_once('.').map_or(0, |(_, places)| places.len());
+            let value: f64 = text.parse().ok()?;
+            let short = value * (0.3 + 0.5 * chance.share());
+            with(line, any_range, &format!("{short:.decimals$}"))
+        }
+        "numbers at random" => {
+            let mut made = line.to_owned();
+            for (letter, range) in words.iter().rev() {
+                if "XYIJ".contains(*letter) {
+                    let text = &line[range.clone()];
+                    let point = text.find('.');
+                    let number = format!("{}", chance.below(20_000));
+                    let number = match point {
+                        Some(_) => format!("{}.{}", number, chance.below(1000)),
+                        None => number,
+                    };
+                    made = with(&made, range.clone(), &number);
+                }
+            }
+            made
+        }
         "X and Y exchanged" => swapped(word('X')?, word('Y')?),
         "I and J exchanged" => swapped(word('I')?, word('J')?),
         "G wrong" if is_arc => {

@@ -27,6 +27,37 @@ pub fn kinds(group: Group) -> Vec<&'static str> {
     kinds
 }
 
+/// Kinds that `kinds` does not hold, of which a table and the goals for repairs are made: most of them are likely and hard to tell
+/// apart from another slip.
+pub fn more_kinds(group: Group) -> Vec<&'static str> {
+    let mut kinds = vec!["digit lost anywhere", "equal to the former"];
+    match group {
+        Group::Compact | Group::Checking => kinds.extend([
+            "X and J exchanged",
+            "Y and J exchanged",
+            "arc: digit lost",
+            "arc: X and Y exchanged",
+        ]),
+        Group::Iso => kinds.extend(["arc: digit lost"]),
+    }
+    kinds.extend(["way in lost", "way out lost", "lead cut short"]);
+    kinds.extend(SEVERAL);
+    kinds
+}
+
+/// More than one slip, or none that anybody has listed.
+const SEVERAL: [&str; 4] = [
+    "two slips",
+    "three slips",
+    "an arc lost",
+    "numbers at random",
+];
+
+/// Whether a kind is one slip of a hand, which a repair should undo.
+pub fn is_one_slip(kind: &str) -> bool {
+    !SEVERAL.contains(&kind)
+}
+
 const THREE_B: [&str; 16] = [
     "X and Y exchanged",
     "G wrong",

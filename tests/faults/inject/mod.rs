@@ -2,11 +2,12 @@
 
 mod iso;
 mod kinds;
+mod more;
 mod three_b;
 
 use crate::faults::chance::Chance;
 use crate::faults::contours::Group;
-pub use kinds::kinds;
+pub use kinds::{is_one_slip, kinds, more_kinds};
 use std::ops::Range;
 
 /// A program with one fault.
@@ -16,6 +17,19 @@ pub struct Faulty {
     pub text: String,
     /// The lines, from 0, of which each is the right place to say so.
     pub lines: Vec<usize>,
+    /// Of several slips, the programs in which only some of them are undone.
+    pub between: Vec<String>,
+}
+
+impl Faulty {
+    fn of(kind: &'static str, text: String, lines: Vec<usize>) -> Faulty {
+        Faulty {
+            kind,
+            text,
+            lines,
+            between: Vec::new(),
+        }
+    }
 }
 
 /// A fault of this kind somewhere in the program; `None` where there is no place for one.
@@ -34,21 +48,17 @@ pub fn inject(group: Group, kind: &'static str, text: &str, chance: &mut Chance)
             let line = chance.of(&blocks);
             let mut kept = lines.clone();
             kept.remove(line);
-            return Some(Faulty {
+            return Some(Faulty::of(
                 kind,
-                text: joined(kept),
-                lines: vec![line.saturating_sub(1), line],
-            });
+                joined(kept),
+                vec![line.saturating_sub(1), line],
+            ));
         }
         "block twice" => {
             let line = chance.of(&blocks);
             let mut more = lines.clone();
             more.insert(line, lines[line]);
-            return Some(Faulty {
-                kind,
-                text: joined(more),
-                lines: vec![line, line + 1],
-            });
+            return Some(Faulty::of(kind, joined(more), vec![line, line + 1]));
         }
         "blocks exchanged" => {
             let pairs: Vec<usize> = blocks
@@ -62,32 +72,31 @@ pub fn inject(group: Group, kind: &'static str, text: &str, chance: &mut Chance)
             let line = chance.of(&pairs);
             let mut other = lines.clone();
             other.swap(line, line + 1);
-            return Some(Faulty {
-                kind,
-                text: joined(other),
-                lines: vec![line, line + 1],
-            });
+            return Some(Faulty::of(kind, joined(other), vec![line, line + 1]));
         }
         _ => {}
+    }
+    if let Some(how) = more::of_lines(group, kind) {
+        return how(group, &lines, &blocks, chance);
     }
     // Not every block has a place for every fault.
     for _ in 0..40 {
         let line = chance.of(&blocks);
-        let changed = match group {
-            Group::Iso => iso::in_words(kind, lines[line], chance),
-            Group::Compact | Group::Checking => three_b::in_block(kind, lines[line], chance),
-        };
+        let changed = in_line(group, kind, lines[line], chance);
         if let Some(changed) = changed.filter(|changed| changed != lines[line]) {
             let mut with: Vec<&str> = lines.clone();
             with[line] = &changed;
-            return Some(Faulty {
-                kind,
-                text: with.concat(),
-                lines: vec![line],
-            });
+            return Some(Faulty::of(kind, with.concat(), vec![line]));
         }
     }
     None
+}
+
+fn in_line(group: Group, kind: &str, line: &str, chance: &mut Chance) -> Option<String> {
+    match group {
+        Group::Iso => iso::in_words(kind, line, chance),
+        Group::Compact | Group::Checking => three_b::in_block(kind, line, chance),
+    }
 }
 
 fn with(line: &str, range: Range<usize>, text: &str) -> String {

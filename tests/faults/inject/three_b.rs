@@ -15,6 +15,17 @@ pub(super) fn block_of(line: &str) -> Option<Fields> {
     fields_of(line.as_bytes(), found?)
 }
 
+/// Whether a line is an arc.
+pub(super) fn is_arc(line: &str) -> bool {
+    block_of(line).is_some_and(|fields| line[fields.motion].contains(['R', 'r']))
+}
+
+/// A line with the block of another one.
+pub(super) fn with_block_of(line: &str, other: &str) -> Option<String> {
+    let range = |line: &str| Some(block_of(line)?.x.start..block_of(line)?.motion.end);
+    Some(with(line, range(line)?, &other[range(other)?]))
+}
+
 /// A 3B block with a fault.
 pub(super) fn in_block(kind: &str, line: &str, chance: &mut Chance) -> Option<String> {
     let fields = block_of(line)?;
@@ -37,15 +48,40 @@ pub(super) fn in_block(kind: &str, line: &str, chance: &mut Chance) -> Option<St
     let (name, quadrant) = motion.split_at(motion.len() - 1);
     let quadrant: usize = quadrant.parse().ok()?;
     let j: f64 = of(&fields.j).parse().ok()?;
+    let is_arc = name.ends_with('R');
+    let swapped = |one: &Range<usize>, other: &Range<usize>| {
+        let swapped = format!("{}{}{}", of(other), &line[one.end..other.start], of(one));
+        with(line, one.start..other.end, &swapped)
+    };
     let changed = match kind {
-        "X and Y exchanged" => {
-            let swapped = format!(
-                "{}{}{}",
-                of(&fields.y),
-                &line[fields.x.end..fields.y.start],
-                of(&fields.x)
-            );
-            with(line, fields.x.start..fields.y.end, &swapped)
+        "arc: X and Y exchanged" if !is_arc => return None,
+        "X and Y exchanged" | "arc: X and Y exchanged" => swapped(&fields.x, &fields.y),
+        "X and J exchanged" => swapped(&fields.x, &fields.j),
+        "Y and J exchanged" => swapped(&fields.y, &fields.j),
+        "arc: digit lost" if !is_arc => return None,
+        "digit lost anywhere" | "arc: digit lost" => {
+            with(line, any.clone(), &damaged(of(&any), "digit lost", chance)?)
+        }
+        "lead cut short" => {
+            let numbers = [&fields.x, &fields.y, &fields.j].map(|range| of(range).parse::<i64>());
+            let [Ok(x), Ok(y), Ok(j)] = numbers else {
+                return None;
+            };
+            // Along an axis both of its numbers are shorter.
+            if is_arc || (x != 0 && y != 0) || x.max(y) != j {
+                return None;
+            }
+            let short = (j as f64 * (0.3 + 0.5 * chance.share())).round() as i64;
+            let [x, y] = [x, y].map(|own| if own == 0 { 0 } else { short });
+            let mut made = with(line, fields.j.clone(), &short.to_string());
+            made = with(&made, fields.y.clone(), &y.to_string());
+            with(&made, fields.x.clone(), &x.to_string())
+        }
+        "numbers at random" => {
+            let number = |chance: &mut Chance| (chance.below(20_000)).to_string();
+            let mut made = with(line, fields.j.clone(), &number(chance));
+            made = with(&made, fields.y.clone(), &number(chance));
+            with(&made, fields.x.clone(), &number(chance))
         }
         "G wrong" => {
             let other = if of(&fields.axis).ends_with(['X', 'x']) {
@@ -73,17 +109,13 @@ pub(super) fn in_block(kind: &str, line: &str, chance: &mut Chance) -> Option<St
             };
             with(line, gone..fields.motion.end, "")
         }
-        "R lost" if name.ends_with('R') => {
-            with(line, fields.motion.start + 1..fields.motion.start + 2, "")
-        }
-        "NR for SR" if name.ends_with('R') => with(
+        "R lost" if is_arc => with(line, fields.motion.start + 1..fields.motion.start + 2, ""),
+        "NR for SR" if is_arc => with(
             line,
             fields.motion.start..fields.motion.start + 1,
             if name.starts_with('N') { "S" } else { "N" },
         ),
-        "line for an arc" if name.ends_with('R') => {
-            with(line, fields.motion.clone(), &format!("L{quadrant}"))
-        }
+        "line for an arc" if is_arc => with(line, fields.motion.clone(), &format!("L{quadrant}")),
         "line for an arc" => with(
             line,
             fields.motion.clone(),

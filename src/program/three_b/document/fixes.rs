@@ -12,7 +12,7 @@ use super::super::rules::{self, Site, TextFix, missing_end, position_mismatch, t
 use super::super::sum::Sum;
 use super::sequence::place_before;
 use super::{At, Document};
-use crate::finding::{Detail, Fault, Finding, FixKind};
+use crate::finding::{Detail, Fault, Finding, FixKind, Rule};
 use crate::program::lookalikes::alike;
 use crate::program::numbering::{self, Renumbering};
 use crate::program::path::{HasCuts, not_closed};
@@ -28,9 +28,18 @@ impl Document {
         finding: &Finding,
         renumbering: Renumbering,
     ) -> Vec<TextFix> {
-        let own = self.fixes_of(finding, renumbering).unwrap_or_default();
-        let of_contour = self.contour_fixes(finding).unwrap_or_default();
-        merged(of_contour, own, false)
+        let mut own = self.fixes_of(finding, renumbering).unwrap_or_default();
+        let of_contour = self.contour_fixes(finding);
+        let cut = || self.cut_of(self.entry_at(finding.place.in_text()?)?);
+        let is_searched = of_contour.is_some() && is_about_numbers(finding.rule);
+        if is_searched && cut().is_some_and(|cut| cut.sum.blocks >= FEWEST_THAT_CLOSE) {
+            // Which of them is wrong is for the search to say.
+            let is_way = |fix: &&mut TextFix| !matches!(fix.kind, FixKind::SetCoordinates { .. });
+            own.iter_mut()
+                .filter(is_way)
+                .for_each(|fix| (fix.preferred, fix.in_fix_all) = (false, false));
+        }
+        merged(of_contour.unwrap_or_default(), own, false)
     }
 
     fn fixes_of(&self, finding: &Finding, renumbering: Renumbering) -> Option<Vec<TextFix>> {
@@ -270,6 +279,17 @@ impl Document {
         let commas: Vec<TextEdit> = decimal_commas(bytes).map(|at| plain(at, 1, '.')).collect();
         (commas.len() == 2).then(|| fix(FixKind::DecimalPoints, commas))?
     }
+}
+
+/// Fewer blocks are a way from one contour to the next.
+const FEWEST_THAT_CLOSE: usize = 3;
+
+/// Whether a rule finds numbers of a block that contradict each other.
+fn is_about_numbers(rule: Rule) -> bool {
+    matches!(
+        rule,
+        Rule::WrongJ | Rule::JOverTurn | Rule::WrongCountingAxis | Rule::PositionMismatch
+    )
 }
 
 /// The commas of coordinates that stand between two digits.

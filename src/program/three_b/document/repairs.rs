@@ -7,7 +7,7 @@ use super::super::layout::{
     layout_in, number_edit, push_end_point, push_fields, push_to_comment_column,
 };
 use super::super::repair::{
-    BLOCKS, Change, Item, Loose, Number, Path, Piece, Repair, Scope, Slip, is_sound, loose, repairs,
+    BLOCKS, Change, Loose, Number, Path, Repair, Scope, Slip, Written, loose, names, repairs,
 };
 use super::super::rules::TextFix;
 use super::{At, Document, JoinedCut};
@@ -123,9 +123,8 @@ impl Document {
         (self.number_before(first), self.view.numbers.step).hash(&mut hasher);
         let stated = |stated: StatedPoint| (stated.at.map(f64::to_bits), stated.decimals);
         self.stated_begin(first).map(stated).hash(&mut hasher);
-        let beside = self.beside(&[first, last]).into_iter();
-        let beside =
-            beside.map(|motions| motions.into_iter().map(Motion::name).collect::<Vec<_>>());
+        let beside = self.beside(&[first, last]);
+        let beside = beside.iter().map(|blocks| names(blocks));
         beside.collect::<Vec<_>>().hash(&mut hasher);
         Some(hasher.finish())
     }
@@ -134,7 +133,7 @@ impl Document {
         &self,
         cut: &JoinedCut,
         places: &[At],
-        pieces: &[Piece],
+        pieces: &[Written],
     ) -> Option<(usize, Fault)> {
         let path = self.path_of(cut, places, pieces, false);
         let found = repairs(&path, Scope::Blocks);
@@ -149,7 +148,7 @@ impl Document {
         let is_sure = best.is_sure;
         // One field of another block would do as well.
         let is_field =
-            |slip: &Slip| matches!(slip, Slip::Motion | Slip::Axis | Slip::Number(Number::J, _));
+            |slip: &Slip| matches!(slip, Slip::Motion | Slip::Axis | Slip::Number(Number::J));
         let is_rival = |other: &Repair| {
             let Change::Replace {
                 meant: (_, slip), ..
@@ -162,7 +161,7 @@ impl Document {
         if !is_sure && (!is_field(&slip) || others.iter().any(is_rival)) {
             return None;
         }
-        let old = pieces.get(index)?.item.block?;
+        let old = pieces.get(index)?.block?;
         let fault = match slip {
             Slip::Motion => {
                 let [found, meant] = [old.motion, block.motion].map(Motion::name);
@@ -176,8 +175,8 @@ impl Document {
                 axis: old.axis,
                 is_sure,
             },
-            Slip::Exchanged => Fault::ExchangedKeepsOpen,
-            Slip::Number(number, _) => match number.axis() {
+            Slip::Exchanged([Number::X, Number::Y]) => Fault::ExchangedKeepsOpen,
+            Slip::Number(number) => match number.axis() {
                 Some(axis) => {
                     let [value, meant] = [old, block].map(|block| axis.of([block.x, block.y]));
                     Fault::NumberKeepsOpen { axis, value, meant }
@@ -188,7 +187,7 @@ impl Document {
                     is_sure,
                 },
             },
-            Slip::Coordinates | Slip::Unread { .. } => return None,
+            Slip::Coordinates | Slip::Unread | Slip::Exchanged(_) => return None,
         };
         Some((index, fault))
     }
@@ -197,12 +196,12 @@ impl Document {
         &'a self,
         cut: &JoinedCut,
         places: &[At],
-        pieces: &'a [Piece],
+        pieces: &'a [Written],
         is_closed: bool,
     ) -> Path<'a> {
         let first = places.first().copied();
         Path {
-            pieces,
+            blocks: pieces,
             start: first.and_then(|first| self.stated_begin(first)),
             number: first.and_then(|first| self.number_before(first)),
             step: self.view.numbers.step,
@@ -213,18 +212,19 @@ impl Document {
         }
     }
 
-    /// The motions of the cut before some blocks and of the one after them.
-    fn beside(&self, places: &[At]) -> Vec<Vec<Motion>> {
+    /// The blocks of the cuts before and after some blocks: those that they follow, and those beyond a way between two contours.
+    fn beside(&self, places: &[At]) -> Vec<Vec<Block>> {
         let (Some(first), Some(last)) = (places.first(), places.last()) else {
             return Vec::new();
         };
-        let mut before = motions_of(self.before(*first));
-        before.reverse();
-        vec![before, motions_of(self.from(*last).skip(1))]
+        let mut before = cuts_of(self.before(*first));
+        before.iter_mut().for_each(|blocks| blocks.reverse());
+        before.extend(cuts_of(self.from(*last).skip(1)));
+        before
     }
 
     /// The blocks of a contour, including unreadable ones; `None` where there are too few or too many.
-    fn pieces_of(&self, cut: &JoinedCut) -> Option<(Vec<At>, Vec<Piece>)> {
+    fn pieces_of(&self, cut: &JoinedCut) -> Option<(Vec<At>, Vec<Written>)> {
         if !BLOCKS.contains(&(cut.sum.blocks + cut.sum.unread)) {
             return None;
         }
@@ -239,16 +239,13 @@ impl Document {
                         let digits = self.text.bytes().get(range.clone()).unwrap_or_default();
                         String::from_utf8_lossy(digits).into_owned()
                     };
-                    Piece {
-                        item: Item {
-                            stated: block.stated_end(),
-                            number: entry.number(),
-                            part: block.part(),
-                            is_faulty: !is_sound(&block.block(), block.part(), &self.limits),
-                            ..Item::of(&block.block())
-                        },
+                    Written {
+                        block: Some(block.block()),
+                        part: block.part(),
                         loose: None,
                         digits: [&fields.x, &fields.y, &fields.j].map(digits),
+                        number: entry.number(),
+                        stated: block.stated_end(),
                     }
                 }
                 What::Unread => {
@@ -258,14 +255,11 @@ impl Document {
                         .iter()
                         .position(|byte| *byte == b';')
                         .and_then(|at| two_numbers(before_comment(&text[at + 1..])));
-                    Piece {
-                        item: Item {
-                            stated: behind.map(|at| StatedPoint { at, decimals: 3 }),
-                            number: entry.number(),
-                            ..Item::default()
-                        },
+                    Written {
+                        stated: behind.map(|at| StatedPoint { at, decimals: 3 }),
+                        number: entry.number(),
                         loose: loose(before_comment(text)),
-                        digits: Default::default(),
+                        ..Written::default()
                     }
                 }
                 _ => continue,
@@ -280,7 +274,7 @@ impl Document {
         &self,
         change: &Change,
         places: &[At],
-        pieces: &[Piece],
+        pieces: &[Written],
         is_jump: bool,
     ) -> Option<(FixKind, Vec<TextEdit>)> {
         let text = self.text.bytes();
@@ -297,7 +291,7 @@ impl Document {
                 index,
                 meant: (block, slip),
             } => {
-                let Some(old) = pieces.get(*index)?.item.block else {
+                let Some(old) = pieces.get(*index)?.block else {
                     return self.restoration(own(*index)?, pieces[*index].loose.as_ref()?, block);
                 };
                 let fields = fields_of(text, own(*index)?)?;
@@ -370,14 +364,14 @@ impl Document {
         index: usize,
         block: &Block,
         places: &[At],
-        pieces: &[Piece],
+        pieces: &[Written],
         is_jump: bool,
     ) -> Option<(FixKind, Vec<TextEdit>)> {
         let text = self.text.bytes();
         let model = index.saturating_sub(1);
         let own = self.range_of(*places.get(model)?);
         let line = self.text.line_range(self.text.line_of(own.start));
-        let item = |index: usize| pieces.get(index).map(|piece| &piece.item);
+        let item = |index: usize| pieces.get(index);
         let mut made = Vec::new();
         let first = || self.number_before(*places.first()?);
         let number = item(model)
@@ -434,6 +428,9 @@ impl Document {
 }
 
 fn kind_of(old: &Block, new: &Block, slip: &Slip) -> FixKind {
+    let numbers = |block: &Block| [block.x, block.y, block.j];
+    let pairs = numbers(old).into_iter().zip(numbers(new));
+    let are_several = pairs.filter(|(old, new)| old != new).count() > 1;
     match slip {
         Slip::Motion => FixKind::SetMotion {
             name: new.motion.name(),
@@ -442,33 +439,49 @@ fn kind_of(old: &Block, new: &Block, slip: &Slip) -> FixKind {
             axis: new.axis,
             j: (old.j != new.j).then_some(new.j),
         },
-        Slip::Exchanged => FixKind::ExchangeXAndY,
-        Slip::Number(number, _) => match number.axis() {
+        Slip::Exchanged([Number::X, Number::Y]) => FixKind::ExchangeXAndY,
+        Slip::Exchanged(_) | Slip::Number(_) if are_several => {
+            let shown = |block: &Block| numbers(block).map(|number| format!("B{number}")).concat();
+            FixKind::Rewrite {
+                found: shown(old),
+                meant: shown(new),
+            }
+        }
+        Slip::Number(number) => match number.axis() {
             Some(axis) => FixKind::SetEnd {
                 axis,
                 value: axis.of([new.x, new.y]),
             },
             None => FixKind::SetJ { j: new.j },
         },
-        Slip::Coordinates | Slip::Unread { .. } => FixKind::FollowCoordinates,
+        Slip::Coordinates | Slip::Unread | Slip::Exchanged(_) => FixKind::FollowCoordinates,
     }
 }
 
-/// The motions of the blocks between the next word and the one after it; none where a block cannot be read.
-fn motions_of<'a>(mut entries: impl Iterator<Item = (At, &'a Entry)>) -> Vec<Motion> {
-    let mut motions = Vec::new();
-    let is_word = |entry: &Entry| matches!(entry.what, What::Word { .. });
-    if !entries.any(|(_, entry)| is_word(entry)) {
-        return motions;
-    }
-    for (_, entry) in entries.take_while(|(_, entry)| !is_word(entry)) {
-        match &entry.what {
-            What::Block(block) if motions.len() < *BLOCKS.end() => {
-                motions.push(block.block().motion);
+/// How many words on from a cut others are looked at that may be its passes, or have leads like it.
+const WORDS_BESIDE: usize = 3;
+
+/// The blocks between the next word and the one after it, and so on; none of a cut where a block cannot be read.
+fn cuts_of<'a>(entries: impl Iterator<Item = (At, &'a Entry)>) -> Vec<Vec<Block>> {
+    let mut cuts: Vec<Option<Vec<Block>>> = Vec::new();
+    for (_, entry) in entries {
+        if let What::Word { .. } = entry.what {
+            if cuts.len() == WORDS_BESIDE {
+                break;
             }
-            What::Block(_) | What::Unread => return Vec::new(),
+            cuts.push(Some(Vec::new()));
+            continue;
+        }
+        let Some(cut) = cuts.last_mut() else {
+            continue;
+        };
+        match (&entry.what, &mut *cut) {
+            (What::Block(block), Some(blocks)) if blocks.len() < *BLOCKS.end() => {
+                blocks.push(block.block());
+            }
+            (What::Block(_) | What::Unread, _) => *cut = None,
             _ => {}
         }
     }
-    motions
+    cuts.into_iter().flatten().collect()
 }

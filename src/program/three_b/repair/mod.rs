@@ -1,32 +1,28 @@
-//! A faulty contour of 3B: the possible intended blocks, and their intended ends.
+//! A faulty contour of 3B: its blocks, and what each may have been before one slip.
 //!
-//! The evidence is whether it closes, whether the coordinates and numbers around the blocks agree, and whether it runs
-//! smoothly. Long contours are not searched.
+//! Which of them is meant is decided by [`crate::program::repair::rule`]. Long contours are not searched.
 
-mod evidence;
 mod loose;
 mod slips;
 
 pub(super) use loose::{Loose, Number, loose};
+use slips::is_odd_ratio;
 pub(super) use slips::{Slip, is_sound};
 
 use super::around::StatedPoint;
 use super::block::{Block, Motion, PartArc};
 use super::decode::meant as decode;
 use super::encode::encode;
-use super::entry::{Move, travel_of};
+use super::entry::travel_of;
 use super::rules::Limits;
-use super::rules::position_mismatch::mismatch;
 use crate::geometry::{Point, Segment, Vector};
 use crate::program::grid::Node;
-use crate::program::path::tolerance;
-use crate::program::repair::search::{self, Contour, Verdict, search};
-use evidence::{AgainstContour, Joints, crosses_itself, is_mirrored, joints};
-use slips::{Wanted, straight};
-use std::mem::{Discriminant, discriminant};
+use crate::program::repair::cut::{Piece, Pieces, Stated, is_mirrored};
+use crate::program::repair::rule::search;
+use crate::program::repair::slip::{self, Cut, Ends, Sort};
 
-pub(super) type Change = search::Change<(Block, Slip)>;
-pub(super) type Repair = search::Repair<(Block, Slip)>;
+pub(super) type Change = slip::Change<(Block, Slip)>;
+pub(super) type Repair = slip::Repair<(Block, Slip)>;
 
 /// Contours of more blocks cost too long to try.
 pub(super) const BLOCKS: std::ops::RangeInclusive<usize> = 1..=1000;
@@ -34,63 +30,65 @@ pub(super) const BLOCKS: std::ops::RangeInclusive<usize> = 1..=1000;
 /// Contours of fewer blocks could be closed by too many changes.
 pub(super) const FEWEST_BLAMED: usize = 4;
 
-/// The largest distance of coordinates with three decimals from a block's end, µm.
-const STATED: f64 = 4.0;
+/// The fewest blocks of a cut that has leads.
+const FEWEST_WITH_LEADS: usize = 4;
 
-/// The most changes that are tried.
-const LOOKED_AT: usize = 400;
-
-/// The most blocks that are run for them: in a long contour fewer changes are tried.
-const LOOKED_THROUGH: usize = 40_000;
-
-/// A block of a contour on its way, changed or not.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Item {
-    /// `None` for an unreadable one.
-    pub(crate) block: Option<Block>,
-    pub(crate) travel: Move,
-    /// What it means, from the origin.
-    pub(crate) way: Option<Segment>,
-    pub(crate) stated: Option<StatedPoint>,
-    pub(crate) number: Option<u32>,
-    /// That of a 4B block.
-    pub(crate) part: Option<PartArc>,
-    /// A rule finds a fault in the block alone.
-    pub(crate) is_faulty: bool,
-}
-
-impl Item {
-    pub(crate) fn of(block: &Block) -> Item {
-        Item {
-            block: Some(*block),
-            travel: travel_of(block),
-            way: decode(block, Point::origin()),
-            ..Item::default()
-        }
-    }
-
-    fn is_arc(&self) -> bool {
-        self.block.is_some_and(|block| !block.motion.is_line())
-    }
-
-    fn is_unread(&self) -> bool {
-        self.block.is_none()
-    }
-}
+/// Characters of a block.
+const BLOCK_KEYS: i32 = 20;
 
 /// A block of a contour as it stands in the text.
-#[derive(Clone, Debug)]
-pub(super) struct Piece {
-    pub(crate) item: Item,
+#[derive(Clone, Debug, Default)]
+pub(super) struct Written {
+    /// `None` for an unreadable one.
+    pub(crate) block: Option<Block>,
+    /// That of a 4B block.
+    pub(crate) part: Option<PartArc>,
     /// Its remains, if it is unreadable.
     pub(crate) loose: Option<Loose>,
     /// X, Y and J as they are written.
     pub(crate) digits: [String; 3],
+    pub(crate) number: Option<u32>,
+    pub(crate) stated: Option<StatedPoint>,
+}
+
+impl Written {
+    fn piece(&self, limits: &Limits) -> Piece {
+        let own = self.block.as_ref().map(piece_of).unwrap_or_default();
+        Piece {
+            stated: self.stated.map(stated),
+            number: self.number,
+            is_unread: self.block.is_none(),
+            is_unsound: self
+                .block
+                .is_some_and(|block| !is_sound(&block, self.part, limits)),
+            ..own
+        }
+    }
+}
+
+/// A block as the search sees it.
+fn piece_of(block: &Block) -> Piece {
+    let travel = travel_of(block);
+    let [x, y] = travel.meant_um();
+    Piece {
+        curve: decode(block, Point::origin()),
+        by: Vector::new(x, y),
+        machine: Vector::new(travel.machine[0] as f64, travel.machine[1] as f64),
+        ..Piece::default()
+    }
+}
+
+fn stated(point: StatedPoint) -> Stated {
+    let [x, y] = point.at.map(|mm| mm * 1000.0);
+    Stated {
+        at: Point::new(x, y),
+        step: 10_f64.powi(3 - i32::from(point.decimals)),
+    }
 }
 
 /// A faulty contour.
 pub(super) struct Path<'a> {
-    pub(crate) pieces: &'a [Piece],
+    pub(crate) blocks: &'a [Written],
     /// The place stated before its first block, and the last number there.
     pub(crate) start: Option<StatedPoint>,
     pub(crate) number: Option<u32>,
@@ -101,8 +99,8 @@ pub(super) struct Path<'a> {
     pub(crate) is_jump: bool,
     /// It is not reported as open: it closes, if only together with others.
     pub(crate) is_closed: bool,
-    /// The motions of the cuts before and after it: those of its other passes, perhaps.
-    pub(crate) beside: Vec<Vec<Motion>>,
+    /// The blocks of the cuts before and after it: perhaps its other passes.
+    pub(crate) beside: Vec<Vec<Block>>,
 }
 
 /// Which repairs are handed out.
@@ -117,376 +115,273 @@ pub(super) enum Scope {
 /// The repairs of a contour, the most likely one first.
 pub(super) fn repairs(path: &Path<'_>, scope: Scope) -> Vec<Repair> {
     let suspect = Suspect::of(path, scope);
-    if suspect.before.count() == 0 && scope == Scope::Blocks {
+    if suspect.is_sound && scope == Scope::Blocks {
         return Vec::new();
     }
-    search(&suspect, &mut LOOKED_AT.clone())
+    search(&suspect)
+}
+
+/// Whether the way out of some blocks is their way in backwards; `None` of a cut that has no leads.
+pub(super) fn has_mirrored_leads(blocks: &[Block]) -> Option<bool> {
+    let (first, last) = blocks.first().zip(blocks.last())?;
+    let ends = [first, last].map(piece_of);
+    let between = Piece::along(Segment::line(Point::origin(), Point::new(1.0, 0.0)));
+    (blocks.len() >= FEWEST_WITH_LEADS).then(|| is_mirrored([ends[0], between, ends[1]].iter()))
 }
 
 struct Suspect<'a> {
     path: &'a Path<'a>,
     scope: Scope,
-    items: Vec<Item>,
-    before: AgainstContour,
-    joints: Joints,
-    arcs: usize,
-    /// The end of all of it.
-    total: Move,
-    /// The way out is the way in backwards.
-    is_mirrored: bool,
-    /// It must return to its start.
-    closes: bool,
+    pieces: Pieces,
+    /// Nothing contradicts it.
+    is_sound: bool,
+    is_open: bool,
     is_four_b: bool,
+    others_are_mirrored: bool,
+    /// The cuts beside it that may be its other passes.
+    beside: Vec<Vec<Turning>>,
     /// How wide X, Y and J are written.
     widths: [usize; 3],
-    /// The blocks before which a number is missing.
-    lost: Vec<usize>,
 }
 
-/// The result of a change: at which block, what kind of block, what radius, how far.
-struct Lead {
-    at: usize,
-    kind: (Discriminant<Change>, Option<Discriminant<Motion>>),
-    radius: f64,
-    /// The centre seen from the start, µm: a full circle leads nowhere, wherever it lies.
-    center: Vector,
-    by: Move,
-}
-
-impl Contour for Suspect<'_> {
+impl Cut for Suspect<'_> {
     type Meant = (Block, Slip);
-    type Lead = Lead;
 
-    const CLEARLY: f64 = 0.4;
-
-    fn finalists(&self) -> usize {
-        (LOOKED_THROUGH / self.items.len().max(1)).min(LOOKED_AT)
+    fn pieces(&self) -> &Pieces {
+        &self.pieces
     }
 
-    /// The place after the last block is one where a block may be lost.
-    fn order(&self) -> Vec<usize> {
-        (0..=self.items.len()).collect()
-    }
-
-    fn meant(&self, index: usize) -> Vec<((Block, Slip), f64)> {
-        let Some(piece) = self.path.pieces.get(index) else {
+    fn slips(&self, index: usize, ends: &Ends) -> Vec<slip::Slip<(Block, Slip)>> {
+        let Some(own) = self.path.blocks.get(index) else {
             return Vec::new();
         };
-        let wanted = self.wanted(index);
-        match (&piece.item.block, &piece.loose) {
-            (Some(block), _) => {
-                let mut found = self.replaced(block, piece, &wanted);
-                // Numbers of a way in that the way out has, too, are right.
-                let is_lead = self.is_end(index) && self.is_mirrored && !piece.item.is_faulty;
-                if is_lead && self.stated(index).is_none() {
-                    found.retain(|((_, slip), _)| *slip == Slip::Motion);
-                }
-                found
-            }
-            (None, Some(loose)) => self.restored(loose, &wanted),
+        match (&own.block, &own.loose) {
+            (Some(block), _) => self.replaced(index, block, own, ends),
+            (None, Some(loose)) => self.restored(index, loose, ends),
             (None, None) => Vec::new(),
         }
     }
 
-    fn deleted(&self, index: usize) -> Option<f64> {
-        let (own, before) = (self.items.get(index)?, self.before(index)?);
-        let is_twin = own.block.is_some() && own.block == before.block;
-        (is_twin && (own.number == before.number || self.before.off > 0)).then_some(0.2)
+    fn deleted(&self, index: usize) -> Option<slip::Slip<(Block, Slip)>> {
+        let (own, before) = (self.path.blocks.get(index)?, index.checked_sub(1)?);
+        let before = self.path.blocks.get(before)?;
+        let is_equal = own.block.is_some() && own.block == before.block;
+        let is_stated_again = match (own.stated, before.stated) {
+            (Some(own), Some(before)) => own.at == before.at,
+            (own, before) => own.is_none() && before.is_none(),
+        };
+        let is_twin = is_equal && own.number == before.number && is_stated_again;
+        Some(slip::Slip {
+            change: Change::Delete { index },
+            count: 1,
+            pieces: Vec::new(),
+            sort: if is_twin { Sort::Twin } else { Sort::Deletion },
+            keys: if is_twin { 1 } else { BLOCK_KEYS },
+        })
     }
 
-    fn exchanged(&self, index: usize) -> Option<f64> {
-        let (own, next) = (self.items.get(index)?, self.items.get(index + 1)?);
+    fn exchanged(&self, index: usize) -> Option<slip::Slip<(Block, Slip)>> {
+        let blocks = self.path.blocks;
+        let (own, next) = (blocks.get(index)?, blocks.get(index + 1)?);
         let is_out_of_turn = own.number.zip(next.number).is_some_and(|(a, b)| a > b);
         let is_plain = own.number.is_none() && own.stated.is_none();
-        let may_be =
-            is_out_of_turn || self.off(index).is_some() || (self.before.count() == 0 && is_plain);
+        let may_be = is_out_of_turn || self.pieces.is_off(index) || (self.is_sound && is_plain);
         let is_read = own.block.is_some() && next.block.is_some();
-        (may_be && is_read && own.block != next.block).then_some(1.2)
+        let pieces = self.pieces.all.get(index..index + 2)?;
+        (may_be && is_read && own.block != next.block).then(|| slip::Slip {
+            change: Change::Exchange { index },
+            count: 2,
+            pieces: vec![pieces[1], pieces[0]],
+            sort: Sort::Exchange,
+            keys: 1,
+        })
     }
 
-    fn gaps(&self, index: usize) -> Vec<Vector> {
-        let (
-            Some(first),
-            AgainstContour {
-                unread: 0,
-                faulty: 0,
-                ..
-            },
-        ) = (self.items.first(), self.before)
-        else {
-            return Vec::new();
-        };
+    fn inserted(&self, index: usize, way: &Segment) -> Option<slip::Slip<(Block, Slip)>> {
+        let first = self.path.blocks.first()?;
         // Counting begins with the first block.
         let may_be_first = self.path.number.is_some()
             || first
                 .number
                 .zip(self.path.step)
                 .is_none_or(|(first, step)| first > step);
-        let is_lost_here = self.lost.is_empty() || self.lost.contains(&index);
-        let gap = |[x, y]: [f64; 2]| Vector::new(x.round(), y.round());
-        let total = self.total.meant_um();
         if index == 0 && !may_be_first {
-            Vec::new()
-        } else if let Some([from, to]) = self.off(index) {
-            let own = self.items[index].travel.meant_um();
-            vec![gap([0, 1].map(|axis| {
-                (to.at[axis] - from.at[axis]) * 1000.0 - own[axis]
-            }))]
-        } else if self.before.is_open && self.before.off == 0 && is_lost_here {
-            let lead = first.travel.meant_um();
-            let from_lead = gap([lead[0] - total[0], lead[1] - total[1]]);
-            let mut gaps = vec![gap(total.map(|um| -um))];
-            gaps.extend((!self.is_mirrored).then_some(from_lead));
-            gaps
-        } else {
-            Vec::new()
+            return None;
         }
-    }
-
-    fn headings(&self, index: usize) -> Option<[Vector; 2]> {
-        // The way in meets the contour with a corner.
-        let is_at_lead = self.is_mirrored && (index <= 1 || index + 1 >= self.items.len());
-        let (before, behind) = (self.before(index)?.way?, self.items.get(index)?.way?);
-        (!is_at_lead).then(|| [before.end_tangent(), behind.start_tangent()])
-    }
-
-    fn filling(&self, index: usize, way: &Segment) -> Option<((Block, Slip), f64)> {
         let end = way.end();
         let node = Node {
             x: end.x as i64,
             y: end.y as i64,
         };
-        let Some(arc) = way.as_arc() else {
-            let line = straight(&Wanted {
-                by: [end.x, end.y],
-                near: STATED,
-            })?;
-            // Coordinates without a line along an axis between them are evidence for a lost one.
-            let is_plain = self.stated(index).is_some() && (line.x == 0 || line.y == 0);
-            return Some(((line, Slip::Coordinates), if is_plain { 1.3 } else { 2.5 }));
+        let block = match way.as_arc() {
+            None => slips::straight([end.x, end.y])?,
+            Some(_) => {
+                let mut blocks = Vec::new();
+                let largest = self.path.limits.largest();
+                encode(way, Node { x: 0, y: 0 }, node, largest, &mut blocks)?;
+                match &blocks[..] {
+                    [one] => one.block,
+                    _ => return None,
+                }
+            }
         };
-        let mut blocks = Vec::new();
-        let largest = self.path.limits.largest();
-        encode(way, Node { x: 0, y: 0 }, node, largest, &mut blocks)?;
-        let [one] = &blocks[..] else { return None };
-        if self.lacks_a_part(&one.block, None) {
+        if self.lacks_a_part(&block, None) {
             return None;
         }
-        // A half turn or more joins two sides of a slot where everything else is smooth, and elsewhere replaces a
-        // corner's line.
-        let is_likely =
-            arc.sweep.abs() < 2.9 || 2 * self.joints.round > self.items.len() as i32 - 2;
-        Some((
-            (one.block, Slip::Coordinates),
-            if is_likely { 2.2 } else { 5.0 },
-        ))
-    }
-
-    fn judged(&self, change: &Change, cost: f64) -> (Option<Verdict>, usize) {
-        (self.verdict(change, cost), 1)
-    }
-
-    fn lead(&self, change: &Change) -> Lead {
-        let meant = match change {
-            Change::Replace {
-                meant: (block, _), ..
-            } => Some(block),
-            _ => None,
+        let mut piece = piece_of(&block);
+        let number = match index.checked_sub(1) {
+            Some(before) => self.path.blocks.get(before)?.number,
+            None => self.path.number,
         };
-        let by = change.meant().map(|(block, _)| travel_of(block));
-        Lead {
-            at: change.index(),
-            kind: (
-                discriminant(change),
-                meant.map(|block| discriminant(&block.motion)),
-            ),
-            radius: meant
-                .filter(|block| !block.motion.is_line())
-                .map_or(0.0, |block| (block.x as f64).hypot(block.y as f64)),
-            center: meant
-                .and_then(|block| decode(block, Point::origin()))
-                .and_then(|way| way.as_arc().map(|arc| arc.center - arc.start))
-                .unwrap_or_default(),
-            by: by.unwrap_or_default(),
-        }
+        let numbers = number.zip(self.path.step);
+        piece.number = numbers.map(|(number, step)| number.saturating_add(step));
+        let from = self.pieces.stated_before(index);
+        piece.stated = from.map(|from| Stated {
+            at: from.at + piece.by,
+            ..from
+        });
+        Some(slip::Slip {
+            change: Change::Insert {
+                index,
+                meant: (block, Slip::Coordinates),
+            },
+            count: 0,
+            pieces: vec![piece],
+            sort: Sort::Insertion,
+            // A half turn is hardly lost.
+            keys: match way.as_arc() {
+                Some(arc) if arc.sweep.abs() > 2.9 => BLOCK_KEYS + 5,
+                Some(_) => BLOCK_KEYS + 1,
+                None => BLOCK_KEYS,
+            },
+        })
     }
 
-    /// Into lines, or into arcs of one turn.
-    fn is_alike(one: &Lead, other: &Lead) -> bool {
-        one.at == other.at
-            && one.kind == other.kind
-            && one.by.minus(other.by).is_within(2.5)
-            && (one.radius - other.radius).abs() <= 3.0
-            && (one.center - other.center).norm() <= 8.0
-    }
-
-    /// Two numbers of one block that may each be wrong.
-    fn is_either(&self, one: &Change, other: &Change) -> bool {
-        let number = |change: &Change| match change {
-            Change::Replace {
-                meant: (_, Slip::Number(number, _)),
-                ..
-            } => Some(*number),
-            _ => None,
+    /// Another pass has the same motions.
+    fn likeness(&self, index: usize, count: usize, pieces: &[Piece]) -> i32 {
+        let length = self.pieces.all.len() + pieces.len() - count;
+        let is_own = |other: &Vec<Turning>| {
+            other.len() == length && {
+                let all = self.pieces.with(index, count, pieces);
+                other.iter().copied().eq(all.iter().map(turning))
+            }
         };
-        number(one) != number(other)
+        i32::from(self.beside.iter().any(is_own))
+    }
+
+    fn others_are_mirrored(&self) -> bool {
+        self.others_are_mirrored
+    }
+
+    fn offers_lost(&self) -> bool {
+        self.scope == Scope::All
     }
 
     fn holds(&self, change: &Change) -> bool {
         self.scope == Scope::All
             || !matches!(change, Change::Insert { .. } | Change::Exchange { .. })
     }
+}
 
-    fn crosses(&self, change: Option<&Change>, left: &mut usize) -> Option<bool> {
-        let changed = change.map(|change| self.with(change));
-        crosses_itself(changed.as_ref().unwrap_or(&self.items), self.arcs, left)
-    }
+/// Which way a piece begins, and how it turns.
+type Turning = Option<[i8; 3]>;
+
+fn turning(piece: &Piece) -> Turning {
+    let curve = piece.curve?;
+    let sign = |value: f64| match value.abs() < 1e-9 {
+        true => 0,
+        false => value.signum() as i8,
+    };
+    let begin = curve.start_tangent();
+    let sweep = curve.as_arc().map_or(0.0, |arc| arc.sweep);
+    Some([sign(begin.x), sign(begin.y), sign(sweep)])
 }
 
 impl<'a> Suspect<'a> {
     fn of(path: &'a Path<'a>, scope: Scope) -> Suspect<'a> {
-        let items: Vec<Item> = path.pieces.iter().map(|piece| piece.item).collect();
-        let is_lost = |index: &usize| {
-            let [before, own] = [index - 1, *index].map(|index| items[index].number);
-            let numbers = before.zip(own).zip(path.step);
-            numbers.is_some_and(|((before, own), step)| own == before.saturating_add(2 * step))
+        let blocks = path.blocks.iter();
+        let mut pieces = Pieces {
+            all: blocks.map(|own| own.piece(path.limits)).collect(),
+            start: path.start.map(stated),
+            number: path.number,
+            step: path.step,
+            closes: !path.is_jump,
+            ..Pieces::default()
         };
-        let mut suspect = Suspect {
+        let mut against = pieces.against();
+        let count = pieces.all.len();
+        // Where most are out of their turn, the numbers follow another rule.
+        if count > 1 && 2 * against.out_of_turn > count {
+            pieces.step = None;
+        }
+        if against.is_open && path.is_closed {
+            pieces.closes = false;
+        } else if against.is_open {
+            let blocks = path.blocks.iter().map(|own| own.block);
+            for (piece, block) in pieces.all.iter_mut().zip(blocks) {
+                piece.is_unsound |= block.is_some_and(|block| is_odd_ratio(&block));
+            }
+        }
+        against = pieces.against();
+        let is_pass = |blocks: &&Vec<Block>| blocks.len().abs_diff(count) <= 1 && count > 1;
+        let turnings = |blocks: &Vec<Block>| -> Vec<Turning> {
+            let all = blocks.iter().map(|block| turning(&piece_of(block)));
+            all.collect()
+        };
+        let beside = path.beside.iter().filter(is_pass).map(turnings).collect();
+        let leads: Vec<bool> = path
+            .beside
+            .iter()
+            .filter_map(|blocks| has_mirrored_leads(blocks))
+            .collect();
+        Suspect {
             path,
             scope,
-            before: AgainstContour::default(),
-            joints: joints(&items),
-            arcs: items
-                .iter()
-                .filter(|item| item.is_arc() || item.is_unread())
-                .count(),
-            total: items
-                .iter()
-                .fold(Move::default(), |sum, item| sum.plus(item.travel)),
-            is_mirrored: is_mirrored(&items),
-            closes: !path.is_jump,
-            is_four_b: items.iter().any(|item| item.part.is_some()),
-            widths: slips::widths(path.pieces),
-            lost: (1..items.len()).filter(is_lost).collect(),
-            items,
+            is_sound: against.count() == 0,
+            is_open: against.is_open,
+            is_four_b: path.blocks.iter().any(|own| own.part.is_some()),
+            others_are_mirrored: !leads.is_empty() && leads.iter().all(|mirrored| *mirrored),
+            widths: slips::widths(path.blocks),
+            beside,
+            pieces,
+        }
+    }
+
+    /// True for an arc without a radius among arcs of 4B, which have one.
+    fn lacks_a_part(&self, block: &Block, part: Option<PartArc>) -> bool {
+        !block.motion.is_line() && part.is_none() && self.is_four_b
+    }
+
+    /// A block in the place of another one.
+    fn slip(
+        &self,
+        index: usize,
+        (block, how): (Block, Slip),
+        sort: Sort,
+        keys: i32,
+    ) -> slip::Slip<(Block, Slip)> {
+        let old = self.pieces.all[index];
+        let piece = Piece {
+            stated: old.stated,
+            number: old.number,
+            ..piece_of(&block)
         };
-        suspect.before = suspect.against(&suspect.items);
-        if suspect.before.is_open && path.is_closed {
-            (suspect.before.is_open, suspect.closes) = (false, false);
-        }
-        suspect
-    }
-
-    /// The block before one.
-    fn before(&self, index: usize) -> Option<&Item> {
-        self.items.get(index.checked_sub(1)?)
-    }
-
-    /// The place stated before a block, or before the first one.
-    fn stated_before(&self, index: usize) -> Option<StatedPoint> {
-        match index {
-            0 => self.path.start,
-            _ => self.before(index)?.stated,
-        }
-    }
-
-    /// The stated points about a block, where both are there.
-    fn stated(&self, index: usize) -> Option<[StatedPoint; 2]> {
-        Some([self.stated_before(index)?, self.items.get(index)?.stated?])
-    }
-
-    /// The stated points about a block that leads elsewhere.
-    fn off(&self, index: usize) -> Option<[StatedPoint; 2]> {
-        let stated = self.stated(index)?;
-        let [from, to] = &stated;
-        mismatch(from, &self.items[index].travel, to).map(|_| stated)
-    }
-
-    fn is_end(&self, index: usize) -> bool {
-        index == 0 || index + 1 == self.items.len()
-    }
-
-    /// The end that a block must have for everything to be right, and whether coordinates say so.
-    fn wanted(&self, index: usize) -> Vec<(Wanted, bool)> {
-        let item = &self.items[index];
-        if let Some([from, to]) = self.stated(index) {
-            let by = [0, 1].map(|axis| (to.at[axis] - from.at[axis]) * 1000.0);
-            let is_off = item.is_unread() || item.is_faulty || self.off(index).is_some();
-            let wanted = is_off.then_some((Wanted { by, near: STATED }, true));
-            return wanted.into_iter().collect();
-        }
-        let count = self.items.len();
-        let others_unread = self.before.unread - usize::from(item.is_unread());
-        let others_faulty = self.before.faulty - usize::from(item.is_faulty);
-        if !self.closes || count < 3 || others_unread + others_faulty > 0 {
-            return Vec::new();
-        }
-        let near = tolerance(self.arcs);
-        let mut wanted: Vec<(Wanted, bool)> = Vec::new();
-        let mut take = |by: Move| {
-            let by = by.meant_um();
-            let is_near = |[x, y]: [f64; 2]| (x - by[0]).hypot(y - by[1]) < 1.0;
-            if !wanted.iter().any(|(known, _)| is_near(known.by)) {
-                wanted.push((Wanted { by, near }, false));
-            }
-        };
-        let own = item.travel.minus(self.total);
-        take(own);
-        if !self.is_mirrored {
-            let mut node = Move::default();
-            for lead in &self.items[..index.min(2)] {
-                node = node.plus(lead.travel);
-                take(own.plus(node));
-            }
-            let (first, last) = (&self.items[0], &self.items[count - 1]);
-            if count >= 5 && !self.is_end(index) {
-                take(own.plus(first.travel).plus(last.travel));
-            }
-        }
-        wanted
-    }
-
-    /// The blocks with a change made.
-    fn with(&self, change: &Change) -> Vec<Item> {
-        let mut items = self.items.clone();
-        match change {
-            Change::Replace {
+        slip::Slip {
+            change: Change::Replace {
                 index,
-                meant: (block, _),
-            } => {
-                let Item {
-                    stated,
-                    number,
-                    part,
-                    ..
-                } = items[*index];
-                items[*index] = Item {
-                    stated,
-                    number,
-                    part,
-                    ..Item::of(block)
-                };
-            }
-            Change::Delete { index } => drop(items.remove(*index)),
-            Change::Exchange { index } => items.swap(*index, *index + 1),
-            Change::Insert {
-                index,
-                meant: (block, _),
-            } => {
-                let mut item = Item::of(block);
-                let number = self
-                    .before(*index)
-                    .map_or(self.path.number, |item| item.number);
-                let numbers = number.zip(self.path.step);
-                item.number = numbers.map(|(number, step)| number.saturating_add(step));
-                item.stated = self.stated_before(*index).map(|from| {
-                    let [x, y] = item.travel.meant_um();
-                    let at = [from.at[0] + x / 1000.0, from.at[1] + y / 1000.0];
-                    StatedPoint { at, ..from }
-                });
-                items.insert(*index, item);
-            }
+                meant: (block, how),
+            },
+            count: 1,
+            pieces: vec![piece],
+            sort,
+            keys,
         }
-        items
     }
+}
+
+/// Motions of a contour's blocks are told apart by their names.
+pub(super) fn names(blocks: &[Block]) -> Vec<(&'static str, Option<bool>)> {
+    let leads = has_mirrored_leads(blocks);
+    let name = |block: &Block| (Motion::name(block.motion), leads);
+    blocks.iter().map(name).collect()
 }
