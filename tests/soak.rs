@@ -34,11 +34,12 @@ impl Told {
             .count()
     }
 
-    fn of_rule(&self, code: &Value) -> usize {
-        self.0
-            .iter()
-            .filter(|finding| finding["code"] == *code)
-            .count()
+    /// How much is found of a rule: a finding may stand for several places.
+    fn of_rule(&self, code: &Value) -> u64 {
+        let of_rule = self.0.iter().filter(|finding| finding["code"] == *code);
+        of_rule
+            .map(|finding| finding["data"]["count"].as_u64().unwrap_or(1))
+            .sum()
     }
 
     fn alike(&self, finding: &Value) -> usize {

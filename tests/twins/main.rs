@@ -26,7 +26,7 @@ const ALIKE: [(&str, [usize; 3]); 8] = [
     ("block lost", [95, 85, 85]),
     ("digit wrong", [100, 85, 85]),
     ("digit lost", [100, 50, 50]),
-    ("sign", [100, 100, 0]),
+    ("sign", [100, 85, 0]),
     ("blocks exchanged", [100, 85, 85]),
     ("arc turned", [100, 100, 100]),
 ];
