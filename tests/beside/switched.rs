@@ -186,7 +186,7 @@ fn each_pass_of_a_program_in_one_go_is_compared() {
                 })
             };
             assert_eq!(named(&program), Some(Vec::new()), "{}", program.join("\n"));
-            for &line in lines.iter().step_by(by_day(8, 1)) {
+            for &line in lines.iter().step_by(by_day(16, 1)) {
                 for by in [0.05, -1.0] {
                     let mut program = program.clone();
                     program[line] = changed(&program[line], by);

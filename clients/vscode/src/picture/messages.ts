@@ -66,7 +66,7 @@ export type ToPage =
   | Shown
   /** What the cursor stands on in a drawing, or null. */
   | { type: "segment"; handle: string | null; segment: number | null }
-  /** Entities that are asked about: marked together until the cursor moves. */
+  /** Entities that are asked about: marked together until they are answered, wherever the cursor moves. */
   | { type: "contour"; handles: string[] }
   /** The line on which the cursor stands in a program. */
   | { type: "line"; line: number }

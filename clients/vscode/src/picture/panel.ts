@@ -282,7 +282,7 @@ export class Picture implements vscode.Disposable {
     }
   }
 
-  /** Shows where the cursor stands. */
+  /** Shows where the cursor stands, unless entities are asked about: these stay marked. */
   async #point(editor: vscode.TextEditor): Promise<void> {
     const position = editor.selection.active;
     if (!isDrawing(editor.document.languageId)) {
@@ -290,7 +290,9 @@ export class Picture implements vscode.Disposable {
       return;
     }
     const located = await segmentAt(this.server, editor.document.uri, position);
-    await this.#tell({ type: "segment", handle: located?.handle ?? null, segment: located?.segment ?? null });
+    if (this.#marked === null) {
+      await this.#tell({ type: "segment", handle: located?.handle ?? null, segment: located?.segment ?? null });
+    }
   }
 
   async #heard(message: FromPage | null): Promise<void> {
