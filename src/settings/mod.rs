@@ -91,6 +91,12 @@ impl Settings {
         self.program.clone().unwrap_or_default()
     }
 
+    /// Each contour is cut on both sides, as punch and as plate.
+    fn is_pair(&self) -> bool {
+        let pair = self.pair.as_ref();
+        pair.is_some_and(|pair| pair.drawn_as.is_some())
+    }
+
     /// Lays `later` over `self`: `later` wins; tables are merged key by key.
     ///
     /// A later level with a correction resets the passes of earlier levels, and one with a wire diameter or a gap their
@@ -108,16 +114,10 @@ impl Settings {
                 laid.gaps = own.gaps;
             }
         }
-        let has_part = |level: &Settings| {
-            level
-                .pair
-                .as_ref()
-                .is_some_and(|own| own.drawn_as.is_some())
-        };
         let is_one_side = |side: SideSetting| side != SideSetting::Both;
-        if has_part(later) {
+        if later.is_pair() {
             laid.side = later.side;
-        } else if has_part(self) && later.side.is_some_and(is_one_side) {
+        } else if self.is_pair() && later.side.is_some_and(is_one_side) {
             laid.pair = later.pair.clone();
         }
         if let Some(program) = &later.program {

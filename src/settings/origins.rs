@@ -53,10 +53,9 @@ impl Origins {
                 electrode = Some(origin);
             }
             origins.has_file |= origin == Origin::File;
-            let is_pair = (level.pair.as_ref()).is_some_and(|own| own.drawn_as.is_some());
             if level.side.is_some() {
                 origins.side = origin;
-            } else if is_pair {
+            } else if level.is_pair() {
                 origins.side = Origin::Default;
             }
             if level.units.is_some() {

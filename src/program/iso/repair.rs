@@ -25,8 +25,9 @@ use super::moves::{Move, distance};
 use super::plain::plain;
 use crate::finding::FixKind;
 use crate::geometry::{Segment, Vector};
+use crate::program::repair;
 use crate::program::repair::crosses_itself;
-use crate::program::repair::search::{self, Contour, Plainness, Verdict, search};
+use crate::program::repair::search::{Contour, Plainness, Verdict, search};
 use crate::text::TextEdit;
 pub(super) use around::cut_within;
 use around::{LONGEST, begins_astray, cut_around, is_way, stands_alone, with_numbers_kept};
@@ -295,7 +296,7 @@ impl Contour for Suspect<'_> {
     }
 }
 
-type Change = search::Change<Meant>;
+type Change = repair::slip::Change<Meant>;
 
 impl<'a> Suspect<'a> {
     /// `places` are the lines of the findings.
@@ -423,7 +424,7 @@ impl<'a> Suspect<'a> {
     }
 
     /// A change as edits of the text.
-    fn repair(&self, repair: &search::Repair<Meant>) -> Option<Repair> {
+    fn repair(&self, repair: &repair::slip::Repair<Meant>) -> Option<Repair> {
         let (text, change) = (self.document.text(), &repair.change);
         let line = self.lines.start + change.index();
         let start = text.line_start(line);

@@ -1,12 +1,15 @@
 //! Pieces that may fill a gap between two blocks.
 
-use crate::geometry::{Vector, turn};
+use crate::geometry::{Point, Segment, Vector, turn};
 
 /// Blocks that meet within this angle are smooth, radians: two degrees, the rounding to µm of a small arc.
 pub(in crate::program) const SMOOTH: f64 = 0.035;
 
 /// No arc between two others turns by more, half of its turn in radians.
 const WIDEST: f64 = 2.9;
+
+/// Shorter blocks are not lost, but rounding, µm.
+pub(super) const SHORTEST: f64 = 10.0;
 
 /// Lines that end this far, µm, beside one line are parts of it.
 const COLLINEAR: f64 = 1.5;
@@ -22,6 +25,18 @@ pub(in crate::program) fn half_turn_between(
     let half = (into + out) / 2.0;
     let is_arc = (into - out).abs() <= SMOOTH && half.abs() > SMOOTH && half.abs() < WIDEST;
     is_arc.then_some(half)
+}
+
+/// The line over a gap, and the arc that fills it smoothly.
+pub(super) fn fillings(
+    gap: Vector,
+    headings: Option<[Vector; 2]>,
+) -> impl Iterator<Item = Segment> {
+    let (start, end) = (Point::origin(), Point::from(gap));
+    let half = headings.and_then(|[before, behind]| half_turn_between(before, behind, gap));
+    let arc = half.map(|half| Segment::from_bulge(start, end, (half / 2.0).tan()));
+    let ways = arc.into_iter().chain([Segment::line(start, end)]);
+    ways.filter(move |_| gap.norm() >= SHORTEST)
 }
 
 /// True for two straight pieces, one after the other, that would have been written as one.

@@ -15,6 +15,13 @@ use crate::geometry::Segment;
 use crate::program::path::{FEWEST_CROSSING, crossings_of};
 use crate::text::{SourceText, TextEdit};
 
+/// The most repairs that are returned.
+const HANDED_OUT: usize = 4;
+
+/// The most pieces that one search reads to find out whether its changes cross themselves: of a way that lies on itself again and again,
+/// each change would take as many. Other ways take a few for each place where they come near themselves.
+const MOST_FOLLOWED: usize = 200_000;
+
 /// Whether a way crosses itself; `None` where more than the pieces `left` would be read to find out. What is read is
 /// taken from them.
 pub(super) fn crosses_itself(pieces: &[Segment], arcs: usize, left: &mut usize) -> Option<bool> {

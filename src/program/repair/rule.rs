@@ -13,25 +13,17 @@
 //! result depends on the text alone.
 
 use super::cut::{Against, Piece, are_alike, is_mirrored, lead};
-use super::gap::half_turn_between;
+use super::gap::fillings;
 use super::slip::{Cut, Ends, Repair, Slip, Sort};
 use super::weigh::{Candidate, JOINTS, LAST, NEARLY, Search};
+use super::{HANDED_OUT, MOST_FOLLOWED};
 use crate::geometry::{Point, Segment, Vector};
 use crate::program::path::tolerance;
 use rustc_hash::FxHashMap;
 
-/// The most repairs that are returned.
-const HANDED_OUT: usize = 4;
-
 /// The most slips of a cut that are followed along all of it, and the most pieces that are read for them. Beyond them nothing is sure.
 const FINALISTS: usize = 200;
 const MOST_READ: usize = 200_000;
-
-/// The most pieces that are read to find out whether ways cross themselves.
-const MOST_FOLLOWED: usize = 200_000;
-
-/// Shorter blocks are not lost, but rounding, µm.
-const SHORTEST: f64 = 10.0;
 
 /// The repairs of a cut, the most likely one first.
 pub(in crate::program) fn search<C: Cut>(cut: &C) -> Vec<Repair<C::Meant>> {
@@ -373,13 +365,4 @@ impl<'a, C: Cut> Search<'a, C> {
         };
         (!is_never && beats_others && beats_near && beats_blockers).then_some(nth)
     }
-}
-
-/// The line over a gap, and the arc that fills it smoothly.
-fn fillings(gap: Vector, headings: Option<[Vector; 2]>) -> impl Iterator<Item = Segment> {
-    let (start, end) = (Point::origin(), Point::from(gap));
-    let half = headings.and_then(|[before, behind]| half_turn_between(before, behind, gap));
-    let arc = half.map(|half| Segment::from_bulge(start, end, (half / 2.0).tan()));
-    let ways = arc.into_iter().chain([Segment::line(start, end)]);
-    ways.filter(move |_| gap.norm() >= SHORTEST)
 }

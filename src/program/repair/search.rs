@@ -8,78 +8,10 @@
 //! what is tried, how much of it, and what is sure. All is bounded by counts, so that the result depends on the text
 //! alone.
 
-use super::gap::half_turn_between;
-use crate::geometry::{Point, Segment, Vector};
-
-/// The most repairs that are returned.
-const HANDED_OUT: usize = 4;
-
-/// The most pieces that one search reads to find out whether its changes cross themselves: of a way that lies on itself again and again,
-/// each change would take as many. Other ways take a few for each place where they come near themselves.
-const MOST_FOLLOWED: usize = 200_000;
-
-/// Shorter blocks are not lost, but rounding, µm.
-const SHORTEST: f64 = 10.0;
-
-/// A change of the blocks of a contour, by their index.
-#[derive(Clone, Debug, PartialEq)]
-pub(in crate::program) enum Change<M> {
-    Replace {
-        index: usize,
-        meant: M,
-    },
-    /// One of two equal blocks goes, or one that leads astray.
-    Delete {
-        index: usize,
-    },
-    /// The block changes places with the next one.
-    Exchange {
-        index: usize,
-    },
-    /// A block comes before another one.
-    Insert {
-        index: usize,
-        meant: M,
-    },
-}
-
-impl<M> Change<M> {
-    pub(crate) fn index(&self) -> usize {
-        match self {
-            Change::Replace { index, .. }
-            | Change::Delete { index }
-            | Change::Exchange { index }
-            | Change::Insert { index, .. } => *index,
-        }
-    }
-
-    /// The block that it writes.
-    pub(crate) fn meant(&self) -> Option<&M> {
-        match self {
-            Change::Replace { meant, .. } | Change::Insert { meant, .. } => Some(meant),
-            Change::Delete { .. } | Change::Exchange { .. } => None,
-        }
-    }
-
-    /// The number of blocks that it replaces.
-    pub(crate) fn replaced(&self) -> usize {
-        match self {
-            Change::Replace { .. } | Change::Delete { .. } => 1,
-            Change::Exchange { .. } => 2,
-            Change::Insert { .. } => 0,
-        }
-    }
-}
-
-/// A change that makes a contour sound, or sounder.
-#[derive(Clone, Debug, PartialEq)]
-pub(in crate::program) struct Repair<M> {
-    pub(crate) change: Change<M>,
-    /// No finding is left, and no other change is as likely.
-    pub(crate) is_sure: bool,
-    /// No finding of the contour is left.
-    pub(crate) is_whole: bool,
-}
+use super::gap::fillings;
+use super::slip::{Change, Repair};
+use super::{HANDED_OUT, MOST_FOLLOWED};
+use crate::geometry::{Segment, Vector};
 
 /// How plain a change is. Of changes that are equally plain and leave a contour equally sound, none is sure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -215,15 +147,6 @@ pub(in crate::program) fn search<C: Contour>(
     ranked(contour, found, is_complete)
 }
 
-/// The line over a gap, and the arc that fills it smoothly.
-fn fillings(gap: Vector, headings: Option<[Vector; 2]>) -> impl Iterator<Item = Segment> {
-    let (start, end) = (Point::origin(), Point::from(gap));
-    let half = headings.and_then(|[before, behind]| half_turn_between(before, behind, gap));
-    let arc = half.map(|half| Segment::from_bulge(start, end, (half / 2.0).tan()));
-    let ways = arc.into_iter().chain([Segment::line(start, end)]);
-    ways.filter(move |_| gap.norm() >= SHORTEST)
-}
-
 /// The changes with different results, best first. None is sure where not all were judged.
 fn ranked<C: Contour>(
     contour: &C,
@@ -328,6 +251,7 @@ fn is_rival<C: Contour>(
 
 #[cfg(test)]
 mod tests {
+    use super::super::gap::SHORTEST;
     use super::*;
     use std::cell::Cell;
 

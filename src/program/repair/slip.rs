@@ -34,6 +34,23 @@ impl<M> Change<M> {
             | Change::Insert { index, .. } => *index,
         }
     }
+
+    /// The block that it writes.
+    pub(crate) fn meant(&self) -> Option<&M> {
+        match self {
+            Change::Replace { meant, .. } | Change::Insert { meant, .. } => Some(meant),
+            Change::Delete { .. } | Change::Exchange { .. } => None,
+        }
+    }
+
+    /// The number of blocks that it replaces.
+    pub(crate) fn replaced(&self) -> usize {
+        match self {
+            Change::Replace { .. } | Change::Delete { .. } => 1,
+            Change::Exchange { .. } => 2,
+            Change::Insert { .. } => 0,
+        }
+    }
 }
 
 /// What a slip is, as far as the rule asks.

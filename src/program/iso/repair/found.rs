@@ -6,7 +6,7 @@ use crate::program::iso::evidence::UsualDecimals;
 use crate::program::iso::machine::Machine;
 use crate::program::iso::moves::Reading;
 use crate::program::iso::style::Style;
-use crate::program::repair::search;
+use crate::program::repair::slip;
 use crate::text::TextEdit;
 use std::ops::Range;
 use std::sync::Arc;
@@ -74,7 +74,7 @@ pub(crate) struct Repairs {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Searched {
     pub(crate) of: LookedAt,
-    pub(crate) found: Vec<search::Repair<Meant>>,
+    pub(crate) found: Vec<slip::Repair<Meant>>,
     /// Lines that may still be run after it.
     pub(crate) left: usize,
 }

@@ -54,13 +54,12 @@ impl Document {
         let mut at = (0, 0);
         while let Some(cut) = self.cut_from(at) {
             at = self.behind(&cut);
+            let Some(length) = self.leads_on(&cut) else {
+                continue;
+            };
             // The last one may well end elsewhere.
-            let is_last = self.cut_from(at).is_none_or(|next| next.sum.blocks == 0);
-            if let (false, Some(length), Some(last)) = (
-                is_last,
-                self.leads_on(&cut),
-                HasCuts::last_block(self, &cut),
-            ) {
+            let goes_on = self.cut_from(at).is_some_and(|next| next.sum.blocks > 0);
+            if let (true, Some(last)) = (goes_on, HasCuts::last_block(self, &cut)) {
                 findings.push(Finding::of(Fault::LeadsOn { length }, last));
             }
         }
