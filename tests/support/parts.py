@@ -64,7 +64,7 @@ def day() -> list[Part]:
         script("editors", "desktop", "clients/editors/test", 60, 1800),
         script("python", "desktop", "clients/python/test", 120, 900),
         script("protocol", "desktop", "tests/protocol/test", 20, 900),
-        script("cases", "desktop", "tests/cases/run", 120, 900),
+        script("cases", "desktop", "tests/cases/run", 210, 900),
     ]
 
 
