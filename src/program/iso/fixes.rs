@@ -8,7 +8,7 @@ use super::line::words_of_move;
 use super::machine::Machine;
 use super::moves::{Place, distance, meet};
 use super::plain::{plain, word_at};
-use super::repair::{is_trouble, line_of};
+use super::repair::{is_plainly_twice, is_trouble, line_of};
 use super::steps::BegunCut;
 use super::style::Style;
 use crate::finding::{Detail, Fault, Finding, FixKind, Rule, TextFix};
@@ -88,7 +88,10 @@ fn plain_fix(document: &Document, fault: &Fault, range: &Range<usize>) -> Option
             let (found, meant, edit) = exchanged_word(document, line, before)?;
             (FixKind::Rewrite { found, meant }, *is_sure, edit)
         }
-        Fault::DoubledBlock { .. } => (FixKind::DeleteBlock, true, whole_line(document, line)),
+        Fault::DoubledBlock { .. } => {
+            let is_sure = is_plainly_twice(document, line);
+            (FixKind::DeleteBlock, is_sure, whole_line(document, line))
+        }
         Fault::Spur { .. } => return spur_fix(document, line),
         Fault::NotClosed { .. } => return closing_fix(document, range),
         Fault::NoOffset { .. } => {

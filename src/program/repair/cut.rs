@@ -16,10 +16,16 @@ pub(in crate::program) struct Piece {
     pub(crate) stated: Option<Stated>,
     /// Its number, where blocks are numbered.
     pub(crate) number: Option<u32>,
+    /// The text gives the place where it ends, not the way there: it may end short on purpose.
+    pub(crate) is_placed: bool,
     /// It cannot be read.
     pub(crate) is_unread: bool,
     /// It can be read, and is wrong by itself.
     pub(crate) is_unsound: bool,
+    /// Only in how its arc lies: another number of it would do as well.
+    pub(crate) is_off_circle: bool,
+    /// How much farther from its centre it ends than it begins, µm.
+    pub(crate) miss: f64,
 }
 
 /// A place that stands after a block, µm.
@@ -35,7 +41,7 @@ pub(in crate::program) struct Stated {
 const OFF: f64 = 4.0;
 
 /// Two ends this near each other are one, µm; radii and centres of arcs lie a little farther apart.
-const SAME: f64 = 3.0;
+pub(super) const SAME: f64 = 3.0;
 
 /// The ends of a way out lie this near those of the way in, µm.
 const MIRRORED: f64 = 3.0;
@@ -114,6 +120,8 @@ impl Against {
 pub(in crate::program) struct Joints {
     /// Tangent to an arc, or square; two lines that would have been written as one count against it.
     pub(crate) good: i32,
+    /// Tangent to an arc.
+    pub(crate) smooth: i32,
     /// Places where the wire runs back on the way that it came.
     pub(crate) doubled: i32,
 }
@@ -129,6 +137,8 @@ pub(in crate::program) struct Pieces {
     pub(crate) step: Option<u32>,
     /// It must return to its start.
     pub(crate) closes: bool,
+    /// Nothing contradicts it, and it is reported all the same, as where it crosses itself.
+    pub(crate) is_tangled: bool,
     pub(crate) writing: Writing,
 }
 
@@ -278,6 +288,7 @@ impl Pieces {
         ];
         Joints {
             good: is.good - was.good,
+            smooth: is.smooth - was.smooth,
             doubled: is.doubled - was.doubled,
         }
     }
@@ -299,6 +310,7 @@ fn joints(pieces: &[Piece], is_first: bool, is_last: bool) -> Joints {
         };
         let is_lead = ((is_first && nth == 0) || (is_last && nth + 2 == pieces.len()))
             && pair.iter().any(is_round);
+        joints.smooth += i32::from(angle <= SMOOTH && has_arc);
         let is_square = (angle - std::f64::consts::FRAC_PI_2).abs() <= SQUARE;
         if !has_arc && is_one_line(pair[0].by, pair[1].by) {
             joints.good -= 1;
@@ -393,9 +405,13 @@ pub(in crate::program) fn lead(pieces: &[Piece]) -> Vec<[Vector; 2]> {
     lead
 }
 
-/// True for two ways that nobody could tell apart.
-pub(in crate::program) fn are_alike(one: &[[Vector; 2]], other: &[[Vector; 2]]) -> bool {
-    let near = |a: &Vector, b: &Vector| (a - b).norm() <= SAME;
+/// True for two ways whose pieces lie within so many µm of each other.
+pub(in crate::program) fn are_alike(
+    one: &[[Vector; 2]],
+    other: &[[Vector; 2]],
+    within: f64,
+) -> bool {
+    let near = |a: &Vector, b: &Vector| (a - b).norm() <= within;
     one.len() == other.len()
         && one
             .iter()

@@ -1,34 +1,16 @@
 //! Numbers that differ by one wrong keystroke.
 
-/// The mistake in a number that is undone.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::program) enum Key {
-    /// Another digit.
-    Digit,
-    /// A digit was lost.
-    Lost,
-    /// A digit is repeated.
-    Doubled,
-    /// Any other digit is too many.
-    More,
-    /// Two digits stand for each other.
-    Swapped,
-    Sign,
-    /// A point was lost, or inserted.
-    Point,
-}
-
 /// The numbers that may have been meant, each one keystroke away. `pointed` says whether numbers
 /// have a point, if known. Nobody writes an additional leading zero, but a padded number keeps its length.
-pub(in crate::program) fn meant(text: &str, pointed: Option<bool>) -> Vec<(String, Key)> {
+pub(in crate::program) fn meant(text: &str, pointed: Option<bool>) -> Vec<String> {
     let digits: Vec<(usize, &str)> = text
         .match_indices(|letter: char| letter.is_ascii_digit())
         .collect();
-    let mut meant: Vec<(String, Key)> = Vec::new();
-    let mut put = |at: usize, end: usize, other: &str, key: Key| {
+    let mut meant: Vec<String> = Vec::new();
+    let mut put = |at: usize, end: usize, other: &str| {
         let mut changed = text.to_owned();
         changed.replace_range(at..end, other);
-        meant.push((changed, key));
+        meant.push(changed);
     };
     let all: [&str; 10] = ["0", "1", "2", "3", "4", "5", "6", "7", "8", "9"];
     for (nth, &(at, own)) in digits.iter().enumerate() {
@@ -37,42 +19,31 @@ pub(in crate::program) fn meant(text: &str, pointed: Option<bool>) -> Vec<(Strin
         let is_behind = before.is_some_and(|(before, _)| before + 1 == at);
         for digit in all {
             if digit != own {
-                put(at, at + 1, digit, Key::Digit);
+                put(at, at + 1, digit);
             }
             // After an equal digit the result is the same.
             if !(is_behind && last == Some(digit)) {
-                put(at, at, digit, Key::Lost);
+                put(at, at, digit);
             }
         }
         if digits.len() > 1 {
-            let is_doubled = last == Some(own);
-            put(
-                at,
-                at + 1,
-                "",
-                if is_doubled { Key::Doubled } else { Key::More },
-            );
+            put(at, at + 1, "");
         }
         if let Some(&(next, other)) = digits.get(nth + 1)
             && other != own
         {
             let between = text.get(at + 1..next).unwrap_or_default();
-            put(
-                at,
-                next + 1,
-                &format!("{other}{between}{own}"),
-                Key::Swapped,
-            );
+            put(at, next + 1, &format!("{other}{between}{own}"));
         }
     }
     // Behind the last digit, and the last one before the point, or the one that is lost there.
     let ends = text.find('.').into_iter().chain([text.len()]);
     for at in ends {
-        all.iter().for_each(|digit| put(at, at, digit, Key::Lost));
+        all.iter().for_each(|digit| put(at, at, digit));
     }
     match text.starts_with(['-', '+']) {
-        true => put(0, 1, "", Key::Sign),
-        false => put(0, 0, "-", Key::Sign),
+        true => put(0, 1, ""),
+        false => put(0, 0, "-"),
     }
     match (text.find('.'), pointed) {
         (None, Some(true)) => {
@@ -82,14 +53,14 @@ pub(in crate::program) fn meant(text: &str, pointed: Option<bool>) -> Vec<(Strin
                 .skip(1)
                 .chain([text.len()])
                 .chain(places.take(1));
-            places.for_each(|at| put(at, at, ".", Key::Point));
+            places.for_each(|at| put(at, at, "."));
         }
-        (Some(at), Some(false)) => put(at, at + 1, "", Key::Point),
+        (Some(at), Some(false)) => put(at, at + 1, ""),
         _ => {}
     }
     let most = zeros(text);
     let is_padded = most > 0;
-    meant.retain(|(other, _)| zeros(other) <= most || is_padded && other.len() == text.len());
+    meant.retain(|other| zeros(other) <= most || is_padded && other.len() == text.len());
     meant
 }
 
@@ -191,7 +162,7 @@ mod tests {
             ("1016", "0016", false),
             ("500", "0500", false),
         ] {
-            let is_meant = meant(text, None).iter().any(|(meant, _)| meant == other);
+            let is_meant = meant(text, None).iter().any(|meant| meant == other);
             assert_eq!(is_meant, expected, "{text} {other}");
         }
     }
@@ -205,13 +176,13 @@ mod tests {
             ("1100", None),
             ("", None),
         ] {
-            for (meant, key) in meant(text, pointed) {
-                let has_point = text.contains('.') || meant.contains('.');
-                let is_one = is_slip(text.as_bytes(), meant.as_bytes());
-                assert!(
-                    is_one || (key == Key::Swapped && has_point),
-                    "{text}: {meant}"
-                );
+            for meant in meant(text, pointed) {
+                // The digits on both sides of a point may change places.
+                let without = |text: &str| text.replace('.', "");
+                let [one, other] = [text, &meant].map(without);
+                let is_one = is_slip(text.as_bytes(), meant.as_bytes())
+                    || is_slip(one.as_bytes(), other.as_bytes());
+                assert!(is_one, "{text}: {meant}");
             }
         }
     }
@@ -221,11 +192,11 @@ mod tests {
         #[test]
         fn numbers_one_key_away_are_those_that_keys_make(digits in "0|[1-9][0-9]{0,7}") {
             let all = meant(&digits, None).into_iter();
-            let all = all.filter(|(text, key)| {
+            let all = all.filter(|text| {
                 let is_led = text.len() > 1 && text.starts_with('0');
-                !matches!(key, Key::Sign | Key::Point) && !is_led
+                !text.starts_with('-') && !is_led
             });
-            let mut expected: Vec<i64> = all.filter_map(|(text, _)| text.parse().ok()).collect();
+            let mut expected: Vec<i64> = all.filter_map(|text| text.parse().ok()).collect();
             expected.retain(|number| number.to_string() != digits);
             expected.sort_unstable();
             expected.dedup();
@@ -237,17 +208,24 @@ mod tests {
     fn what_is_lost_may_have_stood_alone_before_the_point() {
         for (text, lost) in [(".910", "4.910"), ("-.910", "-4.910"), ("4.", "4.5")] {
             let meant = meant(text, Some(true));
-            assert!(meant.contains(&(lost.into(), Key::Lost)), "{meant:?}");
+            assert!(meant.contains(&lost.into()), "{meant:?}");
         }
     }
 
     #[test]
     fn what_is_meant_has_no_zero_more_in_front() {
         let meant = meant("500", None);
-        let has = |text: &str| meant.iter().find(|(meant, _)| meant == text);
-        assert_eq!(has("0500"), None);
-        assert_eq!(has("050"), None);
-        assert_eq!(has("-500"), Some(&("-500".into(), Key::Sign)));
-        assert_eq!(has("1500"), Some(&("1500".into(), Key::Lost)));
+        for (other, is_meant) in [
+            ("0500", false),
+            ("050", false),
+            ("-500", true),
+            ("1500", true),
+        ] {
+            assert_eq!(
+                meant.iter().any(|meant| meant == other),
+                is_meant,
+                "{other}"
+            );
+        }
     }
 }

@@ -6,7 +6,6 @@ pub(super) mod gap;
 pub(super) mod gate;
 pub(super) mod keys;
 pub(super) mod rule;
-pub(super) mod search;
 pub(super) mod slip;
 mod weigh;
 

@@ -12,7 +12,7 @@
 //! A language gives its slips and the pieces that they lead to; it knows nothing of evidence. All is bounded by counts, so that the
 //! result depends on the text alone.
 
-use super::cut::{Against, Piece, are_alike, is_mirrored, lead};
+use super::cut::{Against, Piece, SAME, are_alike, is_mirrored, lead};
 use super::gap::fillings;
 use super::slip::{Cut, Ends, Repair, Slip, Sort};
 use super::weigh::{Candidate, JOINTS, LAST, NEARLY, Search};
@@ -86,13 +86,14 @@ impl<'a, C: Cut> Search<'a, C> {
 
     /// Whether one slip in a piece may be all that is wrong.
     fn may_be_wrong(&self, index: usize) -> bool {
-        let own = &self.pieces.all[index];
+        let all = self.pieces.all.iter().skip(index);
+        let mut reached = all.take(self.cut.reach(index));
         match self.before {
             Against { unread: 1.., .. } | Against { unsound: 1.., .. } => {
-                own.is_unread || own.is_unsound
+                reached.any(|own| own.is_unread || own.is_unsound)
             }
             Against { off: 1.., .. } => self.pieces.is_off(index),
-            before => before.is_open,
+            before => before.is_open || self.pieces.is_tangled,
         }
     }
 
@@ -172,8 +173,8 @@ impl<'a, C: Cut> Search<'a, C> {
         let worse = after.unread > self.before.unread
             || after.unsound > self.before.unsound
             || after.off > self.before.off;
-        let is_exchange = was == 0 && slip.sort == Sort::Exchange;
-        if worse || (!self.before.is_open && after.count() >= was && !is_exchange) {
+        let is_tangled = was == 0 && (slip.sort == Sort::Exchange || pieces.is_tangled);
+        if worse || (!self.before.is_open && after.count() >= was && !is_tangled) {
             return;
         }
         if slip.sort == Sort::Insertion && index == 0 && self.is_way_in(&slip.pieces) {
@@ -202,9 +203,13 @@ impl<'a, C: Cut> Search<'a, C> {
         }
         let joints = pieces.joints_with(index, slip.count, &slip.pieces);
         let is_better = match slip.sort {
-            // Where there is no other fault the exchange must make the joints better.
-            Sort::Exchange if was == 0 => {
-                after.count() == 0 && joints.good >= 2 && joints.doubled <= 0
+            // Where there is no other fault it must make the joints better.
+            sort if was == 0 => {
+                let is_better = match sort {
+                    Sort::Exchange => joints.good >= 2,
+                    _ => joints.good >= 1 || joints.doubled < 0,
+                };
+                after.count() == 0 && is_better && joints.doubled <= 0
             }
             Sort::Insertion | Sort::WayIn => after.count() == 0,
             _ => after.count() < was || is_near || (is_reread && after.count() <= was),
@@ -221,8 +226,9 @@ impl<'a, C: Cut> Search<'a, C> {
         // A lost block closes any gap: it must join better than a slip.
         let order = |one: &Candidate<C::Meant>| {
             let mut evidence = one.evidence;
-            evidence[JOINTS] += i32::from(one.slip.sort == Sort::Insertion);
-            (one.left, one.is_near, evidence)
+            let closes_anywhere = one.slip.sort == Sort::Insertion && !one.is_wrong;
+            evidence[JOINTS] += i32::from(closes_anywhere);
+            (one.left, one.is_near, evidence, -one.smooth)
         };
         self.found
             .sort_by(|a, b| order(a).cmp(&order(b)).then(a.miss.total_cmp(&b.miss)));
@@ -239,9 +245,12 @@ impl<'a, C: Cut> Search<'a, C> {
             let sure = kept.remove(sure);
             kept.insert(0, sure);
         }
+        // A line along an axis runs back under the other quadrant, and may do so in 3B.
+        let is_any_plain = self.pieces.writing.names_places && kept.iter().any(|one| !one.doubles);
         let offered = kept
             .into_iter()
             .filter(|one| !one.is_near && one.slip.sort != Sort::Deletion)
+            .filter(|one| !(one.doubles && is_any_plain))
             .filter(|one| self.cut.holds(&one.slip.change));
         let repair = |(nth, one): (usize, Candidate<C::Meant>)| Repair {
             change: one.slip.change,
@@ -254,20 +263,28 @@ impl<'a, C: Cut> Search<'a, C> {
     /// Of slips with the same way the plainest stays.
     fn with_different_ways(&mut self) -> Vec<Candidate<C::Meant>> {
         let mut kept: Vec<Candidate<C::Meant>> = Vec::new();
-        let mut leads: Vec<(usize, Vec<[Vector; 2]>)> = Vec::new();
+        // Each with the block that is changed, and the place among those that are kept.
+        let mut leads: Vec<([usize; 2], Vec<[Vector; 2]>)> = Vec::new();
         for candidate in std::mem::take(&mut self.found) {
             let slip = &candidate.slip;
             let index = slip.change.index();
             // A block more or less leads the same way only beside the one that may be wrong.
-            let is_beside = |(known, _): &(usize, _)| index.abs_diff(*known) <= 1;
+            let is_beside = |(known, _): &([usize; 2], _)| index.abs_diff(known[0]) <= 1;
             if !candidate.is_text() && leads.len() >= HANDED_OUT && !leads.iter().any(is_beside) {
                 kept.push(candidate);
                 continue;
             }
             let own = lead(&self.pieces.with(index, slip.count, &slip.pieces));
-            if !leads.iter().any(|(_, known)| are_alike(known, &own)) {
-                leads.push((index, own));
-                kept.push(candidate);
+            let mut alike = leads.iter();
+            match alike.find(|(_, known)| are_alike(known, &own, SAME)) {
+                Some(([_, place], known)) => {
+                    let is_equal = !candidate.is_text() || are_alike(known, &own, 1.0);
+                    kept[*place].has_double |= !is_equal;
+                }
+                None => {
+                    leads.push(([index, kept.len()], own));
+                    kept.push(candidate);
+                }
             }
         }
         kept
@@ -335,6 +352,9 @@ impl<'a, C: Cut> Search<'a, C> {
         let sort = best.slip.sort;
         let is_twin = sort == Sort::Twin;
         let is_never = best.parts_leads
+            || self.before.count() == 0 && !best.turns_round && sort != Sort::Exchange
+            || best.has_double && self.pieces.writing.names_places
+            || best.must_fit && !best.fits()
             || sort == Sort::Kind && !best.speaks
             || !best.speaks && matches!(sort, Sort::Alike | Sort::Exchange);
         let beats_others = whole()
@@ -363,6 +383,12 @@ impl<'a, C: Cut> Search<'a, C> {
             (_, true) => sort != Sort::Key || !blockers.any(is_beside),
             _ => blockers.all(|other| best.beats(other)),
         };
-        (!is_never && beats_others && beats_near && beats_blockers).then_some(nth)
+        // A number that is calculated, or a line before the arc, puts it on its circle as well.
+        let mut calculated = all.iter().filter(|one| {
+            matches!(one.slip.sort, Sort::Calculated | Sort::Insertion) && !one.is_near
+        });
+        let beats_calculated = !best.must_fit || calculated.all(|other| best.beats_clearly(other));
+        let is_sure = beats_others && beats_near && beats_blockers && beats_calculated;
+        (!is_never && is_sure).then_some(nth)
     }
 }

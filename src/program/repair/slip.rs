@@ -34,23 +34,6 @@ impl<M> Change<M> {
             | Change::Insert { index, .. } => *index,
         }
     }
-
-    /// The block that it writes.
-    pub(crate) fn meant(&self) -> Option<&M> {
-        match self {
-            Change::Replace { meant, .. } | Change::Insert { meant, .. } => Some(meant),
-            Change::Delete { .. } | Change::Exchange { .. } => None,
-        }
-    }
-
-    /// The number of blocks that it replaces.
-    pub(crate) fn replaced(&self) -> usize {
-        match self {
-            Change::Replace { .. } | Change::Delete { .. } => 1,
-            Change::Exchange { .. } => 2,
-            Change::Insert { .. } => 0,
-        }
-    }
 }
 
 /// What a slip is, as far as the rule asks.
@@ -60,7 +43,7 @@ pub(in crate::program) enum Sort {
     Key,
     /// Two equal numbers of a block, typed alike.
     Alike,
-    /// A line for an arc, or an arc for a line.
+    /// A line for an arc, an arc for a line, or another letter.
     Kind,
     /// A number that is calculated from all others: it is offered, and explains nothing.
     Calculated,
@@ -117,6 +100,11 @@ pub(in crate::program) trait Cut {
 
     /// The block along a way from the origin, before another one; `None` where it cannot be written.
     fn inserted(&self, index: usize, way: &Segment) -> Option<Slip<Self::Meant>>;
+
+    /// How many blocks from one on a change of it changes.
+    fn reach(&self, _index: usize) -> usize {
+        1
+    }
 
     /// How many things that the program says elsewhere, such as another pass, speak for pieces in the place of `count` ones.
     fn likeness(&self, _index: usize, _count: usize, _pieces: &[Piece]) -> i32 {

@@ -21,6 +21,16 @@ pub(super) struct Candidate<M> {
     pub(super) speaks: bool,
     /// What stands there cannot be read, or is wrong by itself.
     pub(super) is_wrong: bool,
+    /// The text says too little: its leads, or two of its joints, have to speak for it.
+    pub(super) must_fit: bool,
+    /// The wire no longer runs back on the way that it came, and every block ends where it did.
+    pub(super) turns_round: bool,
+    /// How many more joints are tangent.
+    pub(super) smooth: i32,
+    /// The wire runs back on the way that it came where it did not.
+    pub(super) doubles: bool,
+    /// Another reading leads nearly the same way, but not to the last digit.
+    pub(super) has_double: bool,
     /// Its way in and its way out are no pair.
     pub(super) parts_leads: bool,
     /// It closes only nearly.
@@ -54,6 +64,11 @@ impl<M> Candidate<M> {
         let by_leads = self.evidence[LEADS] < other.evidence[LEADS] && before(LEADS);
         let by_joints = self.evidence[JOINTS] + 2 <= other.evidence[JOINTS] && worse == 0;
         by_leads || by_joints || (worse == 0 && better > 1)
+    }
+
+    /// Its leads or two of its joints speak for it.
+    pub(super) fn fits(&self) -> bool {
+        self.evidence[LEADS] < 0 || self.evidence[JOINTS] <= -2
     }
 
     /// How many kinds are worse, and how many better.
@@ -123,7 +138,14 @@ impl<C: Cut> Search<'_, C> {
         ];
         let own = pieces.all.get(index);
         let is_stated = self.before.off > after.off;
-        let is_wrong = own.is_some_and(|own| own.is_unread || own.is_unsound);
+        let changed = pieces
+            .all
+            .get(index..index + slip.count)
+            .unwrap_or_default();
+        let mut wrong = changed.iter().filter(|own| own.is_unread || own.is_unsound);
+        let is_wrong = wrong.clone().count() > 0;
+        let mut pairs = changed.iter().zip(&slip.pieces);
+        let keeps_ends = pairs.all(|(was, is)| was.by == is.by);
         let speaks = is_wrong || is_stated || after.out_of_turn < self.before.out_of_turn;
         let miss = self.missed(&slip, home, index);
         let drift: f64 = slip
@@ -131,6 +153,8 @@ impl<C: Cut> Search<'_, C> {
             .iter()
             .map(|piece| (piece.machine - piece.by).norm())
             .sum();
+        // A contour is closed whatever its leads are, but these lead home.
+        let astray = if mirrored { home.norm() } else { 0.0 };
         let is_arc = slip.pieces.iter().any(Piece::is_arc);
         let is_inexact = slip.is_text() && miss > self.exact(is_arc);
         // At its ends a cut has straight leads, or begins within a line.
@@ -145,9 +169,17 @@ impl<C: Cut> Search<'_, C> {
         self.found.push(Candidate {
             left: after.count() - usize::from(is_near),
             // What counts to its own end is likelier than what drifts; a thousandth of that is rounding.
-            miss: ((miss + drift) * 10.0).round() / 10.0,
+            miss: ((miss + drift + astray) * 10.0).round() / 10.0,
             speaks,
             is_wrong,
+            must_fit: match speaks {
+                true => is_wrong && wrong.all(|own| own.is_off_circle),
+                false => changed.iter().any(|own| own.is_placed),
+            },
+            turns_round: joints.doubled < 0 && keeps_ends,
+            smooth: joints.smooth,
+            doubles: joints.doubled > 0,
+            has_double: false,
             parts_leads: pieces.closes
                 && count >= 3
                 && !is_pair
@@ -161,7 +193,11 @@ impl<C: Cut> Search<'_, C> {
 
     /// How far a slip that is undone still misses what it should meet.
     fn missed(&self, slip: &Slip<C::Meant>, home: Vector, index: usize) -> f64 {
-        let mut stated = 0.0;
+        let mut stated = slip
+            .pieces
+            .iter()
+            .map(|piece| piece.miss)
+            .fold(0.0, f64::max);
         let mut from = self.pieces.stated_before(index);
         for piece in &slip.pieces {
             if let Some((from, to)) = from.zip(piece.stated) {

@@ -1,19 +1,12 @@
 //! The lines of a cut, and what is known of it from those before them; and two of them exchanged.
 
-use crate::program::iso::block::{Block, Motion};
+use crate::program::iso::block::Block;
 use crate::program::iso::document::Document;
-use crate::program::iso::moves::{Place, distance};
 use crate::program::iso::plain::word_in;
 use std::ops::Range;
 
 /// Longer cuts, in lines, are not searched.
 pub(super) const LONGEST: usize = 4_000;
-
-/// Fewer lines are a way to the next cut, which ends elsewhere.
-const FEWEST_ASTRAY: usize = 3;
-
-/// A cut that ends further from its start, nm, has not returned there.
-const ASTRAY: f64 = 20_000.0;
 
 /// The lines between the stops around a line, or between the places where subprograms begin, end and are called; more
 /// than [`LONGEST`] where there are too many.
@@ -47,40 +40,6 @@ pub(in crate::program::iso) fn cut_within(
         end += 1;
     }
     first..end
-}
-
-/// True where the cut before some lines ends beside its own start, and the wire was not taken
-/// elsewhere since: even if these lines close, they begin at the wrong place.
-pub(super) fn begins_astray(document: &Document, lines: &Range<usize>) -> bool {
-    let Some(last) = lines.start.checked_sub(1) else {
-        return false;
-    };
-    let before = cut_around(document, last);
-    let Some(mut machine) = document.machine_before(before.start) else {
-        return false;
-    };
-    if before.len() > LONGEST {
-        return false;
-    }
-    let (mut ends, mut moves) = (None, 0);
-    for line in before {
-        if let Some(made) = machine.run(&document.block(line), document.reading()) {
-            if made.motion == Motion::Rapid {
-                (ends, moves) = (None, 0);
-                continue;
-            }
-            let (start, _) = ends.unwrap_or((made.from, made.to));
-            (ends, moves) = (Some((start, made.to)), moves + 1);
-        }
-    }
-    let block = |line: usize| document.block(line);
-    let is_taken = lines
-        .clone()
-        .map(block)
-        .take_while(|block| !is_way(block))
-        .any(|block| block.sets_position);
-    let is_astray = |(start, end): (Place, Place)| distance(start, end) > ASTRAY;
-    !is_taken && moves >= FEWEST_ASTRAY && ends.is_some_and(is_astray)
 }
 
 /// True where the lines of a cut hold all of it. The search makes no corners of the control, and an arc begins where

@@ -1,15 +1,9 @@
 //! The results of a search through the faulty cuts.
 
-use super::shape::Passes;
 use crate::finding::FixKind;
-use crate::program::iso::evidence::UsualDecimals;
-use crate::program::iso::machine::Machine;
-use crate::program::iso::moves::Reading;
-use crate::program::iso::style::Style;
 use crate::program::repair::slip;
 use crate::text::TextEdit;
 use std::ops::Range;
-use std::sync::Arc;
 
 /// A possible intended line.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,22 +12,6 @@ pub(crate) struct Meant {
     /// The present text, and the intended one.
     pub(crate) found: String,
     pub(crate) meant: String,
-    /// The number was calculated from the others, which may be wrong instead.
-    pub(crate) is_calculated: bool,
-    /// What the other numbers of the cut say against it.
-    pub(crate) evidence: f64,
-}
-
-impl Meant {
-    pub(super) fn new(line: Vec<u8>, found: &str, meant: &str) -> Meant {
-        Meant {
-            line,
-            found: found.to_owned(),
-            meant: meant.to_owned(),
-            is_calculated: false,
-            evidence: 0.0,
-        }
-    }
 }
 
 /// A change that makes a cut sound, or sounder.
@@ -48,9 +26,9 @@ pub(crate) struct Repair {
     pub(crate) meant: String,
     /// The cut does not close without it.
     pub(crate) closes: bool,
-    /// No fault is left, and no other change does as well.
+    /// Nothing else explains the text.
     pub(crate) is_sure: bool,
-    /// The faults themselves support it: a cut that only crosses itself may be meant to run elsewhere altogether.
+    /// Something contradicts the cut: one that only crosses itself may be meant to run elsewhere altogether.
     pub(crate) explains: bool,
 }
 
@@ -66,36 +44,6 @@ impl Repair {
 pub(crate) struct Repairs {
     /// By the lines of the cuts that they belong to.
     pub(crate) of_cuts: Vec<(Range<usize>, Vec<Repair>)>,
-    /// The searches for them.
-    pub(super) searched: Vec<Searched>,
-}
-
-/// A search through a cut, and its result.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Searched {
-    pub(crate) of: LookedAt,
-    pub(crate) found: Vec<slip::Repair<Meant>>,
-    /// Lines that may still be run after it.
-    pub(crate) left: usize,
-}
-
-/// All that a search looks at: equal searches have equal results.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct LookedAt {
-    /// The lines of the cut and those about it in which numbers of blocks are looked for, and how many of them stand before it.
-    pub(crate) text: Vec<u8>,
-    pub(crate) lines_before: usize,
-    pub(crate) lines: usize,
-    /// The lines of its faults, from its first.
-    pub(crate) faults: Vec<usize>,
-    pub(crate) before: Machine,
-    pub(crate) begins_astray: bool,
-    pub(crate) reading: Reading,
-    pub(crate) decimals: Option<UsualDecimals>,
-    pub(crate) pointed: Option<bool>,
-    pub(crate) is_parted: bool,
-    pub(crate) styles: [Style; 2],
-    pub(crate) passes: Option<Arc<Passes>>,
-    /// Lines that may be run for it.
-    pub(crate) left: usize,
+    /// The searches for them, each by a mark of all that it looks at.
+    pub(super) searched: Vec<(u64, Vec<slip::Repair<Meant>>)>,
 }

@@ -1,55 +1,33 @@
 //! Blocks that may have been lost before a line: one that closes the cut, and a line tangent to an arc.
 
-use super::Suspect;
 use super::found::Meant;
-use super::words::prior;
-use crate::geometry::{Segment, Vector, left_normal};
+use super::line::Line;
+use super::suspect::{Change, Slip, Suspect};
+use crate::geometry::{Point, Segment, Vector, left_normal};
 use crate::program::iso::block::Motion;
 use crate::program::iso::document::Document;
-use crate::program::iso::labels::LOOKED_BACK;
 use crate::program::iso::line::{with_word, words_of_move};
+use crate::program::iso::machine::Machine;
 use crate::program::iso::moves::{
     Bend, CenterRule, Move, Place, Reading, added, distance, micrometres,
 };
 use crate::program::iso::shape::directions;
-use crate::program::repair::gap::is_one_line;
+use crate::program::repair::slip::Sort;
+
+/// Characters of a block, and of an arc.
+const BLOCK_KEYS: [i32; 2] = [20, 21];
 
 impl Suspect<'_> {
-    /// From the wire's position to the intended one, as far as it can be written, µm.
-    pub(super) fn gaps_before(&self, index: usize) -> Vec<Vector> {
-        let before = self.way.machine_before(index);
-        if before.lost != [false, false] {
-            return Vec::new();
-        }
-        let gaps = match (before.incremental, self.made(index)) {
-            (true, _) => self.way.gaps(index),
-            (false, Some(next)) => tangent_gaps(&next, self.way.reading),
-            (false, None) => Vec::new(),
-        };
-        let style = &self.pool.styles[usize::from(before.inch)];
-        let across = |gap: Place| {
-            let to = added(before.at, gap).map(|length| style.rounded(length));
-            micrometres(to) - micrometres(before.at)
-        };
-        gaps.into_iter().map(across).collect()
-    }
-
-    pub(super) fn headings_at(&self, index: usize) -> Option<[Vector; 2]> {
-        let ahead = directions(&self.made(index)?, self.way.reading)?.0;
-        let is_incremental = self.way.machine_before(index).incremental;
-        is_incremental.then_some([self.way.heading_before(index)?, ahead])
-    }
-
-    /// The line of the program that runs along `way`, which begins at the origin.
-    pub(super) fn filled(&self, index: usize, way: &Segment) -> Option<(Meant, f64)> {
-        let before = self.way.machine_before(index);
+    /// The block before a row that runs along `way`, which begins at the origin.
+    pub(super) fn filled(&self, index: usize, row: usize, way: &Segment) -> Option<Slip> {
+        let document = self.way.document;
+        let before = self.machine_at(index)?;
+        let style = self.style(&before);
         let (along, arc) = (way.end() - way.start(), way.as_arc());
-        let style = &self.pool.styles[usize::from(before.inch)];
         let nm = |by: Vector| [by.x, by.y].map(|um| (um * 1e3).round() as i64);
-        let mut motion = Motion::Line;
-        let mut center = None;
+        let (mut motion, mut center) = (Motion::Line, None);
         if let Some(arc) = arc {
-            let sign = match self.way.reading.rule(before.incremental) {
+            let sign = match document.reading().rule(before.incremental) {
                 CenterRule::StartToCenter => 1.0,
                 CenterRule::CenterToStart => -1.0,
                 CenterRule::Absolute => return None,
@@ -58,43 +36,79 @@ impl Suspect<'_> {
             let to_center = (along + left_normal(along) / (arc.sweep / 2.0).tan()) / 2.0;
             center = Some(nm(to_center * sign));
         }
-        let words = words_of_move(before, style, motion, added(before.at, nm(along)), center);
-        let meant = words.join(if self.pool.is_parted { " " } else { "" });
-        let line = match self.free_number(self.lines.start + index) {
-            Some(number) => with_word(meant.as_bytes(), &format!("N{number}"), self.pool.is_parted),
+        let is_parted = document.is_parted();
+        let words = words_of_move(&before, style, motion, added(before.at, nm(along)), center);
+        let meant = words.join(if is_parted { " " } else { "" });
+        let line = match self.free_number(self.way.first + row) {
+            Some(number) => with_word(meant.as_bytes(), &format!("N{number}"), is_parted),
             None => meant.clone().into_bytes(),
         };
-        let heading = self.way.heading_before(index);
-        let prior = match arc {
-            _ if heading.is_some_and(|heading| is_one_line(heading, along)) => {
-                prior::BLOCK + prior::MORE
-            }
-            None if !before.incremental => prior::TANGENT,
-            _ => prior::LOST_BLOCK,
+        // Of what is calculated the number of decimals says nothing.
+        let read = Line {
+            faults: 0,
+            ..self.read(&line)
         };
-        Some((Meant::new(line, "", &meant), prior))
+        let (count, pieces) = self.way.with(row, 0, &[read]);
+        let meant = Meant {
+            line,
+            found: String::new(),
+            meant,
+        };
+        Some(Slip {
+            change: Change::Insert { index, meant },
+            count,
+            pieces,
+            sort: Sort::Insertion,
+            keys: BLOCK_KEYS[usize::from(arc.is_some())],
+        })
+    }
+
+    /// The machine before a piece, or behind the last one.
+    pub(super) fn machine_at(&self, index: usize) -> Option<Machine> {
+        match self.way.at.get(index) {
+            Some(row) => Some(self.way.rows[*row].before),
+            None => self.way.document.machine_behind(self.line_of(index)),
+        }
     }
 
     /// The number of a block before a line, where there is room for one.
     fn free_number(&self, line: usize) -> Option<u32> {
-        let document = self.document;
-        let (last, step) = Document::last_numbers(line, |line| self.number_of(line))?;
+        let document = self.way.document;
+        let number_of = |line: usize| document.block(line).number;
+        let (last, step) = Document::last_numbers(line, number_of)?;
         let number = last.checked_add(step)?;
-        let next = self
-            .number_of(line)
-            .or_else(|| document.number_behind(line));
+        let next = number_of(line).or_else(|| document.number_behind(line));
         next.is_none_or(|next| next > number).then_some(number)
     }
 
-    /// The number of a line of the cut, or of one not far before it: many changes need it.
-    fn number_of(&self, line: usize) -> Option<u32> {
-        let first = self.lines.start.saturating_sub(LOOKED_BACK);
-        let read = || self.document.block(line).number;
-        let known = line.checked_sub(first).and_then(|at| self.numbers.get(at));
-        known.map_or_else(read, |known| *known.get_or_init(read))
+    /// Lines before an arc that leads nowhere from where it begins: under G90 nothing else tells that one was lost.
+    pub(super) fn tangent_lines(&self, index: usize) -> Vec<Slip> {
+        let row = self.way.at[index];
+        let own = &self.way.rows[row];
+        let is_unsound = self
+            .pieces
+            .all
+            .get(index)
+            .is_some_and(|piece| piece.is_unsound);
+        let mut machine = own.before;
+        let reading = self.way.document.reading();
+        let made = machine.run(&own.line.block, reading).filter(|_| is_unsound);
+        let Some(made) = made.filter(|made| !made.incremental) else {
+            return Vec::new();
+        };
+        let style = self.style(&machine);
+        let line = |gap: Place| {
+            let to = added(made.from, gap).map(|length| style.rounded(length));
+            let along = micrometres(to) - micrometres(made.from);
+            let way = Segment::line(Point::origin(), Point::origin() + along);
+            self.filled(index, row, &way)
+        };
+        tangent_gaps(&made, reading)
+            .into_iter()
+            .filter_map(line)
+            .collect()
     }
 }
-
 /// From the start of an arc to its start after a lost tangent line: its end stays, and its centre moves along where I
 /// and J count from the start.
 fn tangent_gaps(arc: &Move, reading: &Reading) -> Vec<Place> {
