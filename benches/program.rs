@@ -5,7 +5,7 @@ mod generated;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::sync::Arc;
-use wedm::beside::{Drawn, Traced, compare};
+use wedm::compare::{Drawn, Traced, compare};
 use wedm::drawing::{Contour, Drawing, Entity, Geometry, Outline, Role, Unit, Vertex};
 use wedm::program::three_b::{self, Words};
 use wedm::program::{self, Document, Format, Language, iso};

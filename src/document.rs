@@ -14,7 +14,7 @@ use since::EditedLines;
 pub(crate) use since::Since;
 
 use crate::analysis::Analysis;
-use crate::beside::{Beside, Drawn, Traced};
+use crate::compare::{Beside, Drawn, Traced};
 use crate::drawing::{Delta, Drawing, DrawingEdit, EntityId, Outline, Role};
 use crate::finding::{self, Detail, Edit, Finding, Fix, FixKind, Keep, Place, Rule, Telling};
 use crate::fit::Laid;

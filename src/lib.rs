@@ -1,7 +1,7 @@
 //! wedm: a language server for wire EDM.
 //!
 //! The floors, from the top, each of which imports only floors below it: [`cli`]; [`server`]; [`ide`], [`job`],
-//! [`protocol`]; [`document`], [`picture`]; [`beside`]; [`analysis`], [`program`]; [`fit`]; `rules`, [`toolpath`];
+//! [`protocol`]; [`document`], [`picture`]; [`compare`]; [`analysis`], [`program`]; [`fit`]; `rules`, [`toolpath`];
 //! [`dxf`], [`settings`]; [`finding`]; [`drawing`]; [`rule`]; [`geometry`], [`text`], [`message`], `disk`.
 //! `docs/architecture.md` is the map and describes each.
 //!
@@ -25,9 +25,9 @@ pub mod message;
 #[allow(clippy::indexing_slicing)]
 pub mod analysis;
 #[allow(clippy::indexing_slicing)]
-pub mod beside;
-#[allow(clippy::indexing_slicing)]
 pub mod cli;
+#[allow(clippy::indexing_slicing)]
+pub mod compare;
 mod disk;
 pub mod document;
 #[allow(clippy::indexing_slicing)]

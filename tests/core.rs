@@ -2,8 +2,8 @@
 //!
 //! One binary for many files: what they stand on is compiled once.
 
-#[path = "beside/main.rs"]
-mod beside;
+#[path = "compare/main.rs"]
+mod compare;
 #[path = "convert/main.rs"]
 mod convert;
 #[path = "extremes.rs"]

@@ -3,7 +3,7 @@
 use super::Failure;
 use super::files;
 use super::options::Common;
-use crate::beside::{self, Beside, name_of};
+use crate::compare::{self, Beside, name_of};
 use crate::disk;
 use crate::document::Document;
 use crate::finding::Rule;
@@ -12,7 +12,7 @@ use std::path::Path;
 
 /// The folders searched so far: each is searched once.
 #[derive(Default)]
-pub(crate) struct Folders(beside::Folders);
+pub(crate) struct Folders(compare::Folders);
 
 impl Folders {
     /// The partners of a document that was read from `path`.

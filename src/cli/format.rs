@@ -4,7 +4,7 @@ use super::changes::print_diff;
 use super::options::{Common, Words, parser, row};
 use super::output::{self, STRONG, styled};
 use super::{Failure, Verdict, ending, files};
-use crate::beside::is_program;
+use crate::compare::is_program;
 use crate::finding::Rule;
 use crate::program;
 use crate::settings::Settings;

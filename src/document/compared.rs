@@ -1,7 +1,7 @@
 //! A document beside another one: the data by which they are compared, and the differences.
 
 use super::{Asked, Document};
-use crate::beside::{self, Beside, Drawn, Form, Traced};
+use crate::compare::{self, Beside, Drawn, Form, Traced};
 use crate::finding::{Finding, Rule};
 use std::sync::Arc;
 
@@ -58,10 +58,10 @@ impl Document {
                 Beside::Nothing => None,
                 Beside::Drawing(drawing, others) => self
                     .traced()
-                    .map(|traced| beside::of_program(&traced, drawing, others, settings)),
+                    .map(|traced| compare::of_program(&traced, drawing, others, settings)),
                 Beside::Programs(programs) => self
                     .drawn()
-                    .map(|drawn| beside::of_drawing(&drawn, programs, settings)),
+                    .map(|drawn| compare::of_drawing(&drawn, programs, settings)),
             };
             found.unwrap_or_default().into()
         };

@@ -39,8 +39,6 @@ told! {
     /// The wire runs on the other side of an arc of 4B.
     Turned { other: Arc<str>, said: String, meant: String }
         => say!(the_arc_has_the_wire_on_its_other_side, said, meant, other);
-    /// The wire leaves its contour into the part, by `off` mm.
-    Inside { other: Arc<str>, off: f64 } => say!(the_wire_cuts_into_the_part, other, mm(*off));
     /// A way in ends beside the path of its contour, by `off` mm, and the contour goes on from there.
     Astray { other: Arc<str>, off: f64 } => say!(the_way_in_ends_beside_its_contour, other, mm(*off));
     /// The wire runs on the other side of its contours than the settings say.
@@ -59,6 +57,8 @@ told! {
     Nothing { other: Arc<str> } => say!(nothing_is_like_the_other, other);
     /// It is milled differently from what the drawing's settings say, so its blocks are not compared.
     Milled { other: Arc<str> } => say!(it_is_milled_otherwise, other);
+    /// From this block on it is not compared: that would take too many steps.
+    Beyond { other: Arc<str> } => say!(it_is_compared_as_far_as_here, other);
     /// The other document cannot be read.
     Unreadable { other: Arc<str>, reason: String }
         => say!(it_is_not_held_against_its_other, other, reason);
@@ -74,7 +74,6 @@ impl Unlike {
             | Unlike::Moved { off, .. }
             | Unlike::Lead { off, .. }
             | Unlike::Stated { off, .. }
-            | Unlike::Inside { off, .. }
             | Unlike::Astray { off, .. }
             | Unlike::Segment { off, .. }
             | Unlike::Begin { off, .. } => Some(*off),
@@ -88,6 +87,7 @@ impl Unlike {
             self,
             Unlike::Nothing { .. }
                 | Unlike::Milled { .. }
+                | Unlike::Beyond { .. }
                 | Unlike::Unreadable { .. }
                 | Unlike::Several { .. }
         )

@@ -109,30 +109,11 @@ impl BlockWords {
         self.words.starts_with(b"G92X")
     }
 
-    /// All of its numbers are zero.
-    pub(crate) fn is_at_zero(&self) -> bool {
-        self.numbers.iter().all(|number| *number == 0.0)
-    }
-
     /// The length behind a letter of an ISO block, µm.
     pub(crate) fn length(&self, letter: u8) -> Option<f64> {
         let mut letters = self.words.iter().filter(|word| LENGTHS.contains(word));
         let at = letters.position(|word| *word == letter)?;
         self.numbers.get(at).copied()
-    }
-
-    /// Whether an arc of ISO that says so turns to the left.
-    pub(crate) fn turns_left(&self) -> Option<bool> {
-        let has = |word: &[u8]| {
-            let at = memchr::memmem::find(&self.words, word);
-            let next = at.map(|at| self.words.get(at + word.len()));
-            next.is_some_and(|next| next.is_none_or(|next| !next.is_ascii_digit()))
-        };
-        match (has(b"G3"), has(b"G2")) {
-            (true, false) => Some(true),
-            (false, true) => Some(false),
-            _ => None,
-        }
     }
 
     /// The same words and numbers, whatever stands after them.

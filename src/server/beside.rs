@@ -11,7 +11,7 @@ use super::links::{Files, Link};
 use super::open::Open;
 use super::partner::{Look, Question};
 use super::state::State;
-use crate::beside::{Beside, Form, HEAD, name_of, plain};
+use crate::compare::{Beside, Form, HEAD, name_of, plain};
 use crate::finding::Rule;
 use crate::text::head;
 use std::panic::{AssertUnwindSafe, catch_unwind};

@@ -4,7 +4,7 @@ use super::convert;
 use super::kind::Kind;
 use super::shown::{self, Shown};
 use super::transport::{Written, panic_text};
-use crate::beside::{Beside, Form};
+use crate::compare::{Beside, Form};
 use crate::document::{Document, Source};
 use crate::drawing::Drawing;
 use crate::dxf;

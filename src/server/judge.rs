@@ -6,7 +6,7 @@ use super::content::{Content, Remains, is_small_drawing, is_small_text};
 use super::kind::Kind;
 use super::shown::Shown;
 use super::transport::Written;
-use crate::beside::{Beside, Form};
+use crate::compare::{Beside, Form};
 use crate::drawing::Drawing;
 use crate::protocol::DrawingChange;
 use crate::settings::Effective;

@@ -1,6 +1,6 @@
 //! The links between open documents and what lies beside them, and what is to be looked up.
 
-use crate::beside::{Form, Named};
+use crate::compare::{Form, Named};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};

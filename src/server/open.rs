@@ -6,7 +6,7 @@ use super::kind::Kind;
 use super::links::Link;
 use super::shown::Shown;
 use super::token_memory::TokenMemory;
-use crate::beside::Form;
+use crate::compare::Form;
 use crate::document::Document;
 use crate::settings::Effective;
 use crate::text::SourceText;

@@ -6,7 +6,7 @@
 
 use super::config::{self, Config, Search};
 use super::links::{Files, Kept, Link, Paths, Stamp};
-use crate::beside::{Folders, Form};
+use crate::compare::{Folders, Form};
 use crate::disk;
 use crate::document::{Document, FileKind};
 use crate::settings::Effective;

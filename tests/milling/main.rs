@@ -6,7 +6,7 @@ mod refusals;
 mod slots;
 use crate::support::generate;
 use std::sync::Arc;
-use wedm::beside::{Traced, compare};
+use wedm::compare::{Traced, compare};
 use wedm::document::{Document, Source};
 use wedm::drawing::{Drawing, Entity, Geometry, Kind, Role, Unit, Vertex};
 use wedm::finding::{Finding, Rule, Severity};

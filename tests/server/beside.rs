@@ -92,16 +92,16 @@ fn an_edit_of_either_is_said_at_both() {
         &mut client,
         &program,
         2,
-        &PROGRAM.replace("B0B9800B9800GYL2", "B0B9803B9803GYL2"),
+        &PROGRAM.replace("B0B9800B9800GYL2", "B0B9830B9830GYL2"),
     );
     assert_eq!(unlike(&mut client, &program, 1)[0].0, 2);
     assert_eq!(unlike(&mut client, &drawing, 1).len(), 1);
     // It names another drawing.
     let named = format!("; drawing: other.dxf\n{PROGRAM}");
-    std::fs::write(folder.path().join("other.dxf"), plate(1.0)).unwrap();
+    std::fs::write(folder.path().join("other.dxf"), plate(0.5)).unwrap();
     change(&mut client, &program, 3, &named);
     let said = unlike(&mut client, &program, 2);
-    assert!(said[0].1.contains("1.000 mm"), "{said:?}");
+    assert!(said[0].1.contains("0.500 mm"), "{said:?}");
     unlike(&mut client, &drawing, 0);
     client.shut_down();
 }
@@ -204,7 +204,7 @@ fn a_program_that_is_closed_unsaved_belongs_to_its_drawing_again() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name);
     let mut client = start(folder.path());
-    std::fs::write(path("other.dxf"), plate(1.0)).unwrap();
+    std::fs::write(path("other.dxf"), plate(0.5)).unwrap();
     std::fs::write(path("plate.3b"), PROGRAM).unwrap();
     let (drawing, program) = (uri_of(&path("plate.dxf")), uri_of(&path("plate.3b")));
     open(&mut client, &drawing, "dxf", &plate(0.05));

@@ -69,7 +69,6 @@ declare! {
     the_correction_is_that_of_another_pass(said, meant, drawing) => "correction {said} where the same pass of the other contours of {drawing} has {meant}: it is that of another pass";
     a_stop_is_missing_before_this_block(drawing) => "the program does not stop before this block, where {drawing} and its settings have a stop";
     the_arc_has_the_wire_on_its_other_side(said, meant, drawing) => "{said} where {drawing} needs {meant}: the arc has the wire on its other side, and its radius is wrong by twice the correction";
-    the_wire_cuts_into_the_part(drawing, off) => "the wire leaves the contour here and cuts {off} mm into the part of {drawing}";
     the_way_in_ends_beside_its_contour(drawing, off) => "lead-in ends {off} mm beside the path of its contour in {drawing}, and the contour is cut from there";
     the_contour_is_cut_at_another_correction(handle, drawing, said, meant) => "contour {handle} of {drawing} is cut at a correction of {said:.3} mm, and the others of this program at {meant:.3} mm";
     it_is_cut_on_the_other_side(drawing) => "the wire runs on the other side of the contour than {drawing} and its settings say";
@@ -79,6 +78,7 @@ declare! {
     the_program_begins_this_contour_elsewhere(program, line, off) => "{program} begins this contour {off} mm away, in line {line}; write the program again if the drawing has changed";
     the_program_leaves_this_contour_before_this_segment(program, line) => "{program} leaves this contour in line {line}, before this segment";
     it_is_milled_otherwise(other) => "it is not compared with {other}: the program does not mill as [milling] of that drawing says";
+    it_is_compared_as_far_as_here(other) => "from here on it was not compared with {other}: that would take too long";
     nothing_is_like_the_other(other) => "nothing in it matches {other}, to which it belongs by its name: they were not compared";
     it_is_not_held_against_its_other(other, reason) => "it was not compared with {other}: {reason}";
     it_is_held_against_the_first(drawing, more) => "it was compared with {drawing}; {more} has the same name, and one of the two is meant";

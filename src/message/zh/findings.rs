@@ -69,7 +69,6 @@ translate! {
     the_correction_is_that_of_another_pass(said, meant, drawing) => "补偿号为 {said}，而 {drawing} 其他轮廓的同一次切割为 {meant}：用了另一次切割的补偿";
     a_stop_is_missing_before_this_block(drawing) => "此段之前没有暂停，而 {drawing} 及其设置在此有暂停";
     the_arc_has_the_wire_on_its_other_side(said, meant, drawing) => "写为 {said}，而 {drawing} 需要 {meant}：丝在圆弧的另一侧，半径相差两倍补偿量";
-    the_wire_cuts_into_the_part(drawing, off) => "丝在此离开轮廓，切入 {drawing} 的工件 {off} mm";
     the_way_in_ends_beside_its_contour(drawing, off) => "引入线终点偏离 {drawing} 中轮廓的切割轨迹 {off} mm，轮廓从那里开始切割";
     the_contour_is_cut_at_another_correction(handle, drawing, said, meant) => "{drawing} 的轮廓 {handle} 按补偿量 {said:.3} mm 切割，本程序的其他轮廓按 {meant:.3} mm";
     it_is_cut_on_the_other_side(drawing) => "丝走在轮廓的另一侧，与 {drawing} 及其设置不符";
@@ -79,6 +78,7 @@ translate! {
     the_program_begins_this_contour_elsewhere(program, line, off) => "{program} 在第 {line} 行开始此轮廓，偏离 {off} mm；若图形已改，请重新生成程序";
     the_program_leaves_this_contour_before_this_segment(program, line) => "{program} 在第 {line} 行离开此轮廓，没有切到这一段";
     it_is_milled_otherwise(other) => "未与 {other} 比较：程序的铣削与该图形的 [milling] 设置不同";
+    it_is_compared_as_far_as_here(other) => "自此处起未与 {other} 比较：耗时过长";
     nothing_is_like_the_other(other) => "与同名的 {other} 没有任何相符之处：未作比较";
     it_is_not_held_against_its_other(other, reason) => "未与 {other} 比较：{reason}";
     it_is_held_against_the_first(drawing, more) => "已与 {drawing} 比较；{more} 同名，应为其中之一";

@@ -1,0 +1,189 @@
+//! The way of the wire round one contour at one offset, as a line along which a program moves.
+
+use super::basis::Basis;
+use crate::drawing::{ContourSegment, EntityId};
+use crate::geometry::{Arc, Point, Segment, Side};
+use crate::program::three_b;
+use crate::program::write::scaled;
+use crate::settings::{Compensation, Corner, Effective};
+use crate::toolpath::{self, PathSegment, Source};
+
+/// Pieces up to this length are left out: nothing of them may be left on the grid of a program.
+const CRUMB: f64 = 1.0;
+/// An offset below this is none: the wire runs on the contour, or the control moves it there.
+pub(super) const NONE: f64 = 2.0;
+
+/// A piece of a ring.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Piece {
+    pub(super) segment: Segment,
+    pub(super) source: Option<(EntityId, usize)>,
+    /// Where it begins along the ring.
+    pub(super) before: f64,
+}
+
+/// The way, in the direction of the program.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Ring {
+    pub(super) pieces: Vec<Piece>,
+    pub(super) length: f64,
+    pub(super) closed: bool,
+}
+
+/// What a ring is laid for: a contour, how far beside it, positive to its left, and whether against its direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Course {
+    pub(super) contour: usize,
+    pub(super) offset: f64,
+    pub(super) back: bool,
+    pub(super) corner: Corner,
+    pub(super) four_b: bool,
+}
+
+impl Ring {
+    /// `None` where no wire runs there.
+    pub(super) fn of(basis: Basis, course: &Course) -> Option<Ring> {
+        let contour = basis.contours.get(course.contour)?;
+        let mut segments = contour.segments.clone();
+        if course.back {
+            segments.reverse();
+            for segment in &mut segments {
+                segment.geometry = segment.geometry.reversed();
+            }
+        }
+        let along = |own: &ContourSegment| PathSegment {
+            geometry: own.geometry,
+            source: Source::Segment {
+                entity: own.entity,
+                segment: own.segment,
+            },
+        };
+        let mut path: Vec<PathSegment> = segments.iter().map(along).collect();
+        // A circle that is drawn as one arc comes back to its start.
+        if let ([only], true) = (&mut path[..], contour.closed)
+            && let Segment::Arc(arc) = only.geometry
+        {
+            only.geometry = Segment::Arc(Arc::about(
+                arc.center,
+                arc.start,
+                arc.start,
+                arc.sweep > 0.0,
+            ));
+        }
+        let is_left = (course.offset > 0.0) != course.back;
+        let side = if is_left { Side::Left } else { Side::Right };
+        if course.four_b {
+            path = of_four_b(path, contour.closed, (side, course.offset.abs()), basis)?;
+        } else if course.offset.abs() > NONE {
+            let settings = Effective {
+                compensation: Compensation::Path,
+                corner: course.corner,
+                ..basis.settings.clone()
+            };
+            let mm = course.offset.abs() / 1e3;
+            let sided = (side, contour.closed);
+            let laid = toolpath::rounds(&segments, sided, &[mm], &settings, basis.unit_mm);
+            path = laid.into_iter().next()??;
+        }
+        Some(Ring::along(&path, basis.unit_mm * 1e3, contour.closed))
+    }
+
+    fn along(path: &[PathSegment], scale: f64, closed: bool) -> Ring {
+        let mut ring = Ring {
+            closed,
+            ..Ring::default()
+        };
+        for piece in path {
+            let whole = scaled(&piece.geometry, scale);
+            let is_turn = whole.as_arc().is_some_and(Arc::is_full_turn);
+            // A circle has no place where it begins.
+            let parts = if is_turn { 4 } else { 1 };
+            for part in 0..parts {
+                let share = |part: u32| f64::from(part) / f64::from(parts);
+                let segment = match is_turn {
+                    true => whole.part(share(part), share(part + 1)),
+                    false => whole,
+                };
+                let length = segment.length();
+                if length > CRUMB {
+                    let source = piece.source.segment();
+                    let before = ring.length;
+                    ring.pieces.push(Piece {
+                        segment,
+                        source,
+                        before,
+                    });
+                    ring.length += length;
+                }
+            }
+        }
+        ring
+    }
+
+    /// The number of the piece at a place along the ring, which may lie beyond its end.
+    pub(super) fn index(&self, along: f64) -> usize {
+        let along = match self.closed {
+            true => along.rem_euclid(self.length.max(1e-9)),
+            false => along,
+        };
+        let behind = self.pieces.partition_point(|piece| piece.before <= along);
+        behind.saturating_sub(1)
+    }
+
+    /// The pieces that lie between two places along the ring, each with where it begins, counted on over its end.
+    pub(super) fn between(&self, from: f64, to: f64) -> impl Iterator<Item = (f64, &Piece)> {
+        let count = self.pieces.len();
+        let turns = (from / self.length.max(1e-9)).floor();
+        let (first, base) = match self.closed {
+            true => (self.index(from), turns * self.length),
+            false => (self.index(from.max(0.0)), 0.0),
+        };
+        let all = (first..).map_while(move |number| {
+            if !self.closed && number >= count || count == 0 {
+                return None;
+            }
+            let piece = self.pieces.get(number % count)?;
+            let laps = (number / count) as f64;
+            Some((base + laps * self.length + piece.before, piece))
+        });
+        all.take_while(move |(before, _)| *before <= to)
+    }
+
+    /// The place along the ring between two others that is nearest to a point, and how far that is.
+    pub(super) fn nearest(&self, point: Point, from: f64, to: f64) -> Option<(f64, f64)> {
+        let all = self.between(from, to).map(|(before, piece)| {
+            let share = piece.segment.share_of(point).clamp(0.0, 1.0);
+            let along = before + share * piece.segment.length();
+            (along, (piece.segment.point_at(share) - point).norm())
+        });
+        all.min_by(|one, other| one.1.total_cmp(&other.1))
+    }
+
+    /// The segment of the drawing at a place along the ring.
+    pub(super) fn source(&self, along: f64) -> Option<(EntityId, usize)> {
+        self.pieces.get(self.index(along))?.source
+    }
+}
+
+/// The part's contour with the transitions of 4B at a correction in µm, in the drawing's unit.
+fn of_four_b(
+    mut path: Vec<PathSegment>,
+    closed: bool,
+    (side, correction): (Side, f64),
+    basis: Basis,
+) -> Option<Vec<PathSegment>> {
+    let first = *path.first()?;
+    if closed {
+        // It may not begin in a corner.
+        path.first_mut()?.geometry = first.geometry.part(0.5, 1.0);
+        path.push(PathSegment {
+            geometry: first.geometry.part(0.0, 0.5),
+            ..first
+        });
+    }
+    let settings = Effective {
+        correction: correction / 1e3,
+        ..basis.settings.clone()
+    };
+    three_b::of_part(path, side, &settings, basis.unit_mm)
+}
