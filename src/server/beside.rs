@@ -86,16 +86,12 @@ impl State {
         if questions.is_empty() {
             return;
         }
-        let texts = self.settings_texts.iter().filter_map(|(path, uri)| {
-            let text = self.documents.get(uri)?.content.source_text()?;
-            Some((path.clone(), text.clone()))
-        });
         let look = Look {
             questions,
             paths: self.links.paths.clone(),
             files: self.links.files.clone(),
             config: self.config.clone(),
-            settings_texts: texts.collect(),
+            settings_texts: self.settings_texts(),
         };
         self.links.is_looking = true;
         self.on_a_worker(

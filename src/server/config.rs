@@ -131,19 +131,23 @@ impl Config {
         Origins::of(levels.into_iter().flatten())
     }
 
-    /// The project's file for a document: upwards from it, or from the workspace folder where it is no file.
+    /// The folder from which the project's file for a document is looked for: its own, or that of the workspace where it
+    /// is no file.
+    pub(crate) fn folder_of(&self, uri: &str) -> Option<PathBuf> {
+        match path_of(uri) {
+            Some(path) => path.parent().map(Path::to_path_buf),
+            None => self.folders.first().cloned(),
+        }
+    }
+
+    /// The project's file for a document: upwards from its folder.
     pub(crate) fn file_for(
         &self,
         uri: &str,
         search: &mut Search,
         opened: &dyn Fn(&Path) -> Option<SourceText>,
     ) -> Option<Arc<ProjectFile>> {
-        let document = path_of(uri);
-        let start = match &document {
-            Some(path) => path.parent()?,
-            None => self.folders.first()?,
-        };
-        search.upwards(start, opened)
+        search.upwards(&self.folder_of(uri)?, opened)
     }
 
     /// The faults in a project's file with the text `text`, by itself and together with the client's settings.
@@ -168,7 +172,7 @@ pub(super) struct Search {
 }
 
 impl Search {
-    fn upwards(
+    pub(crate) fn upwards(
         &mut self,
         start: &Path,
         opened: &dyn Fn(&Path) -> Option<SourceText>,
@@ -196,10 +200,7 @@ impl Search {
 }
 
 /// A project's file in its present state; `None` where there is none. `opened` are files whose text the client holds.
-pub(super) fn read(
-    file: &Path,
-    opened: &dyn Fn(&Path) -> Option<SourceText>,
-) -> Option<ProjectFile> {
+fn read(file: &Path, opened: &dyn Fn(&Path) -> Option<SourceText>) -> Option<ProjectFile> {
     match opened(file) {
         Some(text) => Some(parse(file, text)),
         None => is_there(file).then(|| read_file(file)),

@@ -1,7 +1,7 @@
 //! A request about an open document: the data it reads, whether its answer is still wanted, and where it is answered.
 
 use super::client::Abilities;
-use super::config;
+use super::config::{self, ProjectFile};
 use super::content::Content;
 use super::convert::{lsp_edits, lsp_range, range_of};
 use super::errors::{internal, moved_on, refused};
@@ -62,6 +62,14 @@ pub(super) struct Asked {
     pub(crate) about: About,
     /// Gone when the client has cancelled the request.
     pub(crate) client: Weak<()>,
+}
+
+impl Asked {
+    /// Whether its answer hangs on the project's file as it is now: settings of its own lie over those, and actions edit it.
+    fn needs_file(&self) -> bool {
+        let options = self.about.options.as_ref();
+        options.is_some_and(|options| !options.is_null()) || self.name == CodeActionRequest::METHOD
+    }
 }
 
 /// More findings than this go to a worker.
@@ -132,8 +140,24 @@ impl State {
         reply: Reply<T>,
         work: impl FnOnce(&RequestContext) -> Result<T> + Send + 'static,
     ) {
+        if !asked.needs_file() {
+            return self.answer_with(None, asked, reply, work);
+        }
+        let uri = asked.about.uri.clone();
+        self.with_file(asked.name, uri, move |state, file| {
+            state.answer_with(file.as_deref(), asked, reply, work);
+        });
+    }
+
+    fn answer_with<T: Send + 'static>(
+        &mut self,
+        file: Option<&ProjectFile>,
+        asked: Asked,
+        reply: Reply<T>,
+        work: impl FnOnce(&RequestContext) -> Result<T> + Send + 'static,
+    ) {
         let (name, reach) = (asked.name, asked.reach);
-        let (context, is_small) = match RequestContext::new(self, asked) {
+        let (context, is_small) = match RequestContext::new(self, asked, file) {
             Ok(context) => context,
             Err(error) => {
                 let _ = reply.send(Err(error));
@@ -168,7 +192,11 @@ impl State {
 
 impl RequestContext {
     /// And whether the document is small enough to answer at once.
-    fn new(state: &mut State, asked: Asked) -> Result<(RequestContext, bool)> {
+    fn new(
+        state: &mut State,
+        asked: Asked,
+        file: Option<&ProjectFile>,
+    ) -> Result<(RequestContext, bool)> {
         let Asked {
             name,
             title,
@@ -177,11 +205,11 @@ impl RequestContext {
             client,
             ..
         } = asked;
-        let options = with_options(state, &about.uri, about.options.as_ref());
+        let options = with_options(state, &about.uri, about.options.as_ref(), file);
         let (encoding, abilities) = (state.encoding, state.client.abilities.clone());
         let progress = Progress::begin(state.client.writer(), about.token, title);
         let settings_file = if name == CodeActionRequest::METHOD {
-            SettingsFile::of(state, &about.uri)
+            SettingsFile::of(&about.uri, file)
         } else {
             None
         };
@@ -377,17 +405,14 @@ impl RequestContext {
 }
 
 impl SettingsFile {
-    fn of(state: &mut State, uri: &str) -> Option<SettingsFile> {
-        let found = state.file_for(uri);
-        let path = match &found {
+    fn of(uri: &str, found: Option<&ProjectFile>) -> Option<SettingsFile> {
+        let path = match found {
             Some(file) => file.path.clone(),
             None => config::path_of(uri)?.parent()?.join(FILE_NAME),
         };
         Some(SettingsFile {
             uri: config::uri_of(&path)?.parse().ok()?,
-            text: found
-                .as_ref()
-                .map_or_else(|| SourceText::new(Vec::new()), |file| file.text.clone()),
+            text: found.map_or_else(|| SourceText::new(Vec::new()), |file| file.text.clone()),
             is_new: found.is_none(),
         })
     }
@@ -421,9 +446,10 @@ impl Held {
 
 /// The request's own settings over those of the document, if any.
 fn with_options(
-    state: &mut State,
+    state: &State,
     uri: &str,
     options: Option<&Value>,
+    file: Option<&ProjectFile>,
 ) -> Result<Option<Arc<Effective>>> {
     let Some(options) = options.filter(|options| !options.is_null()) else {
         return Ok(None);
@@ -434,8 +460,7 @@ fn with_options(
     if let Some(error) = errors.iter().find(|error| !error.of_levels) {
         return misfit(error);
     }
-    let file = state.file_for(uri);
-    let of_document = state.config.settings_for(file.as_deref());
+    let of_document = state.config.settings_for(file);
     let all = of_document.overlaid(&settings);
     let is_error = |error: &&SettingsError| error.severity == Severity::Error;
     // Faults that do not come from the options are reported elsewhere.
@@ -448,7 +473,7 @@ fn with_options(
     match all.contradictions(&|_| None).iter().find(is_error) {
         Some(error) if !is_wrong_already() => misfit(error),
         _ => Ok(Some(Arc::new(Effective {
-            origins: state.config.origins(file.as_deref(), Some(&settings)),
+            origins: state.config.origins(file, Some(&settings)),
             ..Effective::of_document(&all, config::name_of(uri))
         }))),
     }

@@ -47,15 +47,13 @@ pub(super) fn open(state: &mut State, sent: Sent) {
 }
 
 fn insert(state: &mut State, uri: Arc<str>, version: i64, drawing: Drawing) {
-    let settings = state.settings_for(&uri);
-    let stamp = state.next_stamp();
-    state.insert(Open::new(
-        uri,
-        version,
-        Task::Drawing(Box::new(drawing)),
-        settings,
-        stamp,
-    ));
+    let name = messages::DidOpenDrawing::NAME;
+    state.with_file(name, uri.clone(), move |state, file| {
+        let settings = state.config.effective_for(&uri, file.as_deref());
+        let first = Task::Drawing(Box::new(drawing));
+        let stamp = state.next_stamp();
+        state.insert(Open::new(uri, version, first, settings, stamp));
+    });
 }
 
 /// Changes as they came, or why they cannot be read.

@@ -404,8 +404,12 @@ impl Backend {
     async fn settings(&self, params: Value) -> Result<Value> {
         let (params, _) = read::<<messages::Settings as Message>::Params>(params)?;
         self.ask(messages::Settings::NAME, None, move |state, reply| {
-            let in_force = serde_json::to_value(settings::settings(state, &params.uri));
-            let _ = reply.send(in_force.map_err(|error| internal(error.to_string())));
+            let folder = state.config.folder_of(&params.uri);
+            state.look_for_file(folder, Vec::new(), move |state, file| {
+                let in_force = settings::settings(state, &params.uri, file.as_deref());
+                let in_force = serde_json::to_value(in_force);
+                let _ = reply.send(in_force.map_err(|error| internal(error.to_string())));
+            });
         })
         .await
     }

@@ -1,7 +1,7 @@
 //! The settings of each open document: the client's levels, the projects' files, and what follows when they change.
 
 use super::client::Weight;
-use super::config::{self, Level, ProjectFile, Search};
+use super::config::{self, Level, ProjectFile};
 use super::content::Content;
 use super::convert::{settings_diagnostics, written};
 use super::judge::Task;
@@ -9,11 +9,9 @@ use super::state::State;
 use super::transport::Publish;
 use crate::finding::{Rule, Severity};
 use crate::protocol::Diagnostic;
-use crate::settings::Effective;
-use crate::text::SourceText;
 use ls_types::{WorkspaceFolder, WorkspaceFoldersChangeEvent};
-use rustc_hash::FxHashMap;
 use serde_json::{Value, json};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -22,31 +20,8 @@ use std::time::{Duration, Instant};
 const SLICE: Duration = Duration::from_millis(10);
 
 impl State {
-    /// The settings of a document, with its project's file read again.
-    pub(crate) fn settings_for(&mut self, uri: &str) -> Arc<Effective> {
-        let file = self.file_for(uri);
-        self.config.effective_for(uri, file.as_deref())
-    }
-
-    pub(crate) fn file_for(&mut self, uri: &str) -> Option<Arc<ProjectFile>> {
-        let file = self
-            .config
-            .file_for(uri, &mut Search::default(), &|file| self.opened_text(file))?;
-        self.show_file(&file.path, Some(&file));
-        Some(file)
-    }
-
-    /// The text of a project's file that the client holds open.
-    fn opened_text(&self, file: &Path) -> Option<SourceText> {
-        self.documents
-            .get(self.settings_texts.get(file)?)?
-            .content
-            .source_text()
-            .cloned()
-    }
-
     /// Shows the errors of a file that the client does not hold open itself.
-    fn show_file(&mut self, file: &Path, project: Option<&ProjectFile>) {
+    pub(super) fn show_file(&mut self, file: &Path, project: Option<&ProjectFile>) {
         if self.settings_texts.contains_key(file) {
             self.shown_files.remove(file);
             return;
@@ -95,45 +70,46 @@ impl State {
     }
 
     /// Called when settings of any level may have changed: every open document is judged under its new settings. Each
-    /// folder is searched and each file read once, however many documents there are.
+    /// folder is searched once, however many documents lie in it.
     pub(crate) fn settings_changed(&mut self) {
         self.forget_files();
-        for file in self.shown_files.iter().cloned().collect::<Vec<_>>() {
-            let project = config::read(&file, &|file| self.opened_text(file));
-            self.show_file(&file, project.as_ref());
+        self.looks.begin_again();
+        for file in self.shown_files.clone() {
+            let folder = file.parent().map(Path::to_path_buf);
+            self.look_for_file(folder, Vec::new(), move |state, found| {
+                if found.is_none_or(|found| found.path != file) {
+                    state.show_file(&file, None);
+                }
+            });
         }
-        let mut search = Search::default();
-        let mut effective: FxHashMap<(Option<PathBuf>, Option<String>), Arc<Effective>> =
-            FxHashMap::default();
         let mut uris: Vec<Arc<str>> = self.documents.keys().cloned().collect();
         uris.sort_unstable();
+        let mut by_folder: BTreeMap<Option<PathBuf>, Vec<Arc<str>>> = BTreeMap::new();
         for uri in uris {
-            let file = self
-                .config
-                .file_for(&uri, &mut search, &|file| self.opened_text(file));
-            let key = (
-                file.as_ref().map(|file| file.path.clone()),
-                config::name_of(&uri),
-            );
-            let settings = match effective.get(&key) {
-                Some(settings) => settings.clone(),
-                None => {
-                    if let Some(file) = &file {
-                        self.show_file(&file.path, Some(file));
-                    }
-                    let settings = self.config.effective_for(&uri, file.as_deref());
-                    effective.insert(key, settings.clone());
-                    settings
-                }
-            };
+            let open = self.documents.get(&uri);
+            if open.is_some_and(|open| matches!(open.content, Content::Settings(_))) {
+                // What is at fault there depends on the client's settings, too.
+                self.mark_dirty(&uri);
+            }
+            let folder = self.config.folder_of(&uri);
+            by_folder.entry(folder).or_default().push(uri);
+        }
+        for (folder, uris) in by_folder {
+            self.look_for_file(folder, uris.clone(), move |state, file| {
+                state.settle(uris, file.as_deref());
+            });
+        }
+    }
+
+    /// Gives documents of one folder the settings that hold for them now.
+    fn settle(&mut self, uris: Vec<Arc<str>>, file: Option<&ProjectFile>) {
+        for uri in uris {
+            let settings = self.config.effective_for(&uri, file);
             let Some(open) = self.documents.get_mut(&uri) else {
                 continue;
             };
             let is_other = std::mem::replace(&mut open.settings, settings.clone()) != settings;
-            if matches!(open.content, Content::Settings(_)) {
-                // What is at fault there depends on the client's settings, too.
-                self.mark_dirty(&uri);
-            } else if is_other {
+            if is_other && !matches!(open.content, Content::Settings(_)) {
                 open.tasks.push(Task::Settings);
                 self.give_stamp(&uri);
                 self.unsettled.push_back(uri);

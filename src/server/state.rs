@@ -4,15 +4,15 @@
 //! edits costs one publish. A closure that panics costs its own request, but no document.
 
 use super::client::{Client, Weight};
-use super::config::{self, Config};
+use super::config::Config;
 use super::content::Content;
 use super::convert::{settings_diagnostics, written};
 use super::jobs::Workers;
 use super::judge::{Job, Judged, Task};
-use super::kind::Kind;
 use super::links::Links;
+use super::looks::Looks;
 use super::open::Open;
-use super::transport::{Publish, Writer, Written, give_back, panic_text};
+use super::transport::{Publish, Writer, give_back, panic_text};
 use crate::text::Encoding;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::VecDeque;
@@ -104,6 +104,8 @@ pub(super) struct State {
     waiting: FxHashMap<Arc<str>, VecDeque<Message>>,
     /// Documents that a worker has.
     away: usize,
+    /// Workers that look for the projects' files.
+    pub(crate) looks: Looks<State>,
     /// Files on disk whose errors the client is shown.
     pub(crate) shown_files: FxHashSet<PathBuf>,
     stamp: u64,
@@ -133,6 +135,7 @@ pub(super) fn start(writer: Writer, refuse_change: RefuseChange) -> std::io::Res
         links: Links::default(),
         waiting: FxHashMap::default(),
         away: 0,
+        looks: Looks::default(),
         shown_files: FxHashSet::default(),
         stamp: 0,
         stopped: None,
@@ -186,6 +189,7 @@ impl State {
             if self.away == 0
                 && self.unsettled.is_empty()
                 && self.links.is_at_rest()
+                && self.looks.is_at_rest()
                 && let Some(done) = self.stopped.take()
             {
                 self.workers.end();
@@ -239,8 +243,28 @@ impl State {
         });
     }
 
-    /// True where a worker has a document. A changed document is judged before it is read.
+    /// Does `act` before all messages that wait about a document, once no worker has it.
+    pub(crate) fn first_in_turn(
+        &mut self,
+        name: &'static str,
+        about: Arc<str>,
+        act: impl FnOnce(&mut State) + Send + 'static,
+    ) {
+        let waiting = self.waiting.entry(about.clone()).or_default();
+        waiting.push_front(Message {
+            name,
+            about: Some(about.clone()),
+            changes: false,
+            act: Box::new(act),
+        });
+        self.go_on(&about);
+    }
+
+    /// True where a worker has a document or looks for its settings. A changed document is judged before it is read.
     fn is_busy(&mut self, uri: &Arc<str>, changes: bool) -> bool {
+        if self.looks.hold(uri) {
+            return true;
+        }
         if !changes
             && self
                 .documents
@@ -298,45 +322,6 @@ impl State {
             // Uses the document's own copy of the name: one allocation for each document.
             self.dirty.push(open.uri.clone());
         }
-    }
-
-    /// Adds an open document, replacing one of the same URI.
-    pub(crate) fn insert(&mut self, open: Open) {
-        let uri = open.uri.clone();
-        if matches!(open.content, Content::Settings(_))
-            && let Some(path) = config::path_of(&uri)
-        {
-            self.settings_texts.insert(path, uri.clone());
-        }
-        let is_program = open.is_program();
-        let old = self.documents.insert(uri.clone(), open);
-        let link = old.map(|old| old.link).unwrap_or_default();
-        self.opened_beside(&uri, &link, is_program);
-        self.mark_dirty(&uri);
-    }
-
-    pub(crate) fn log_if_open(&self, uri: &Arc<str>) {
-        if self.documents.contains_key(uri) {
-            self.client.log(Weight::Info, say!(was_open_already, uri));
-        }
-    }
-
-    /// Closes a document; false when it is not open.
-    pub(crate) fn close(&mut self, uri: &Arc<str>) -> bool {
-        let Some(open) = self.documents.remove(uri) else {
-            return false;
-        };
-        if open.content.kind() == Kind::Settings {
-            self.settings_texts.retain(|_, other| other != uri);
-        }
-        self.closed_beside(uri, &open.link);
-        self.client.writer().publish(Publish {
-            uri: uri.clone(),
-            version: None,
-            diagnostics: Written::default(),
-            owed: true,
-        });
-        true
     }
 
     fn judge_dirty(&mut self) {
@@ -466,14 +451,15 @@ impl State {
     }
 
     /// Acts on the messages that waited for a document, until a worker has it again.
-    fn go_on(&mut self, uri: &Arc<str>) {
+    pub(crate) fn go_on(&mut self, uri: &Arc<str>) {
         let Some(mut waiting) = self.waiting.remove(uri) else {
             return;
         };
         while let Some(message) = waiting.pop_front() {
             if self.is_busy(uri, message.changes) {
                 waiting.push_front(message);
-                self.waiting.insert(uri.clone(), waiting);
+                let first = self.waiting.entry(uri.clone()).or_default();
+                first.append(&mut waiting);
                 return;
             }
             self.act_on(message);

@@ -15,19 +15,16 @@ use std::sync::Arc;
 
 pub(super) fn open(state: &mut State, uri: Arc<str>, language: &str, version: i64, text: String) {
     let kind = Kind::of(language, &uri);
-    let settings = state.settings_for(&uri);
-    let stamp = state.next_stamp();
     state.log_if_open(&uri);
-    state.insert(Open::new(
-        uri,
-        version,
-        Task::Text { kind, text },
-        settings,
-        stamp,
-    ));
-    if kind == Kind::Settings {
-        state.settings_changed();
-    }
+    state.with_file("textDocument/didOpen", uri.clone(), move |state, file| {
+        let settings = state.config.effective_for(&uri, file.as_deref());
+        let first = Task::Text { kind, text };
+        let stamp = state.next_stamp();
+        state.insert(Open::new(uri, version, first, settings, stamp));
+        if kind == Kind::Settings {
+            state.settings_changed();
+        }
+    });
 }
 
 pub(super) fn change(

@@ -242,6 +242,75 @@ fn a_file_that_cannot_be_read_is_said_at_its_name() {
     }
 }
 
+/// Nothing is read from it, and the file further up holds.
+#[cfg(unix)]
+#[test]
+fn a_pipe_in_the_place_of_the_file_holds_up_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let deep = folder.path().join("deep");
+    std::fs::create_dir(&deep).unwrap();
+    std::fs::write(folder.path().join("wedm.toml"), "correction = 0.2\n").unwrap();
+    let made = std::process::Command::new("mkfifo")
+        .arg(deep.join("wedm.toml"))
+        .status();
+    assert!(made.unwrap().success());
+    let mut client = Client::start();
+    let uri = uri_of(&deep.join("x.dxf"));
+    open(&mut client, &uri);
+    assert_eq!(required(&mut client, &uri, 1), 0.2);
+    let in_force = client
+        .request("wedm/settings", json!({ "uri": uri }))
+        .unwrap();
+    assert_eq!(in_force["correction"], 0.2);
+    client.shut_down();
+}
+
+/// What is sent while a worker looks for the file keeps its order: a document is opened, changed and closed, and opened again, in a
+/// folder with thousands of others.
+#[test]
+fn messages_about_a_document_keep_their_order_while_its_file_is_looked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("wedm.toml");
+    std::fs::write(&file, "correction = 0.2\n").unwrap();
+    let uri = |number: usize| uri_of(&folder.path().join(format!("{number}.dxf")));
+    let text = dxf_of(&[("2A", &TIGHT)]);
+    let mut client = Client::start();
+    let count = by_day(100, 1_000);
+    for number in 0..count {
+        let uri = uri(number);
+        let document = |version: i64, text: &str| json!({ "uri": uri, "languageId": "dxf", "version": version, "text": text });
+        client.notify(
+            "textDocument/didOpen",
+            json!({ "textDocument": document(1, "") }),
+        );
+        client.notify(
+            "textDocument/didClose",
+            json!({ "textDocument": { "uri": uri } }),
+        );
+        client.notify(
+            "textDocument/didOpen",
+            json!({ "textDocument": document(2, "") }),
+        );
+        client.notify(
+            "textDocument/didChange",
+            json!({ "textDocument": { "uri": uri, "version": 3 }, "contentChanges": [{ "text": text }] }),
+        );
+        if number == count / 2 {
+            std::fs::write(&file, "correction = 0.3\n").unwrap();
+            client.notify("workspace/didChangeWatchedFiles", json!({ "changes": [] }));
+        }
+    }
+    for number in 0..count {
+        let in_force = json!({ "uri": uri(number) });
+        let options = json!({ "uri": uri(number), "options": { "margin": 0.01 } });
+        let settings = client.request("wedm/settings", in_force).unwrap();
+        assert_eq!(settings["correction"], 0.3, "{number}");
+        let found = client.request("wedm/contours", options).unwrap();
+        assert_eq!(found["contours"].as_array().unwrap().len(), 1, "{number}");
+    }
+    client.shut_down();
+}
+
 #[test]
 fn a_drawing_without_a_file_takes_the_file_of_the_folder() {
     let folder = tempfile::tempdir().unwrap();

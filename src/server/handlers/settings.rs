@@ -1,13 +1,16 @@
 //! `wedm/settings`: the settings in force for a document, open or not.
 
 use crate::protocol::{CorrectionSource, SettingsInForce, as_stated};
-use crate::server::config::uri_of;
+use crate::server::config::{ProjectFile, uri_of};
 use crate::server::state::State;
 use crate::settings::{Effective, Origin};
 
-pub(in crate::server) fn settings(state: &mut State, uri: &str) -> SettingsInForce {
-    let file = state.file_for(uri);
-    let effective = state.config.effective_for(uri, file.as_deref());
+pub(in crate::server) fn settings(
+    state: &State,
+    uri: &str,
+    file: Option<&ProjectFile>,
+) -> SettingsInForce {
+    let effective = state.config.effective_for(uri, file);
     let effective: &Effective = &effective;
     let open = state.documents.get(uri);
     let drawing = open.and_then(|open| open.content.drawing());
@@ -27,7 +30,7 @@ pub(in crate::server) fn settings(state: &mut State, uri: &str) -> SettingsInFor
         units_to_mm: drawing.map(|drawing| effective.unit_of(drawing).mm),
         units_from: drawing.map(|drawing| effective.unit_from(drawing)),
         said: said.join(say!(comma)),
-        file: file.as_ref().and_then(|file| uri_of(&file.path)),
+        file: file.and_then(|file| uri_of(&file.path)),
         contours: effective.own.clone(),
     }
 }
