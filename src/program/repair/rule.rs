@@ -25,6 +25,9 @@ use rustc_hash::FxHashMap;
 const FINALISTS: usize = 200;
 const MOST_READ: usize = 200_000;
 
+/// Changes of blocks this far apart may lead the same way.
+const FARTHEST: usize = 8;
+
 /// The repairs of a cut, the most likely one first.
 pub(in crate::program) fn search<C: Cut>(cut: &C) -> Vec<Repair<C::Meant>> {
     Search::of(cut).repairs()
@@ -153,7 +156,11 @@ impl<'a, C: Cut> Search<'a, C> {
     fn judge(&mut self, mut slip: Slip<C::Meant>) {
         let (pieces, index) = (self.pieces, slip.change.index());
         let count = pieces.all.len();
-        let is_filled = matches!(slip.sort, Sort::Insertion | Sort::WayIn) && self.before.is_open;
+        // What is calculated from the gap closes it: to find out again costs all of the cut.
+        let is_calculated =
+            slip.sort == Sort::Calculated && pieces.writing.names_places && slip.keys > 3;
+        let closes_gap = matches!(slip.sort, Sort::Insertion | Sort::WayIn);
+        let is_filled = closes_gap && self.before.is_open;
         let own = pieces
             .all
             .get(index..index + slip.count)
@@ -183,14 +190,15 @@ impl<'a, C: Cut> Search<'a, C> {
         let mut is_near = false;
         let is_open = self.before.is_open || after.unread < self.before.unread;
         if pieces.closes && after.unread == 0 {
-            let read = if is_filled { 0 } else { count };
+            let is_known = is_filled || is_calculated && self.before.is_open;
+            let read = if is_known { 0 } else { count };
             if self.left < read {
                 self.is_complete = false;
                 return;
             }
             self.left -= read;
             let all = || pieces.with(index, slip.count, &slip.pieces);
-            after.is_open = !is_filled && !pieces.is_closed(&all());
+            after.is_open = !is_known && !pieces.is_closed(&all());
             if after.is_open && is_open {
                 is_near = self.is_nearly_closed(&all());
             }
@@ -275,7 +283,9 @@ impl<'a, C: Cut> Search<'a, C> {
                 continue;
             }
             let own = lead(&self.pieces.with(index, slip.count, &slip.pieces));
-            let mut alike = leads.iter();
+            // Blocks farther apart that are changed lead differently, however often a line goes on.
+            let is_about = |(known, _): &&([usize; 2], _)| index.abs_diff(known[0]) <= FARTHEST;
+            let mut alike = leads.iter().filter(is_about);
             match alike.find(|(_, known)| are_alike(known, &own, SAME)) {
                 Some(([_, place], known)) => {
                     let is_equal = !candidate.is_text() || are_alike(known, &own, 1.0);
@@ -308,11 +318,16 @@ impl<'a, C: Cut> Search<'a, C> {
         };
         let now = self.found.is_empty() || crosses(&self.pieces.all) == Some(true);
         let (mut kept, mut crossing) = (Vec::new(), Vec::new());
-        let mut insertions = 0;
+        let (mut insertions, mut calculated) = (0, 0);
         for candidate in std::mem::take(&mut self.found) {
-            if matches!(candidate.slip.sort, Sort::Insertion | Sort::Deletion) {
-                insertions += 1;
-                if insertions > 2 * HANDED_OUT {
+            let many = match candidate.slip.sort {
+                Sort::Insertion | Sort::Deletion => Some(&mut insertions),
+                Sort::Calculated => Some(&mut calculated),
+                _ => None,
+            };
+            if let Some(many) = many {
+                *many += 1;
+                if *many > 2 * HANDED_OUT {
                     kept.push(candidate);
                     continue;
                 }
