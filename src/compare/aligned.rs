@@ -149,7 +149,11 @@ fn rows(own: &[Block], ideal: &[Block]) -> Option<Vec<Beside>> {
                     at > own.len() || nth > ideal.len() || agree(at, nth)
                 })
         };
-        let (more, lost) = ahead().find(is_again).unwrap_or((1, 1));
+        // Where as much is left of both, none is lost: layers and passes that repeat agree one block on, too.
+        let in_place = [(1, 1), (2, 2)];
+        let is_even = own.len() - at == ideal.len() - nth;
+        let first = in_place.into_iter().filter(|_| is_even);
+        let (more, lost) = first.chain(ahead()).find(is_again).unwrap_or((1, 1));
         let both = more.min(lost);
         rows.extend((0..both).map(|step| Beside::Both {
             own: at + step,

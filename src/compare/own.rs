@@ -26,6 +26,11 @@ pub(super) fn compare(
     }
     let rewritten = &*drawn.rewritten(traced, handles)?;
     let aligned = Aligned::of(traced, rewritten)?;
+    // Another depth, or another wear, is another number of layers: it is another program.
+    let [own, ideal] = [traced, &rewritten.traced].map(|all| all.blocks.len());
+    if traced.mills && own.abs_diff(ideal) > 1 {
+        return None;
+    }
     let mut differences = aligned.blocks();
     differences.extend(leads(&aligned)?);
     differences.extend(of_corrections(&aligned));
