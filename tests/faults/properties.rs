@@ -4,6 +4,7 @@ use super::chance::Chance;
 use super::contours::{Group, program};
 use super::inject::{inject, kinds};
 use super::judge::{findings, read};
+use crate::size::by_day;
 use std::collections::BTreeMap;
 use wedm::document::Document;
 use wedm::finding::{Edit, Finding, FixKind, Rule, Severity};
@@ -61,7 +62,7 @@ fn said(text: &str) -> Vec<String> {
 fn a_faulty_program_is_judged_alike_in_the_mirror() {
     let chance = &mut Chance::of_seed(12);
     let mut failures = Vec::new();
-    for _ in 0..40 {
+    for _ in 0..by_day(12, 40) {
         let Some(sound) = program(Group::Compact, chance).filter(|text| text.starts_with('B'))
         else {
             continue;
