@@ -12,8 +12,8 @@ use crate::geometry::Bounds;
 use rustc_hash::FxHashSet;
 
 impl Analysis {
-    /// True where more contours than `before` are reported as open after an edit. False where only a look at the
-    /// drawing can tell.
+    /// The number of entities that were chained again where more contours than `before` are reported as open after an edit.
+    /// `None` where only a look at the drawing can tell.
     ///
     /// The two are the drawing before and after the edit, which touched `delta`. A contour that the edit does not touch
     /// stays as it is; an untouched entity can only become a double of a touched one.
@@ -22,25 +22,22 @@ impl Analysis {
         (drawing, edited): (&Drawing, &Drawing),
         delta: &Delta,
         before: &Tally,
-    ) -> bool {
+    ) -> Option<usize> {
         let touched: Option<Vec<EntityId>> = delta.touched.iter().map(Touched::entity).collect();
-        let Some(touched) = touched.filter(|touched| !touched.is_empty()) else {
-            return false;
-        };
+        let touched = touched.filter(|touched| !touched.is_empty())?;
         let is_told = self.settings.severity(Rule::OpenContour).is_some();
         if !is_told || before.unseen > 0 || !self.settings.points.is_empty() {
-            return false;
+            return None;
         }
         let mut chains = self.chains.clone();
         let rechained =
             chains.update_parts(edited, &touched, &|id| part_of(edited, &self.settings, id));
         let new = rechained.new.iter().filter_map(|&key| chains.get(key));
+        let chained = new.clone().map(|contour| contour.pieces.len()).sum();
         let mut open = new
             .filter(|contour| self.is_open(edited, contour))
             .peekable();
-        if open.peek().is_none() {
-            return false;
-        }
+        open.peek()?;
         let touched: FxHashSet<EntityId> = touched.into_iter().collect();
         let outlook = |key| self.outlook(drawing, key);
         let doubles: Vec<[EntityId; 2]> = self.pairs.doubles(&outlook).collect();
@@ -63,7 +60,7 @@ impl Analysis {
         };
         // One piece that is not a double is enough.
         let mut plainly = open.filter(|contour| contour.pieces.iter().any(lies_alone));
-        plainly.nth(told_before).is_some()
+        plainly.nth(told_before).map(|_| chained)
     }
 
     /// True for a contour of several entities that is open and has no side on which the wire runs.
