@@ -17,7 +17,7 @@ pub(super) const PLACED: f64 = 1.5;
 
 /// What stands beside what, by their numbers among the blocks of both programs.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Beside {
+pub(super) enum Row {
     Both {
         own: usize,
         ideal: usize,
@@ -37,7 +37,7 @@ pub(super) enum Beside {
 pub(super) struct Aligned<'a> {
     pub(super) traced: &'a Traced,
     pub(super) rewritten: &'a Rewritten,
-    pub(super) rows: Vec<Beside>,
+    pub(super) rows: Vec<Row>,
     /// From the rewritten program's places to where most of the program lies.
     pub(super) from: Vector,
 }
@@ -84,9 +84,7 @@ impl<'a> Aligned<'a> {
     /// is; an absolute program lies where it says, or all of it elsewhere.
     fn away(&self) -> Vector {
         let of_contours = self.rows.iter().filter_map(|row| match *row {
-            Beside::Both { own, ideal } if self.source(ideal).is_some() => {
-                self.ends_away(own, ideal)
-            }
+            Row::Both { own, ideal } if self.source(ideal).is_some() => self.ends_away(own, ideal),
             _ => None,
         });
         let all: Vec<[Vector; 2]> = of_contours.collect();
@@ -115,7 +113,7 @@ fn are_alike(own: &Block, ideal: &Block) -> bool {
 }
 
 /// Which block stands beside which; `None` where fewer than nine of ten agree.
-fn rows(own: &[Block], ideal: &[Block]) -> Option<Vec<Beside>> {
+fn rows(own: &[Block], ideal: &[Block]) -> Option<Vec<Row>> {
     let most = own.len().max(ideal.len());
     if own.is_empty() || own.len().abs_diff(ideal.len()) > IN_ONE_PLACE + most / ONE_OF {
         return None;
@@ -134,7 +132,7 @@ fn rows(own: &[Block], ideal: &[Block]) -> Option<Vec<Beside>> {
     let mut last: Option<usize> = None;
     while at < own.len() || nth < ideal.len() {
         if at < own.len() && agree(at, nth) {
-            rows.push(Beside::Both {
+            rows.push(Row::Both {
                 own: at,
                 ideal: nth,
             });
@@ -155,12 +153,12 @@ fn rows(own: &[Block], ideal: &[Block]) -> Option<Vec<Beside>> {
         let first = in_place.into_iter().filter(|_| is_even);
         let (more, lost) = first.chain(ahead()).find(is_again).unwrap_or((1, 1));
         let both = more.min(lost);
-        rows.extend((0..both).map(|step| Beside::Both {
+        rows.extend((0..both).map(|step| Row::Both {
             own: at + step,
             ideal: nth + step,
         }));
-        rows.extend((both..more).map(|step| Beside::More { own: at + step }));
-        rows.extend((both..lost).map(|step| Beside::Lost {
+        rows.extend((both..more).map(|step| Row::More { own: at + step }));
+        rows.extend((both..lost).map(|step| Row::Lost {
             own: at + both,
             ideal: nth + step,
         }));

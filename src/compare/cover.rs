@@ -40,7 +40,8 @@ impl Foreign<'_> {
         if self.traced.is_relative
             && is_sound
             && is_overlap
-            && let Some(block) = self.traced.blocks.get(last.end - 1)
+            && let Some(block) = last.end.checked_sub(1)
+            && let Some(block) = self.traced.blocks.get(block)
         {
             last.differences
                 .push(Difference::of(block, None, away, DifferenceKind::Block));
@@ -52,25 +53,20 @@ impl Foreign<'_> {
         let mut named = Vec::new();
         for (number, judged) in self.judged.iter().enumerate() {
             let Some(gap) = &judged.gap else { continue };
-            let others = self.judged.iter().enumerate();
-            let others = others
-                .filter(|(other, it)| *other != number && it.pass.contour == judged.pass.contour);
+            let others = self
+                .of_contour(judged)
+                .filter(|(other, _)| *other != number);
             let (mut is_filled, mut is_passed) = (false, false);
             for (other, it) in others {
                 let is_same = (it.pass.offset - judged.pass.offset).abs() <= LEVEL;
                 // A pass all the way round is one of its own.
-                let is_part = it.covered[1] - it.covered[0] < it.length / 2.0;
-                is_filled |= is_same && is_part && it.covers_rest_of(judged);
+                is_filled |= is_same && !it.is_whole() && it.covers_rest_of(judged);
                 // What is left of a tab is cut once, or at each offset.
                 is_passed |= other < number || it.covers_rest_of(judged);
             }
-            let mut of_contour = self
-                .judged
-                .iter()
-                .filter(|it| it.pass.contour == judged.pass.contour);
             // One change in a program that counts moves what comes after it: it is one finding.
-            let is_moved =
-                self.traced.is_relative && of_contour.any(|it| !it.differences.is_empty());
+            let mut all = self.of_contour(judged);
+            let is_moved = self.traced.is_relative && all.any(|(_, it)| !it.differences.is_empty());
             let is_tab = judged.is_tab && self.is_tab_of_all(judged);
             let is_left = is_tab && is_passed || judged.is_tab && is_moved;
             if !is_filled && !is_left {
@@ -97,15 +93,18 @@ impl Foreign<'_> {
     /// Whether no pass of the same contour goes farther round: each leaves the same tab.
     fn is_tab_of_all(&self, judged: &Judged) -> bool {
         const LONGER: f64 = 500.0;
-        let left = |judged: &Judged| judged.length - (judged.covered[1] - judged.covered[0]);
-        let all = self
-            .judged
-            .iter()
-            .filter(|it| it.pass.contour == judged.pass.contour);
-        let whole = all.filter(|it| it.covered[1] - it.covered[0] >= it.length / 2.0);
+        let all = self.of_contour(judged).map(|(_, it)| it);
+        let whole = all.filter(|it| it.is_whole());
         // Where one goes all the way round, there is none.
-        let least = whole.map(left).fold(left(judged), f64::min);
-        least > COVERED && left(judged) <= least + LONGER
+        let least = whole.map(Judged::left).fold(judged.left(), f64::min);
+        least > COVERED && judged.left() <= least + LONGER
+    }
+
+    /// All passes of the contour of one, with their numbers.
+    fn of_contour(&self, judged: &Judged) -> impl Iterator<Item = (usize, &Judged)> {
+        let contour = judged.pass.contour;
+        let all = self.judged.iter().enumerate();
+        all.filter(move |(_, it)| it.pass.contour == contour)
     }
 
     /// A block behind the stop after a pass that follows nothing, and begins or ends where the pass leaves a tab.

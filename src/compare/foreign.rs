@@ -5,13 +5,13 @@
 //! the one, of those at which blocks lie and of those of other contours, that leaves the least to name.
 
 use super::budget::Budget;
-use super::difference::{Comparison, Difference, DifferenceKind};
+use super::difference::{Comparison, DifferenceKind};
 use super::drawn::Drawn;
 use super::judged::{Judged, Pass, ROUNDED, SLIGHT, count, unfinished};
 use super::level::{LEVEL, Run, runs};
 use super::place::{place, places, told_by_arcs};
 use super::ring::{Course, NONE, Ring};
-use super::traced::{Block, Cut, Motion, Traced};
+use super::traced::{Cut, Motion, Traced};
 use super::walk::{At, COVERED, WITHIN, WITHIN_FOUR_B, Walk};
 use crate::geometry::{Point, Side, Vector};
 use crate::settings::Corner;
@@ -45,12 +45,11 @@ pub(super) fn compare(drawn: &Drawn, traced: &Traced, budget: Budget) -> Option<
     if traced.is_empty() || drawn.contours().is_empty() {
         return None;
     }
-    let place = place(drawn, traced, &budget);
-    if budget.is_spent() {
-        let first = traced.blocks.first()?;
-        return Some(Seen::beyond(first));
-    }
-    let (shift, has_place) = place?;
+    let found = place(drawn, traced, &budget);
+    let (shift, has_place) = match budget.is_spent() {
+        true => (Vector::zeros(), false),
+        false => found?,
+    };
     let mut foreign = Foreign {
         drawn,
         traced,
@@ -79,19 +78,41 @@ pub(super) fn compare(drawn: &Drawn, traced: &Traced, budget: Budget) -> Option<
     foreign.told()
 }
 
-impl Seen {
-    /// Nothing is compared from a block on.
-    fn beyond(block: &Block) -> Seen {
-        let differences = vec![Difference::of(block, None, 0.0, DifferenceKind::Beyond)];
-        let comparison = Comparison {
-            differences,
-            follows: Vec::new(),
-        };
-        Seen {
-            comparison,
-            handles: None,
-        }
+/// What is left of a cut.
+struct Rest {
+    blocks: Range<usize>,
+    /// The offsets that its arcs tell, µm.
+    told: Vec<f64>,
+}
+
+/// The ways that a pass may go at an offset: round sharp corners in arcs, or to their tips.
+fn courses(run: &Run, offset: f64) -> Vec<Course> {
+    let corners: &[Corner] = match offset.abs() > NONE {
+        true => &[Corner::Arc, Corner::Intersection],
+        // On the contour itself there is nothing to go round.
+        false => &[Corner::Arc],
+    };
+    let course = |corner: &Corner| Course {
+        contour: run.contour,
+        offset,
+        back: run.back,
+        corner: *corner,
+        four_b: false,
+    };
+    corners.iter().map(course).collect()
+}
+
+/// Keeps the better one of two.
+fn keep_better(best: &mut Option<Judged>, other: Option<Judged>) {
+    if let Some(other) = other
+        && best.as_ref().is_none_or(|best| count(&other) < count(best))
+    {
+        *best = Some(other);
     }
+}
+
+fn is_sound(best: &Option<Judged>) -> bool {
+    best.as_ref().is_some_and(|best| best.wrong == 0)
 }
 
 pub(super) struct Foreign<'a> {
@@ -134,45 +155,47 @@ impl Foreign<'_> {
         self.comes_back(cut, begun);
     }
 
+    /// Where the program lies: an absolute one where it did, whatever was wrong before.
+    fn here(&self) -> Vector {
+        match self.traced.is_relative {
+            true => self.shift,
+            false => self.base,
+        }
+    }
+
     /// The next pass of what is left of a cut: where the program lies, and where that leaves something to name, where it
     /// would lie if a block moved what comes after it.
-    fn next_pass(&self, rest: &Range<usize>) -> Option<Judged> {
-        // An absolute program lies where it did, whatever was wrong before.
-        let here = if self.traced.is_relative {
-            self.shift
-        } else {
-            self.base
+    fn next_pass(&self, blocks: &Range<usize>) -> Option<Judged> {
+        let told = match self.traced.is_relative {
+            true => told_by_arcs(self.drawn, self.traced, blocks.clone()),
+            false => Vec::new(),
         };
+        let blocks = blocks.clone();
+        let rest = &Rest { blocks, told };
+        let here = self.here();
         let mut best = self.best_at(here, rest, false);
-        let is_sound = |best: &Option<Judged>| best.as_ref().is_some_and(|best| best.wrong == 0);
         if is_sound(&best) || !self.traced.is_relative && best.is_some() {
             return best;
         }
-        let places = places(self.drawn, self.traced, rest.clone(), &self.budget);
-        let mut tried = places
-            .into_iter()
-            .map(|there| (there, false))
-            .chain([(here, true)]);
-        while best.as_ref().is_none_or(|best| best.wrong > 0)
-            && let Some((there, anywhere)) = tried.next()
-        {
-            if anywhere && rest.len() > SHORT && best.as_ref().is_some_and(|best| best.wrong <= 1) {
-                break;
+        let places = places(self.drawn, self.traced, rest.blocks.clone(), &self.budget);
+        for there in places {
+            if is_sound(&best) {
+                return best;
             }
-            let other = self.best_at(there, rest, anywhere);
-            let is_better =
-                |other: &Judged| best.as_ref().is_none_or(|best| count(other) < count(best));
-            if other.as_ref().is_some_and(is_better) {
-                best = other;
-            }
+            keep_better(&mut best, self.best_at(there, rest, false));
         }
+        let is_one = best.as_ref().is_some_and(|best| best.wrong <= 1);
+        if is_sound(&best) || is_one && rest.blocks.len() > SHORT {
+            return best;
+        }
+        keep_better(&mut best, self.best_at(here, rest, true));
         best
     }
 
     /// The pass that is next where the program lies at a place; `anywhere`: or at any corner of its way.
-    fn best_at(&self, there: Vector, rest: &Range<usize>, anywhere: bool) -> Option<Judged> {
-        let (traced, walls) = (self.traced, self.drawn.walls());
-        let runs = runs(traced, walls, rest.clone(), there, &self.budget);
+    fn best_at(&self, there: Vector, rest: &Rest, anywhere: bool) -> Option<Judged> {
+        let (traced, walls, blocks) = (self.traced, self.drawn.walls(), &rest.blocks);
+        let runs = runs(traced, walls, blocks.clone(), there, &self.budget);
         let is_known = |run: &Run| {
             let is_it = |other: &Judged| {
                 let apart = (other.pass.offset - run.offset()).abs();
@@ -188,20 +211,29 @@ impl Foreign<'_> {
         let run = run.or_else(|| runs.iter().find(|run| is_known(run)))?;
         // What is left of a tab, on one side.
         let is_part = run.share < PASS && run.count() <= 2 && is_known(run);
-        let mut offsets = self.offsets(run, &runs, rest);
-        if is_part || traced.four_b {
-            offsets.truncate(1);
-        }
+        let offsets = match is_part {
+            true => vec![self.snapped(run.offset())],
+            false => self.offsets(run, &runs, rest),
+        };
+        let courses = match traced.four_b {
+            true => self.courses_of_four_b(run, rest),
+            false => offsets
+                .iter()
+                .flat_map(|offset| courses(run, *offset))
+                .collect(),
+        };
         // A wrong block may lie between the way in and all that runs at one distance.
-        let from = run.first.saturating_sub(ABOUT).max(rest.start);
-        let behind_way = rest.start..(rest.start + ABOUT).min(from);
-        let begins = behind_way.chain(from..(run.first + ABOUT).min(rest.end));
+        let from = run.first.saturating_sub(ABOUT).max(blocks.start);
+        let behind_way = blocks.start..(blocks.start + ABOUT).min(from);
+        let begins = behind_way.chain(from..(run.first + ABOUT).min(blocks.end));
         let begins: Vec<usize> = begins.collect();
+        // A wrong block may move all of it away from where it says that it begins.
+        let is_stated = traced.is_placed && self.judged.is_empty();
+        let stated = is_stated.then_some(Vector::zeros());
+        let here = self.here();
+        let places: Vec<Vector> = [here, there].into_iter().chain(stated).collect();
         let mut best: Option<Judged> = None;
-        for course in offsets
-            .iter()
-            .flat_map(|offset| self.courses(run, *offset, rest))
-        {
+        for course in courses {
             let Some(ring) = self.drawn.ring(&course) else {
                 continue;
             };
@@ -210,54 +242,27 @@ impl Foreign<'_> {
                 offset: course.offset,
                 back: run.back,
             };
-            let walk = self.walk(&ring, rest.clone());
-            let here = if traced.is_relative {
-                self.shift
-            } else {
-                self.base
-            };
-            // A wrong block may move all of it away from where it says that it begins.
-            let is_stated = traced.is_placed && self.judged.is_empty();
-            let stated = is_stated.then_some(Vector::zeros());
-            let places: Vec<Vector> = [here, there].into_iter().chain(stated).collect();
-            let mut judged: Option<Judged> = None;
+            let walk = self.walk(&ring, blocks.clone());
             for entry in walk.entries(&begins, &places, is_part, anywhere) {
                 let is_there = stated.filter(|at| (entry.1.shift - at).norm() <= SLIGHT);
                 let from = is_there.unwrap_or(here);
                 let other = self.follow(&walk, pass, (entry, is_part), from);
-                if judged
-                    .as_ref()
-                    .is_none_or(|best| count(&other) < count(best))
-                {
-                    judged = Some(other);
+                keep_better(&mut best, Some(other));
+                if is_sound(&best) {
+                    return best;
                 }
-                if judged.as_ref().is_some_and(|best| best.wrong == 0) {
-                    break;
-                }
-            }
-            let is_better =
-                |other: &Judged| best.as_ref().is_none_or(|best| count(other) < count(best));
-            if judged.as_ref().is_some_and(is_better) {
-                best = judged;
-            }
-            if best.as_ref().is_some_and(|best| best.wrong == 0) {
-                break;
             }
         }
         best
     }
 
     /// The offsets that a pass may have: those at which most of its blocks lie, and those of the contours before it.
-    fn offsets(&self, run: &Run, runs: &[Run], rest: &Range<usize>) -> Vec<f64> {
+    fn offsets(&self, run: &Run, runs: &[Run], rest: &Rest) -> Vec<f64> {
         let mut own: Vec<&Run> = runs.iter().collect();
         own.retain(|other| (other.contour, other.back) == (run.contour, run.back));
         own.sort_by(|one, other| other.length.total_cmp(&one.length));
         let before = self.judged.iter().rev().map(|judged| judged.pass.offset);
-        let told = match self.traced.is_relative {
-            true => told_by_arcs(self.drawn, self.traced, rest.clone()),
-            false => Vec::new(),
-        };
-        let told = told.into_iter().map(|offset| offset.copysign(run.offset()));
+        let told = rest.told.iter().map(|told| told.copysign(run.offset()));
         let told = told.filter(|offset| (offset - run.offset()).abs() <= ROUNDED);
         let all = std::iter::once(run.offset()).chain(told);
         let all = all
@@ -273,42 +278,25 @@ impl Foreign<'_> {
         offsets
     }
 
-    /// The ways that a pass may go at an offset: round sharp corners in arcs, or to their tips.
-    fn courses(&self, run: &Run, offset: f64, rest: &Range<usize>) -> Vec<Course> {
-        let course = |offset: f64, corner: Corner| Course {
+    /// The ways that a pass of 4B may go: along the contour itself, with transitions for the wire's side.
+    fn courses_of_four_b(&self, run: &Run, rest: &Rest) -> Vec<Course> {
+        let contour = self.drawn.contours().get(run.contour);
+        let side = contour.and_then(|it| it.side);
+        let sides = side.map_or(vec![Side::Left, Side::Right], |side| vec![side]);
+        // The arcs that go round its corners are larger than the correction by the margin.
+        let margin = (self.drawn.settings.margin * 1e3).max(1.0) + 0.25;
+        let told = rest.told.iter().map(|radius| radius.round() - margin);
+        let set = self.drawn.settings.correction * 1e3;
+        let all = std::iter::once(set).chain(told.filter(|um| *um > NONE));
+        let offsets = all.flat_map(|um| sides.iter().map(move |side| side.sign() * um));
+        let course = |offset: f64| Course {
             contour: run.contour,
             offset,
             back: run.back,
-            corner,
-            four_b: self.traced.four_b,
+            corner: Corner::Arc,
+            four_b: true,
         };
-        if self.traced.four_b {
-            // The contour itself, with transitions for the wire's side.
-            let side = self
-                .drawn
-                .contours()
-                .get(run.contour)
-                .and_then(|it| it.side);
-            let sides = side.map_or(vec![Side::Left, Side::Right], |side| vec![side]);
-            // The arcs that go round its corners are larger than the correction by the margin.
-            let margin = (self.drawn.settings.margin * 1e3).max(1.0) + 0.25;
-            let told = told_by_arcs(self.drawn, self.traced, rest.clone()).into_iter();
-            let told = told.map(|radius| radius.round() - margin);
-            let set = self.drawn.settings.correction * 1e3;
-            let all = std::iter::once(set).chain(told.filter(|um| *um > NONE));
-            let of_um = |um: f64| {
-                let of_side = move |side: &Side| course(side.sign() * um, Corner::Arc);
-                sides.iter().map(of_side).collect::<Vec<Course>>()
-            };
-            return all.flat_map(of_um).collect();
-        }
-        match offset.abs() > NONE {
-            true => [Corner::Arc, Corner::Intersection]
-                .map(|corner| course(offset, corner))
-                .into(),
-            // On the contour itself there is nothing to go round.
-            false => vec![course(offset, Corner::Arc)],
-        }
+        offsets.map(course).collect()
     }
 
     /// An offset as the settings have it, where it is that of a pass; else to a tenth of a micrometre.

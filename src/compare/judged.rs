@@ -70,6 +70,16 @@ impl Judged {
         self.differences.extend(found);
     }
 
+    /// How much of the way it leaves, µm.
+    pub(super) fn left(&self) -> f64 {
+        self.length - (self.covered[1] - self.covered[0])
+    }
+
+    /// It goes round, but for a tab; what it leaves of one is less.
+    pub(super) fn is_whole(&self) -> bool {
+        self.left() <= self.length / 2.0
+    }
+
     /// Whether it covers what another pass leaves of their contour, as shares of the way of each.
     pub(super) fn covers_rest_of(&self, other: &Judged) -> bool {
         const NEAR: f64 = 2e-3;

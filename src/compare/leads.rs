@@ -5,7 +5,7 @@
 //! between them lies where it should.
 
 use super::TOLERANCE;
-use super::aligned::{Aligned, Beside, PLACED};
+use super::aligned::{Aligned, PLACED, Row};
 use super::difference::{Difference, DifferenceKind};
 use super::traced::Traced;
 use super::words::Words;
@@ -17,14 +17,14 @@ use std::ops::Range;
 const SLIP: f64 = 50.0;
 
 /// A block of the program and the one beside it, by their numbers.
-type Row = (usize, usize);
+type Facing = (usize, usize);
 
 /// The rows of one cut, and of the way to it.
 struct Cut<'a> {
-    bridge: &'a [Row],
-    ways_in: &'a [Row],
-    contour: &'a [Row],
-    ways_out: &'a [Row],
+    bridge: &'a [Facing],
+    ways_in: &'a [Facing],
+    contour: &'a [Facing],
+    ways_out: &'a [Facing],
     /// The number of its first block.
     start: usize,
 }
@@ -32,16 +32,16 @@ struct Cut<'a> {
 /// `None` where a contour begins elsewhere than under the settings: the program is not written by them.
 pub(super) fn leads(aligned: &Aligned) -> Option<Vec<Difference>> {
     let both = aligned.rows.iter().filter_map(|row| match *row {
-        Beside::Both { own, ideal } => Some((own, ideal)),
+        Row::Both { own, ideal } => Some((own, ideal)),
         _ => None,
     });
-    let rows: Vec<Row> = both.collect();
+    let rows: Vec<Facing> = both.collect();
     let within = |range: Range<usize>| {
         let from = rows.partition_point(|(_, ideal)| *ideal < range.start);
         let to = rows.partition_point(|(_, ideal)| *ideal < range.end);
         rows.get(from..to.max(from)).unwrap_or_default()
     };
-    let is_of_contour = |(_, ideal): &Row| aligned.source(*ideal).is_some();
+    let is_of_contour = |(_, ideal): &Facing| aligned.source(*ideal).is_some();
     let mut found = Vec::new();
     let away = aligned.from.norm();
     if (TOLERANCE..=SLIP).contains(&away) && !aligned.traced.is_relative {
@@ -75,7 +75,7 @@ pub(super) fn leads(aligned: &Aligned) -> Option<Vec<Difference>> {
 
 impl Aligned<'_> {
     /// How far a block is off, µm.
-    fn off(&self, (own, ideal): Row) -> f64 {
+    fn off(&self, (own, ideal): Facing) -> f64 {
         let pair = self.pair(own, ideal);
         pair.map_or(0.0, |(own, ideal)| {
             Words::of(self, own, ideal).off(own, ideal)
@@ -83,8 +83,8 @@ impl Aligned<'_> {
     }
 
     /// The first block that leads elsewhere and says something else.
-    fn first_off(&self, rows: &[Row]) -> Option<Row> {
-        let is_other = |(own, ideal): Row| {
+    fn first_off(&self, rows: &[Facing]) -> Option<Facing> {
+        let is_other = |(own, ideal): Facing| {
             let pair = self.pair(own, ideal);
             pair.is_some_and(|(own, ideal)| !Words::of(self, own, ideal).are_same)
         };
@@ -107,8 +107,8 @@ impl Aligned<'_> {
     /// The way to a contour or from it that is wrong. `carried`: how far the contour before ended from its place, and then
     /// this one.
     fn way(&self, cut: &Cut, carried: &mut Vector) -> Option<Difference> {
-        let begins = |row: &Row| Some(self.ends_away(row.0, row.1)?[0]);
-        let ends = |row: &Row| Some(self.ends_away(row.0, row.1)?[1]);
+        let begins = |row: &Facing| Some(self.ends_away(row.0, row.1)?[0]);
+        let ends = |row: &Facing| Some(self.ends_away(row.0, row.1)?[1]);
         let is_relative = self.traced.is_relative;
         let (first, last) = (cut.contour.first()?, cut.contour.last()?);
         let (begin, end) = (begins(first)?, ends(last)?);
@@ -135,7 +135,7 @@ impl Aligned<'_> {
             let block = self.traced.blocks.get(way.0)?;
             return Some(Difference::of(block, source, off, kind));
         }
-        let named = |row: Row, off: f64| {
+        let named = |row: Facing, off: f64| {
             let block = self.traced.blocks.get(row.0)?;
             Some(Difference::of(block, None, off, DifferenceKind::Lead))
         };
@@ -158,19 +158,19 @@ impl Aligned<'_> {
             };
         }
         // At the ends of a tab the wire goes from pass to pass.
-        let is_between = |(_, ideal): &&Row| self.source(*ideal).is_none();
-        let between: Vec<Row> = cut.contour.iter().filter(is_between).copied().collect();
+        let is_between = |(_, ideal): &&Facing| self.source(*ideal).is_none();
+        let between: Vec<Facing> = cut.contour.iter().filter(is_between).copied().collect();
         // From another hole the ways are others; from the same one, one of them is wrong.
         let ways = match (hole - begin).norm() > TOLERANCE {
             true => [&[][..], &between, &[]],
             false => [cut.ways_in, &between, cut.ways_out],
         };
         // A number that only the machine reads.
-        let is_in_place = |row: &&Row| {
+        let is_in_place = |row: &&Facing| {
             let ends = self.ends_away(row.0, row.1).unwrap_or_default();
             ends.iter().all(|away| away.norm() <= PLACED)
         };
-        let bridge: Vec<Row> = cut.bridge.iter().filter(is_in_place).copied().collect();
+        let bridge: Vec<Facing> = cut.bridge.iter().filter(is_in_place).copied().collect();
         if let Some(way) = self.first_off(&bridge) {
             return named(way, self.off(way));
         }

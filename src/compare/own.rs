@@ -5,7 +5,7 @@
 //! their length. Where nine of ten blocks agree the program is ours, and each of the others is named.
 
 use super::TOLERANCE;
-use super::aligned::{Aligned, Beside, PLACED};
+use super::aligned::{Aligned, PLACED, Row};
 use super::difference::{Comparison, Difference, DifferenceKind};
 use super::drawn::Drawn;
 use super::leads::leads;
@@ -36,7 +36,7 @@ pub(super) fn compare(
     differences.extend(of_corrections(&aligned));
     differences.sort_by_key(|one| one.range.start);
     let follows = aligned.rows.iter().filter_map(|row| match row {
-        Beside::Both { own, ideal } if aligned.source(*ideal).is_some() => {
+        Row::Both { own, ideal } if aligned.source(*ideal).is_some() => {
             Some(traced.blocks.get(*own)?.range.clone())
         }
         _ => None,
@@ -57,7 +57,7 @@ impl Aligned<'_> {
         for (row, beside) in self.rows.iter().enumerate() {
             let is_next = |(named, _): &(usize, Vector)| row - named <= 2;
             match *beside {
-                Beside::Both { own, ideal } => {
+                Row::Both { own, ideal } => {
                     let Some((block, meant)) = self.pair(own, ideal) else {
                         continue;
                     };
@@ -89,7 +89,7 @@ impl Aligned<'_> {
                         found.push(Difference::of(block, source, off, kind));
                     }
                 }
-                Beside::Lost { own, ideal } => {
+                Row::Lost { own, ideal } => {
                     let last = self.traced.blocks.len() - 1;
                     let Some((block, meant)) = self.pair(own.min(last), ideal) else {
                         continue;
@@ -109,7 +109,7 @@ impl Aligned<'_> {
                     }
                     found.push(self.gap(block, meant, ideal));
                 }
-                Beside::More { own } => {
+                Row::More { own } => {
                     let Some(block) = self.traced.blocks.get(own) else {
                         continue;
                     };

@@ -165,13 +165,10 @@ fn votes(drawn: &Drawn, traced: &Traced, blocks: Range<usize>, budget: &Budget) 
         };
         match own {
             Segment::Arc(arc) => {
-                for (_, other) in drawn
-                    .walls()
-                    .of_radius(arc.radius - LONGER / 2.0..arc.radius + LONGER / 2.0)
-                {
-                    if budget.take(1) {
-                        vote(other.center - arc.center);
-                    }
+                let radii = arc.radius - LONGER / 2.0..arc.radius + LONGER / 2.0;
+                let alike = drawn.walls().of_radius(radii).iter();
+                for (_, other) in alike.take_while(|_| budget.take(1)) {
+                    vote(other.center - arc.center);
                 }
             }
             Segment::Line { .. } => {

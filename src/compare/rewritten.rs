@@ -171,10 +171,7 @@ fn written(
     let mut notes = Notes::default();
     let text = format.write_noting(paths, unit_mm, settings, Some(&mut notes), &mut |_, _| true);
     let text = text.ok()?.text;
-    let language = match format {
-        Format::Iso | Format::Milling => Language::Iso,
-        Format::ThreeB | Format::FourB => Language::ThreeB,
-    };
+    let language = format.language();
     // Where the wire is taken by hand, the coordinates after blocks show it.
     let is_taken = settings.jumps == Jumps::None && settings.layout == Layout::Checking;
     if notes.steps.len() <= LONG || is_taken || !paths.iter().all(returns) {
@@ -278,10 +275,7 @@ mod tests {
                 .write_noting(&paths, 1.0, &settings, Some(&mut notes), &mut |_, _| true)
                 .unwrap()
                 .text;
-            let language = match format {
-                Format::Iso => Language::Iso,
-                _ => Language::ThreeB,
-            };
+            let language = format.language();
             let bytes = text.clone().into_bytes();
             let read = Traced::of(&Document::read(language, bytes, &settings));
             let noted = of_notes(notes, text.clone(), language, &settings);

@@ -2,7 +2,7 @@
 //! it is taken from, and the side of each arc of 4B.
 
 use super::TOLERANCE;
-use super::aligned::{Aligned, Beside};
+use super::aligned::{Aligned, Row};
 use super::difference::{Difference, DifferenceKind};
 use super::traced::{Block, Motion};
 use crate::geometry::Vector;
@@ -73,7 +73,7 @@ impl Words {
 /// Sides, registers and arcs of 4B that are others than in the rewritten program.
 pub(super) fn of_corrections(aligned: &Aligned) -> Vec<Difference> {
     let pairs = aligned.rows.iter().filter_map(|row| match *row {
-        Beside::Both { own, ideal } => {
+        Row::Both { own, ideal } => {
             let (block, meant) = aligned.pair(own, ideal)?;
             Some(Pair {
                 at: own,

@@ -51,12 +51,20 @@ impl Format {
         }
     }
 
+    /// The language that its programs are read in.
+    pub fn language(self) -> Language {
+        match self {
+            Format::ThreeB | Format::FourB => Language::ThreeB,
+            Format::Iso | Format::Milling => Language::Iso,
+        }
+    }
+
     /// Endings of the names of its files, lower-case, the usual one first.
     pub(crate) fn endings(self) -> &'static [&'static str] {
         match self {
             Format::ThreeB => &["3b"],
             Format::FourB => &["4b"],
-            Format::Iso | Format::Milling => Language::Iso.endings(),
+            Format::Iso | Format::Milling => self.language().endings(),
         }
     }
 

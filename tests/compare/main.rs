@@ -22,7 +22,7 @@ use wedm::document::{Document, Source};
 use wedm::drawing::{Drawing, Entity, Geometry, Kind, Role, Unit, Vertex};
 use wedm::geometry::Point;
 use wedm::job::{self, Wanted};
-use wedm::program::{self, Format, Language};
+use wedm::program::{self, Format};
 use wedm::settings::{Effective, from_toml};
 
 /// A contour: vertices `[x, y, bulge]`, or a circle.
@@ -94,10 +94,7 @@ fn program_of(document: &Document, format: Format) -> Option<String> {
 }
 
 fn traced(text: &str, format: Format, settings: &Effective) -> Traced {
-    let language = match format {
-        Format::Iso | Format::Milling => Language::Iso,
-        Format::ThreeB | Format::FourB => Language::ThreeB,
-    };
+    let language = format.language();
     Traced::of(&program::Document::read(language, text.into(), settings))
 }
 

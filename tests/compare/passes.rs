@@ -4,7 +4,7 @@ use super::{Shape, document, program_of, settings_of, traced};
 use wedm::compare::compare;
 use wedm::drawing::Role;
 use wedm::finding::Severity;
-use wedm::program::{self, Format, Language};
+use wedm::program::{self, Format};
 
 /// What is asked of a drawing's own program: passes, sequence, tab, overlap, lead, control. Nothing is wrong in it, and it follows its
 /// drawing.
@@ -85,10 +85,7 @@ fn programs_of_passes_tabs_and_overlaps_have_nothing_wrong() {
             continue;
         };
         made += 1;
-        let language = match format {
-            Format::Iso | Format::Milling => Language::Iso,
-            Format::ThreeB | Format::FourB => Language::ThreeB,
-        };
+        let language = format.language();
         let read = program::Document::read(language, text.clone().into(), &settings);
         let (mut found, _) = read.findings(&settings, usize::MAX);
         found.retain(|finding| finding.severity <= Severity::Warning);

@@ -58,6 +58,13 @@ impl Board {
         }
     }
 
+    /// Another drawing: anything may be named, or nothing be alike.
+    fn note_whole(&mut self, family: &'static str, found: Option<&[usize]>, text: &str) {
+        let is_named = found.is_none_or(|found| !found.is_empty());
+        let told = [0].get(..usize::from(is_named));
+        self.note(family, told, Some(0..=0), text);
+    }
+
     /// Fails where less than this share of a family is named right, in percent.
     fn holds(&self, floors: &[(&str, usize)]) {
         for (family, score) in &self.0 {
@@ -139,6 +146,16 @@ fn case() -> impl Strategy<Value = Case> {
 fn drawn_of(shapes: &[(Shape, Role)], settings: &str) -> Drawn {
     let snapshot = document(shapes, &settings_of(settings)).snapshot().unwrap();
     Drawn::of(&snapshot.drawing, &snapshot.outlines, &snapshot.settings)
+}
+
+/// The drawing with one vertex of its outline moved in X, mm.
+fn with_vertex(shapes: &[(Shape, Role)], share: f64, by: f64) -> Vec<(Shape, Role)> {
+    let mut shapes = shapes.to_vec();
+    if let Shape::Polyline(vertices) = &mut shapes[0].0 {
+        let at = (share * vertices.len() as f64) as usize;
+        vertices[at][0] += by;
+    }
+    shapes
 }
 
 fn is_block(line: &str) -> bool {
@@ -244,20 +261,9 @@ fn own_programs() {
                 );
             }
         }
-        // A vertex of the drawing, moved.
-        let mut shapes = case.shapes.clone();
-        if let Shape::Polyline(vertices) = &mut shapes[0].0 {
-            let at = (picks[0].0 * vertices.len() as f64) as usize;
-            vertices[at][0] += 0.05;
-        }
+        let shapes = with_vertex(&case.shapes, picks[0].0, 0.05);
         let found = told(&drawn_of(&shapes, &case.settings), &text);
-        let is_named = found.is_none_or(|found| !found.is_empty());
-        board.note(
-            "own, another drawing",
-            is_named.then_some(&[0]).map(|it| &it[..]),
-            Some(0..=0),
-            &about(&text),
-        );
+        board.note_whole("own, another drawing", found.as_deref(), &about(&text));
     }
     board.holds(&[
         ("own, unchanged", 100),
@@ -340,19 +346,9 @@ fn programs_of_others() {
                 &about(&lost),
             );
         }
-        let mut shapes = case.shapes.clone();
-        if let Shape::Polyline(vertices) = &mut shapes[0].0 {
-            let at = (picks[0].0 * vertices.len() as f64) as usize;
-            vertices[at][0] += 0.5;
-        }
+        let shapes = with_vertex(&case.shapes, picks[0].0, 0.5);
         let found = named(&drawn_of(&shapes, settings), &text, &case, settings);
-        let is_named = found.is_none_or(|found| !found.is_empty());
-        board.note(
-            "foreign, other drawing",
-            is_named.then_some(&[0]).map(|it| &it[..]),
-            Some(0..=0),
-            &about(&text),
-        );
+        board.note_whole("foreign, other drawing", found.as_deref(), &about(&text));
     }
     board.holds(&[
         ("foreign, unchanged", 100),

@@ -6,10 +6,7 @@ use super::*;
 #[track_caller]
 fn held(drawing: &Drawing, settings: &Effective, format: Format) -> String {
     let text = generated(drawing, settings, format).program.text;
-    let language = match format {
-        Format::Iso | Format::Milling => Language::Iso,
-        _ => Language::ThreeB,
-    };
+    let language = format.language();
     if format != Format::FourB {
         let document = program::Document::read(language, text.clone().into(), settings);
         let (findings, _) = document.findings(settings, usize::MAX);

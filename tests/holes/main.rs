@@ -13,7 +13,7 @@ use wedm::drawing::{Drawing, Entity, Geometry, Kind, Outline, Role, Unit, Vertex
 use wedm::finding::{Rule, Severity, sentence};
 use wedm::geometry::{Point, Segment};
 use wedm::job::{self, Generated};
-use wedm::program::{self, Format, Language};
+use wedm::program::{self, Format};
 use wedm::settings::{Effective, from_toml};
 use wedm::toolpath::{Source, WirePath};
 

@@ -12,7 +12,7 @@ use wedm::drawing::{Drawing, Entity, Geometry, Kind, Unit, Vertex};
 use wedm::finding::{Finding, Rule, Severity};
 use wedm::geometry::Point;
 use wedm::job::{self, Refusal};
-use wedm::program::{Document, Format, Language};
+use wedm::program::{Document, Format};
 use wedm::settings::{Effective, from_toml};
 use wedm::toolpath::{Source, WirePath};
 

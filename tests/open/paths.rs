@@ -8,10 +8,7 @@ fn program(drawing: &Drawing, settings: &Effective, format: Format) -> Result<St
 }
 
 fn read(text: &str, format: Format, settings: &Effective) -> Document {
-    let language = match format {
-        Format::Iso => Language::Iso,
-        _ => Language::ThreeB,
-    };
+    let language = format.language();
     Document::read(language, text.to_owned().into(), settings)
 }
 

@@ -13,7 +13,7 @@ use std::sync::Arc;
 use wedm::analysis::Analysis;
 use wedm::drawing::{Drawing, Entity, Geometry, Kind, Outline, Role, Unit, Vertex};
 use wedm::job;
-use wedm::program::{Document, Format, Language};
+use wedm::program::{Document, Format};
 use wedm::settings::{Effective, from_toml};
 use wedm::toolpath::{Source, WirePath, plan};
 
@@ -94,10 +94,7 @@ fn length(path: &WirePath, is_it: impl Fn(&Source) -> bool) -> f64 {
 fn held(drawing: &Drawing, settings: &Effective, format: Format) -> Document {
     let made = generated(drawing, settings, format);
     assert_eq!(made.contours, 1);
-    let language = match format {
-        Format::Iso | Format::Milling => Language::Iso,
-        _ => Language::ThreeB,
-    };
+    let language = format.language();
     let text = made.program.text;
     let document = Document::read(language, text.clone().into(), settings);
     let (findings, _) = document.findings(settings, usize::MAX);

@@ -126,6 +126,8 @@ fn searched(document: &Document, way: Way<'_>, found: &mut Repairs) -> (Range<us
     let behind = behind.first().filter(|behind| goes_on(&way, behind));
     let begins_astray = before.is_some_and(astray);
     let suspect = Suspect::of(way, &pieces);
+    // Even if it closes, it may begin at the wrong place, or the slip may stand in an open cut beside it.
+    let mut is_alone = !begins_astray;
     if suspect.against.is_open {
         let [before, behind] = [before, behind].map(|way| way.filter(|way| way.is_open()));
         let first = before.map_or(own.start, |before| before.first);
@@ -140,27 +142,18 @@ fn searched(document: &Document, way: Way<'_>, found: &mut Repairs) -> (Range<us
                 let repairs = repairs.iter().filter_map(|repair| whole.repair(repair));
                 return (first..end, repairs.collect());
             }
-            let repairs = suspect.repairs(found).into_iter();
-            let unsure = repairs.map(|repair| slip::Repair {
-                is_sure: false,
-                ..repair
-            });
-            let repairs = unsure.filter_map(|repair| suspect.repair(&repair));
-            return (own, repairs.collect());
+            is_alone = false;
         }
     }
-    let repairs = suspect.repairs(found).into_iter();
-    // Even if it closes, it begins at the wrong place.
-    let repairs = repairs.map(|repair| slip::Repair {
-        is_sure: repair.is_sure && !begins_astray,
-        ..repair
-    });
-    (
-        own,
-        repairs
-            .filter_map(|repair| suspect.repair(&repair))
-            .collect(),
-    )
+    let repairs = suspect
+        .repairs(found)
+        .into_iter()
+        .map(|repair| slip::Repair {
+            is_sure: repair.is_sure && is_alone,
+            ..repair
+        });
+    let repairs = repairs.filter_map(|repair| suspect.repair(&repair));
+    (own, repairs.collect())
 }
 
 /// The cuts before some lines and those behind them, the nearest ones first.
