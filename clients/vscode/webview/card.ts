@@ -92,6 +92,10 @@ export class Cards {
   }
 
   showContour(contour: Contour, keeps: boolean): void {
+    // What is being typed stays where the same contour is shown again, since something else has changed.
+    const field = this.#card.querySelector("input");
+    const isSame = this.#open?.handles.join() === contour.handles.join();
+    const typed = isSame && field !== null && field === document.activeElement ? field.value : null;
     this.#open = contour;
     this.#ask(null);
     this.ghost(null);
@@ -127,11 +131,25 @@ export class Cards {
     const order = document.createElement("input");
     Object.assign(order, { type: "number", min: "1", step: "1", value: String(contour.said.order ?? ""), placeholder: String(contour.number) });
     order.setAttribute("aria-label", t("Order"));
-    order.addEventListener("change", () => {
-      const number = Math.round(Number(order.value));
-      say({ order: order.value === "" || !(number > 0) ? null : number });
+    let kept = order.value;
+    const keep = (): void => {
+      if (order.value !== kept) {
+        kept = order.value;
+        const number = Math.round(Number(kept));
+        say({ order: kept === "" || !(number > 0) ? null : number });
+      }
+    };
+    order.addEventListener("change", keep);
+    order.addEventListener("keydown", (pressed) => {
+      if (pressed.key === "Enter") {
+        keep();
+      }
     });
     this.#show(heading, facts, sides, point("thread", t("Thread hole")), point("entry", t("Entry")), row(t("Order"), order));
+    if (typed !== null) {
+      order.value = typed;
+      order.focus();
+    }
   }
 
   #clear(act: () => void): HTMLButtonElement {

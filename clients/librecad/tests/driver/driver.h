@@ -13,7 +13,7 @@
 class QAction;
 
 /// Longer than anything takes here, also on a busy machine with a server that is not optimised, in ms: a wait ends as soon as its condition holds.
-constexpr int PATIENCE = 90000;
+constexpr int PATIENCE = 300000;
 
 class Driver : public QObject {
     Q_OBJECT

@@ -325,10 +325,10 @@ private slots:
         Talk talk;
         talk.start();
         talk.session.look("librecad:1", {polyline(1, vertices)}, Units::Millimetre);
-        QTRY_COMPARE_WITH_TIMEOUT(talk.version(), 1, 60000);
+        QTRY_COMPARE_WITH_TIMEOUT(talk.version(), 1, LONG);
         vertices[1000].bulge = -0.9; // an arc of R 0.016 mm
         talk.session.look("librecad:1", {polyline(2, vertices)}, Units::Millimetre);
-        QTRY_COMPARE_WITH_TIMEOUT(talk.version(), 2, 60000);
+        QTRY_COMPARE_WITH_TIMEOUT(talk.version(), 2, LONG);
         QVERIFY2(talk.rules().contains("small-radius 1/1000"), qPrintable(talk.rules().mid(0, 5).join(' ')));
     }
 };

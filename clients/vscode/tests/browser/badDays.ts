@@ -55,7 +55,7 @@ async function missing(checks: Checks): Promise<void> {
       const dies = join(host.folder, "..", "dies");
       await writeFile(dies, `#!/bin/sh\necho >>${dies}.starts\necho the disk is full >&2\nexit 3\n`, { mode: 0o755 });
       await choose(dies);
-      await window.notification("the server has ended 6 times in a row (it ended with code 3) and is not started again").waitFor({ timeout: 2 * PATIENCE });
+      await window.notification("the server has ended 6 times in a row (it ended with code 3) and is not started again").waitFor({ timeout: PATIENCE });
       await checks.shot("dies");
       expectEqual("starts", (await readFile(`${dies}.starts`, "utf8")).length, 6);
       expectEqual("notices", await host.page.locator(".notifications-toasts .notification-list-item").count(), 1);
@@ -163,7 +163,7 @@ async function killed(checks: Checks): Promise<void> {
       await notice.waitFor();
       await checks.shot("too-large");
       await notice.getByRole("button", { name: "Check It by Path" }).click();
-      await window.notification("large.dxf: 1 error").waitFor({ timeout: 4 * PATIENCE });
+      await window.notification("large.dxf: 1 error").waitFor({ timeout: PATIENCE });
       await expectSoon("the finding under Problems", async () => (await window.problems()).some((row) => row.includes("wedm check")), async () => (await window.problems()).join("\n"));
       await checks.shot("checked-by-path");
     });

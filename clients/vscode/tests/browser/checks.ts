@@ -5,7 +5,7 @@ import type { Page } from "playwright-core";
 import { ARTIFACTS } from "./paths";
 
 /** Longer than anything here takes on a busy machine, ms. */
-export const PATIENCE = Number(process.env["PATIENCE"] ?? 60_000);
+export const PATIENCE = Number(process.env["PATIENCE"] ?? 300_000);
 
 /** How long VS Code takes to show a notice in full, ms. */
 const FADING = 400;

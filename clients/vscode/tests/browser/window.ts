@@ -196,7 +196,7 @@ export class Window {
         await card.locator(".close").click();
       }
       await this.clickPath(picture, `svg .contour[data-handle="${handle}"]`);
-      await named.waitFor({ timeout: PATIENCE / 20 });
+      await named.waitFor({ timeout: 3_000 });
       return true;
     });
     const lead = card.locator(".link", { hasText: /^Contour \d/ });
