@@ -14,7 +14,7 @@ export class Window {
     for (let left = 3; ; left--) {
       await row.dblclick();
       try {
-        await this.tab(name, left > 0 ? PATIENCE / 4 : PATIENCE);
+        await this.tab(name, left > 0 ? 15_000 : PATIENCE);
         break;
       } catch (error) {
         if (left === 0) {
@@ -62,7 +62,7 @@ export class Window {
     const box = this.page.locator(".quick-input-widget");
     for (let attempt = 1; ; attempt += 1) {
       // Where the machine is too slow at the first try, the next one waits longer.
-      const timeout = (attempt * PATIENCE) / 10;
+      const timeout = attempt * 6_000;
       try {
         await this.page.keyboard.press(key);
         await box.locator("input").fill(text, { timeout });
