@@ -23,6 +23,18 @@ impl Analysis {
         index: usize,
         looks: &mut u64,
     ) -> Option<Fix> {
+        let proposed = self.proposed_arc(drawing, key, index)?;
+        let improves = self.enlarges(drawing, &proposed.edit, None, looks);
+        improves.then_some(proposed)
+    }
+
+    /// The same without the proof that it improves the drawing.
+    pub(super) fn proposed_arc(
+        &self,
+        drawing: &Drawing,
+        key: ContourKey,
+        index: usize,
+    ) -> Option<Fix> {
         let (travel, attempt) = self.attempt(drawing, key, index)?;
         let replacement = attempt.outcome.ok()?;
         let kind = FixKind::Refillet {
@@ -34,8 +46,7 @@ impl Analysis {
         let is_for_skims = |radius| self.limits.is_for_skims(radius);
         let in_fix_all = replacement.moved <= self.limits.correction
             && !radius.as_arc().is_some_and(|arc| is_for_skims(arc.radius));
-        let edit = small_radius::drawing_edit(drawing, &[(travel, replacement)])
-            .filter(|edit| self.enlarges(drawing, edit, None, looks))?;
+        let edit = small_radius::drawing_edit(drawing, &[(travel, replacement)])?;
         Some(Fix {
             kind,
             preferred: true,

@@ -62,6 +62,35 @@ impl Analysis {
         fixes
     }
 
+    /// The repair of a finding that "fix all" would make, if `may` holds for it; that is asked first, since the proof takes a
+    /// look at the drawing.
+    pub(crate) fn safe_fix(
+        &self,
+        drawing: &Drawing,
+        finding: &Finding,
+        may: &dyn Fn(&DrawingEdit) -> bool,
+    ) -> Option<Fix> {
+        let at = match finding.place {
+            Place::Segment { entity, segment } => (entity, segment),
+            _ => return None,
+        };
+        let is_wanted = |fix: &Fix| fix.preferred && fix.in_fix_all && may(&fix.edit);
+        match finding.rule {
+            Rule::DoesNotFit => self.fit_fix(drawing, finding).filter(is_wanted),
+            Rule::SmallRadius => {
+                let (key, index) = self.chains.index_of(at.0, at.1)?;
+                let arc = self.proposed_arc(drawing, key, index)?;
+                let is_proved = |fix: &Fix| self.enlarges(drawing, &fix.edit, None, &mut 0);
+                Some(arc).filter(is_wanted).filter(is_proved)
+            }
+            rule => {
+                let mut fixes = self.other_fixes(drawing, finding, at)?;
+                fixes.retain(is_wanted);
+                self.checked(drawing, rule, fixes).into_iter().next()
+            }
+        }
+    }
+
     /// The fixes of a finding of any rule but `small-radius`.
     pub(super) fn other_fixes(
         &self,

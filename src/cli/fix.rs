@@ -7,6 +7,7 @@ use super::report::{self, Row};
 use super::{Failure, Verdict, ending, files};
 use crate::disk::Seen;
 use crate::document::{Document, Source};
+use crate::drawing::DrawingEdit;
 use crate::finding::{Detail, Edit, Finding, Fix, FixKind, Place, Rule, Severity};
 use crate::job::{self, Outcome, REPAIRED, Repairs};
 use crate::message::{readable, said};
@@ -64,12 +65,6 @@ fn repaired_rules() -> impl Iterator<Item = (Rule, Counted)> {
 
 fn is_repaired(finding: &Finding) -> bool {
     REPAIRED.contains(&finding.rule)
-}
-
-/// The repair of a finding that is made without being asked for.
-fn safe_fix(document: &Document, finding: &Finding) -> Option<Fix<Edit>> {
-    let mut fixes = document.fixes(finding).into_iter();
-    fixes.find(|fix| fix.preferred && fix.in_fix_all)
 }
 
 /// The most findings for which it is worked out why they were not repaired: each costs a look at
@@ -253,7 +248,7 @@ fn planned(path: &Path, document: &Document) -> Vec<(Row, String)> {
     let is_of_program = document.program().is_some();
     let may_go = |finding: &&Finding| is_of_program || is_repaired(finding);
     let line = |finding: &Finding| {
-        let fix = safe_fix(document, finding)?;
+        let fix = document.safe_fix(finding, &|_| true)?;
         let row = report::row(path, document, finding);
         let unit_mm = document.unit_mm();
         let place = match (&row.data.handle, row.data.segment) {
@@ -308,8 +303,9 @@ fn refused(path: &Path, document: &Document) -> Vec<(Row, String)> {
         return Vec::new();
     }
     let repaired = findings.iter().filter(|finding| is_repaired(finding));
+    let is_refused = |edit: &DrawingEdit| text.text_edits(edit).is_err();
     let reason = |finding: &Finding| {
-        let Edit::Drawing(edit) = safe_fix(document, finding)?.edit else {
+        let Edit::Drawing(edit) = document.safe_fix(finding, &is_refused)?.edit else {
             return None;
         };
         Some((

@@ -1,7 +1,9 @@
-//! Rounds of repairs: what one makes of a document, and whether less is left to repair after it.
+//! Repairs that are made without being asked for: what one round of them makes of a document, and whether less is left to repair
+//! after it.
 
 use super::{Document, Source};
-use crate::finding::{Edit, Rule, Severity};
+use crate::drawing::DrawingEdit;
+use crate::finding::{Edit, Finding, Fix, Rule, Severity};
 use crate::text::{TextEdit, edited};
 
 impl Document {
@@ -20,6 +22,20 @@ impl Document {
         let edits = text.text_edits(&edit).ok()?;
         let mended = self.reread(edited(text.text().bytes(), &edits)?);
         (mended.left_to_repair() < self.left_to_repair()).then_some((edits, mended))
+    }
+
+    /// The repair of a finding that is made without being asked for; of a drawing, if `may` holds for it.
+    pub(crate) fn safe_fix(
+        &self,
+        finding: &Finding,
+        may: &dyn Fn(&DrawingEdit) -> bool,
+    ) -> Option<Fix<Edit>> {
+        if let Some(drawing) = self.drawing() {
+            let fix = self.analysis.safe_fix(drawing, finding, may)?;
+            return Some(fix.map(Edit::Drawing));
+        }
+        let mut fixes = self.fixes(finding).into_iter();
+        fixes.find(|fix| fix.preferred && fix.in_fix_all)
     }
 
     /// What each round of repairs of a drawing makes less: its findings, the heaviest ones first, else its segments.
