@@ -1,6 +1,7 @@
 //! From a path through each language and back.
 
 use super::*;
+use crate::size::by_day;
 
 fn way_to_write(via: &str) -> (Language, Format, Effective) {
     let words: Vec<&str> = via.split(' ').collect();
@@ -115,6 +116,10 @@ proptest! {
         let closed = back.drawing().entities().any(|(_, entity)| matches!(entity.geometry, Geometry::Polyline { closed: true, .. }));
         prop_assert!(closed, "{kinds:?}\n{text}");
     }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: by_day(64, 256), ..ProptestConfig::default() })]
 
     #[test]
     fn programs_of_all_languages_are_turned_into_each_other(

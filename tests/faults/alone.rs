@@ -4,6 +4,7 @@ use super::chance::Chance;
 use super::contours::{self, Group};
 use super::inject::{inject, kinds};
 use super::judge::{Left, findings, left_of, read};
+use crate::size::by_day;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use wedm::geometry::{Point, Segment};
@@ -306,7 +307,7 @@ fn what_fix_all_edits_is_what_it_was() {
         .split(',')
         .map(|number| number.trim().parse::<u64>().ok());
     let seed = numbers.next().flatten().unwrap_or(7);
-    let programs = numbers.next().flatten().unwrap_or(2) as usize;
+    let programs = numbers.next().flatten().unwrap_or(by_day(1, 2)) as usize;
     let (counts, by_fault, wrong) = run(seed, programs);
     for (kind, counts) in &counts {
         println!("{kind:?}: {counts:?}");

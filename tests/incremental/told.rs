@@ -275,14 +275,18 @@ proptest! {
         let polyline = drawing.push(entity(Geometry::Polyline { closed, vertices }, None));
         let mut analysis = Analysis::new(&drawing, settings.clone());
         analysis.findings(&drawing, 500);
+        // While no vertex has been removed, what was moved comes back to where it was.
+        let mut at_rest = Some(Analysis::new(&drawing, settings.clone()).findings(&drawing, usize::MAX));
         for (index, x, y, removed) in edits {
+            at_rest = at_rest.filter(|_| removed == 0);
             for moved in [(x, y), (0.0, 0.0)] {
                 let Ok(touched) = drawing.splice(polyline, index, 1 + removed, &[at(index, moved)]) else {
                     continue;
                 };
                 analysis.update(&drawing, &Delta { touched: vec![touched] });
-                let mut fresh = Analysis::new(&drawing, settings.clone());
-                prop_assert_eq!(analysis.findings(&drawing, usize::MAX), fresh.findings(&drawing, usize::MAX));
+                let known = at_rest.clone().filter(|_| moved == (0.0, 0.0));
+                let afresh = || Analysis::new(&drawing, settings.clone()).findings(&drawing, usize::MAX);
+                prop_assert_eq!(analysis.findings(&drawing, usize::MAX), known.unwrap_or_else(afresh));
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Every refactoring at every fixture: the text that it makes, or why it refuses, as it is recorded in a file. Of long texts, and of
 //! those that are made of faulty programs, a hash is recorded.
 //!
-//! `UPDATE_EXPECT=1 cargo test --test core programs refactor` records again what they do.
+//! `UPDATE_EXPECT=1 cargo test --test core programs refactor` records again what they do. By day every second program is looked at.
 
 use super::language_of;
 use crate::size::by_day;
@@ -87,12 +87,32 @@ fn errors(language: Language, bytes: &[u8], settings: &Effective) -> BTreeSet<&'
         .collect()
 }
 
+/// The part of a record that is about those programs whose names are wanted.
+fn of_those(record: &str, is_wanted: impl Fn(&str) -> bool) -> String {
+    let mut is_own = false;
+    let own = record.split_inclusive('\n').filter(|line| {
+        if let Some((name, _)) = line
+            .strip_prefix("== ")
+            .and_then(|line| line.split_once(": "))
+        {
+            is_own = is_wanted(name);
+        }
+        is_own
+    });
+    own.collect()
+}
+
 #[test]
 fn refactorings_do_what_is_recorded_and_bring_no_error() {
     let settings = Effective::default();
     let mut record = String::new();
     let mut spoiled = Vec::new();
+    let records = std::env::var_os("UPDATE_EXPECT").is_some();
+    let is_looked_at = |name: &str| records || hash(name.as_bytes()).is_multiple_of(by_day(2, 1));
     for path in programs() {
+        if !is_looked_at(path.file_name().unwrap().to_str().unwrap()) {
+            continue;
+        }
         let (language, bytes) = (language_of(&path).unwrap(), std::fs::read(&path).unwrap());
         let before = errors(language, &bytes, &settings);
         let is_wrong = path.parent().unwrap().ends_with("wrong");
@@ -147,7 +167,17 @@ fn refactorings_do_what_is_recorded_and_bring_no_error() {
             say(&format!("scaled by {factor:.4} at nothing"), edits);
         }
     }
-    expect_file!["../data/refactorings/expected.txt"].assert_eq(&record);
+    let recorded = expect_file!["../data/refactorings/expected.txt"];
+    if records {
+        recorded.assert_eq(&record);
+    }
+    let recorded = of_those(&recorded.data(), is_looked_at);
+    let differs = recorded
+        .lines()
+        .zip(record.lines())
+        .find(|(was, is)| was != is);
+    assert_eq!(differs, None);
+    assert_eq!(record.len(), recorded.len());
     assert!(spoiled.is_empty(), "{}", spoiled.join("\n"));
 }
 
@@ -159,7 +189,7 @@ fn refactorings_of_faulty_programs_bring_no_other_fault() {
         let (language, right) = (language_of(&path).unwrap(), std::fs::read(&path).unwrap());
         let is_small = right.len() < 250 && language == Language::ThreeB;
         let digits = |at: &usize| right[*at].is_ascii_digit() && is_small;
-        for at in (0..right.len()).filter(digits).step_by(by_day(3, 1)) {
+        for at in (0..right.len()).filter(digits).step_by(by_day(6, 1)) {
             // One digit is another one.
             let mut bytes = right.clone();
             bytes[at] = if bytes[at] == b'9' {
