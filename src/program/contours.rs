@@ -1,227 +1,203 @@
-//! The contours of a program, in any language: which stops lie within one, and where one crosses
-//! itself. After an edit only the contours that it touches are looked at.
-//!
-//! An open cut is followed past its stops, so the result depends on later cuts; how far the search
-//! went is kept. Everything from the first touched cut up to where contours begin as before is
-//! looked at again.
+//! The contours of a program, in any language: which cuts are one contour, with stops within it, and where one crosses
+//! itself.
 
-use super::by_chunk::{Begun, ByChunk};
-pub(in crate::program) use super::by_chunk::{PartAt, Touched};
-use super::followed::Followed;
-use super::path::{Found, Known};
-use super::work::{self, Work};
+use super::path::{ControlOffset, Found, Verdict, Way, is_tab};
+use super::steps::Program;
+use rustc_hash::FxHashMap;
+use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// An open cut that belongs to no contour before it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Head {
-    begin: PartAt,
-    behind: PartAt,
-    reach: usize,
-    /// The stops within its contour.
-    tabs: u32,
-    is_open: bool,
-}
+/// Stops in one contour, to hold the part before its last piece is cut.
+const STOPS_WITHIN: usize = 16;
 
-/// What the heads of a chunk come to.
-#[derive(Clone, Debug, Default, PartialEq)]
-struct Heads {
-    /// The last chunk that was looked at for any of them.
-    reach: usize,
-    tabs: usize,
-}
+/// Those of them after which a tab is searched for.
+const TABS_WITHIN: usize = 4;
 
-impl Begun for Head {
-    type Sum = Heads;
+/// A program by its cuts, as the division into contours sees them.
+pub(in crate::program) trait Divided: Program {
+    /// Pieces that return to the start together are one contour, in whatever order they are cut.
+    const PIECES_ARE_ONE: bool;
 
-    fn begin(&self) -> PartAt {
-        self.begin
-    }
+    /// Tells a cut apart from all others, and from what it was before an edit.
+    fn id(&self, cut: usize) -> u64;
 
-    fn renumber(&mut self, moved: &dyn Fn(usize) -> usize) {
-        let all = [&mut self.begin.0, &mut self.behind.0, &mut self.reach];
-        all.into_iter().for_each(|chunk| *chunk = moved(*chunk));
-    }
+    fn verdict(&self, cut: usize) -> Cow<'_, Verdict>;
 
-    fn sum(list: &[Head]) -> Heads {
-        Heads {
-            reach: list.iter().map(|head| head.reach).max().unwrap_or(0),
-            tabs: tabs_of(list.iter()),
+    fn way(&self, cut: usize) -> Way;
+
+    /// It is open, and the wire may go on after the stop at its end.
+    fn may_go_on(&self, cut: usize) -> bool;
+
+    /// The cut after that stop, where it may belong to the same contour.
+    fn behind_stop(&self, cut: usize) -> Option<usize>;
+
+    /// It is a contour of its own or the way to one: no cut after it is a tab of those before.
+    fn stands_alone(&self, cut: usize) -> bool;
+
+    /// A block of these cuts has a fault: the way after it is not the intended one.
+    fn is_doubtful(&self, cuts: &Range<usize>) -> bool;
+
+    /// The offset that the control makes of some cuts that are one contour; `None` where it runs as it is written, or
+    /// nothing is known of it.
+    fn control_offset(&self, cuts: &Range<usize>) -> Option<ControlOffset>;
+
+    /// The way of consecutive cuts, with a stop after the first.
+    fn way_of(&self, cuts: &Range<usize>) -> Way {
+        let mut all = cuts.clone().map(|cut| self.way(cut));
+        let mut whole = all.next().unwrap_or_default();
+        for way in all.filter(|way| way.count() > 0) {
+            whole.append(&way);
         }
+        whole
     }
 }
 
-fn tabs_of<'a>(heads: impl Iterator<Item = &'a Head>) -> usize {
-    heads.map(|head| head.tabs as usize).sum()
-}
-
-/// A contour that crosses or coincides with itself, or of which an offset loses something, and where.
-type Crossing<C> = (C, Arc<Found>);
-
-impl<C: Begun> Begun for Crossing<C> {
-    type Sum = ();
-
-    fn begin(&self) -> PartAt {
-        self.0.begin()
-    }
-
-    fn renumber(&mut self, moved: &dyn Fn(usize) -> usize) {
-        self.0.renumber(moved);
-    }
-
-    fn sum(_: &[Crossing<C>]) {}
-}
-
-/// The contours of a program that stop, are open, cross themselves or lose something by the offset of the control.
+/// Cuts that are one contour.
 #[derive(Clone, Debug, PartialEq)]
-pub(in crate::program) struct Contours<C: Begun> {
-    heads: ByChunk<Head>,
-    /// The stops within contours, in the order of the text.
-    tabs: Vec<(usize, usize)>,
-    crossing: ByChunk<Crossing<C>>,
+pub(in crate::program) struct Contour {
+    pub(crate) cuts: Range<usize>,
+    /// The last of them is the tab of those before: all are judged as one. Else they return to the start together.
+    pub(crate) ends_with_tab: bool,
+    /// What is known of it as one, where it crosses itself, too; of pieces that return together, nothing.
+    judged: Arc<Judged>,
 }
 
-impl<C: Begun> Default for Contours<C> {
-    fn default() -> Self {
-        Contours {
-            heads: ByChunk::default(),
-            tabs: Vec::new(),
-            crossing: ByChunk::default(),
-        }
+impl Contour {
+    pub(crate) fn verdict(&self) -> &Verdict {
+        &self.judged.0
+    }
+
+    pub(crate) fn found(&self) -> &Found {
+        &self.judged.1
     }
 }
 
-impl<C: Begun + Clone> Contours<C> {
-    /// Looks at the cuts that were touched, and at those whose contours depend on them: each
-    /// contour is handed out, with whether something was found of it where that was looked for. Returns
-    /// all that was looked at.
-    pub(crate) fn look<'a, D: Followed<Cut = C>>(
-        &mut self,
-        document: &D,
-        touched: Touched<'a>,
-        known: &mut Known,
-        mut each: impl FnMut(C, Option<bool>),
-    ) -> Touched<'a> {
-        let first = self.first_touched(&touched);
-        let kept = self.heads.before(first.unwrap_or((self.heads.len(), 0)));
-        let own_behind = kept.map_or((0, 0), |head| head.behind);
-        let from = first.map_or(touched.from, |first| first.min(touched.from));
-        let mut again = Touched {
-            from: from.max(own_behind),
-            ..touched
-        };
-        let (mut heads, mut tabs, mut crossing) = (Vec::new(), Vec::new(), Vec::new());
-        let (mut at, mut behind) = (again.from, again.from);
-        let gone = first.map(|first| self.heads.from(first));
-        let mut gone = gone.into_iter().flatten().peekable();
-        let mut gone_tabs = 0;
-        known.begin();
-        loop {
-            // Whatever belonged to a contour that is looked at again is looked at again, too.
-            while let Some(head) = gone.next_if(|head| {
-                let begin = touched.moved(head.begin);
-                begin.is_none_or(|begin| begin < again.to)
-            }) {
-                again.to = again.to.max(touched.moved(head.behind).unwrap_or(again.to));
-                gone_tabs += head.tabs as usize;
+type Judged = (Verdict, Found);
+
+/// What is known of an open cut and those after its stops: up to which one they are one contour, and whether that one is
+/// their tab.
+type Joined = Option<(usize, bool)>;
+
+/// The contours of more than one cut, in order; and what is known of them until the next edit.
+#[derive(Clone, Debug, Default)]
+pub(in crate::program) struct Contours {
+    list: Vec<Contour>,
+    /// By the first cut and the last that was looked at.
+    joined: FxHashMap<u64, (Vec<u64>, Joined)>,
+    judged: FxHashMap<(u64, u64), Arc<Judged>>,
+}
+
+impl PartialEq for Contours {
+    fn eq(&self, other: &Contours) -> bool {
+        self.list == other.list
+    }
+}
+
+impl Contours {
+    /// Divides a program; what is known of cuts that are still there is used again.
+    pub(crate) fn of<D: Divided>(program: &D, mut before: Contours) -> Contours {
+        let mut contours = Contours::default();
+        let mut cut = 0;
+        while cut < program.cut_count() {
+            if !program.may_go_on(cut) {
+                cut += 1;
+                continue;
             }
-            let Some(mut cut) = document.next_cut(at, again.to) else {
-                break;
+            let ids = |cuts: &[u64]| {
+                let same = cuts.iter().enumerate();
+                same.into_iter().all(|(nth, id)| {
+                    cut + nth < program.cut_count() && program.id(cut + nth) == *id
+                })
             };
-            work::add(Work::Cuts, 1);
-            let begin = cut.begin();
-            at = document.behind(&cut);
-            let contour = (begin >= behind).then(|| document.follow(&cut, &mut known.tabs));
-            if let Some(contour) = contour.flatten() {
-                heads.push(Head {
-                    begin,
-                    behind: contour.behind,
-                    reach: contour.reach,
-                    tabs: contour.tabs.len() as u32,
-                    is_open: contour.is_open,
+            let known = before.joined.remove(&program.id(cut));
+            let (looked_at, joined) = known
+                .filter(|(looked_at, _)| ids(looked_at))
+                .unwrap_or_else(|| {
+                    let (end, joined) = join(program, cut);
+                    let ids = (cut..end.min(program.cut_count())).map(|cut| program.id(cut));
+                    (
+                        ids.collect(),
+                        joined.map(|(last, is_tab)| (last - cut, is_tab)),
+                    )
                 });
-                tabs.extend(contour.tabs);
-                behind = contour.behind;
-                again.to = again.to.max(behind);
-                if let Some(whole) = contour.whole {
-                    (cut, at) = (whole, behind);
-                }
-            }
-            let found = document.crossings(known, &cut);
-            let crosses = found.as_ref().map(|found| !found.is_clean());
-            let found = found.filter(|found| !found.is_clean());
-            crossing.extend(found.map(|found| (cut.clone(), found)));
-            each(cut, crosses);
+            contours.joined.insert(program.id(cut), (looked_at, joined));
+            let is_one = joined.filter(|(_, is_tab)| *is_tab || D::PIECES_ARE_ONE);
+            let Some((last, ends_with_tab)) = is_one else {
+                cut += 1;
+                continue;
+            };
+            let cuts = cut..cut + last + 1;
+            let key = (program.id(cut), program.id(cut + last));
+            let judge = || match ends_with_tab {
+                true => judged(program, &cuts),
+                false => Arc::default(),
+            };
+            let judged = before.judged.remove(&key).unwrap_or_else(judge);
+            contours.judged.insert(key, judged.clone());
+            cut = cuts.end;
+            contours.list.push(Contour {
+                cuts,
+                ends_with_tab,
+                judged,
+            });
         }
-        drop(gone);
-        known.tidy();
-        self.put_tabs(&again, gone_tabs, tabs);
-        self.heads.splice(&again, heads);
-        self.crossing.splice(&again, crossing);
-        again
+        contours
     }
 
-    /// Where the first contour begins that an edit may have changed; `None` where there is none.
-    fn first_touched(&self, touched: &Touched<'_>) -> Option<PartAt> {
-        let start = touched.reread.chunks.start;
-        let is_touched = |head: &&Head| head.reach >= start || head.begin >= touched.from;
-        let chunks = self.heads.sums().enumerate();
-        let may_be = chunks.filter(|(chunk, sum)| sum.reach >= start || *chunk >= touched.from.0);
-        let mut all = may_be.flat_map(|(chunk, _)| self.heads.of(chunk));
-        all.find(is_touched).map(|head| head.begin)
+    /// The contour of a cut that has more than this one.
+    pub(crate) fn of_cut(&self, cut: usize) -> Option<&Contour> {
+        let at = self.list.partition_point(|one| one.cuts.end <= cut);
+        self.list.get(at).filter(|one| one.cuts.contains(&cut))
     }
 
-    /// Puts stops in the place of some, those of the contours that are `gone`.
-    fn put_tabs(&mut self, again: &Touched<'_>, gone: usize, tabs: Vec<(usize, usize)>) {
-        let chunk = again.from.0;
-        let before = self.heads.of(chunk).iter();
-        let before = before.take_while(|head| head.begin < again.from);
-        let whole: usize = self.heads.sums().take(chunk).map(|sum| sum.tabs).sum();
-        let first = whole + tabs_of(before);
-        if again.reread.chunks.len() != again.reread.before {
-            let moved = |chunk: &mut usize| *chunk = again.reread.moved(*chunk).unwrap_or(*chunk);
-            let behind = self.tabs[first + gone..].iter_mut();
-            behind.for_each(|(chunk, _)| moved(chunk));
-        }
-        self.tabs.splice(first..first + gone, tabs);
+    /// The cuts that are one contour with this one.
+    pub(crate) fn cuts_of(&self, cut: usize) -> Range<usize> {
+        let of_cut = self.of_cut(cut).map(|contour| contour.cuts.clone());
+        of_cut.unwrap_or(cut..cut + 1)
     }
 
-    /// Whether a stop stands within a contour.
-    pub(crate) fn is_tab(&self, stop: (usize, usize)) -> bool {
-        self.tabs.binary_search(&stop).is_ok()
+    /// Whether the contour of a cut goes on after the stop at its end.
+    pub(crate) fn goes_on(&self, cut: usize) -> bool {
+        self.cuts_of(cut).end > cut + 1
     }
 
-    /// The stops of a chunk that stand within contours.
-    pub(crate) fn tabs_in(&self, chunk: usize) -> usize {
-        let before = |chunk: usize| self.tabs.partition_point(|tab| tab.0 < chunk);
-        before(chunk + 1) - before(chunk)
-    }
-
-    /// The beginnings of the contours that do not close, from one place up to another.
-    pub(crate) fn open_within(&self, places: Range<PartAt>) -> impl Iterator<Item = PartAt> {
-        let within = self.heads.within(places);
-        within.filter(|head| head.is_open).map(|head| head.begin)
-    }
-
-    /// Whether the cut that begins at a place is such a contour.
-    pub(crate) fn is_open(&self, begin: PartAt) -> bool {
-        self.heads.at(begin).is_some_and(|head| head.is_open)
-    }
-
-    /// The contours that cross or coincide with themselves, and where, in the order of the text.
-    pub(crate) fn crossing(&self) -> impl Iterator<Item = &Crossing<C>> {
-        self.crossing.iter()
-    }
-
-    /// Those of them that begin from one place up to another.
-    pub(crate) fn crossing_within(
-        &self,
-        places: Range<PartAt>,
-    ) -> impl Iterator<Item = &Crossing<C>> {
-        self.crossing.within(places)
+    pub(crate) fn iter(&self) -> impl Iterator<Item = &Contour> {
+        self.list.iter()
     }
 }
 
-#[cfg(test)]
-mod tests;
+fn judged<D: Divided>(program: &D, cuts: &Range<usize>) -> Arc<Judged> {
+    let way = program.way_of(cuts);
+    let found = match program.is_doubtful(cuts) {
+        true => Found::default(),
+        false => Found::of(&way, program.control_offset(cuts)),
+    };
+    Arc::new((Verdict::of(&way), found))
+}
+
+/// Follows an open cut past its stops: the cut after the last that was looked at; and the one with which it is a contour,
+/// which is its tab, or the last of pieces that return to the start together, in whatever order they are cut.
+fn join<D: Divided>(program: &D, first: usize) -> (usize, Joined) {
+    let (mut last, mut may_be_tab) = (first, true);
+    let (mut ends, mut whole) = (program.verdict(first).ends, program.way(first));
+    for stop in 1..=STOPS_WITHIN {
+        let Some(next) = program.behind_stop(last) else {
+            break;
+        };
+        last = next;
+        ends = ends.then(&program.verdict(next).ends);
+        may_be_tab &= stop <= TABS_WITHIN;
+        let mut is_tab_here = false;
+        if may_be_tab {
+            let (before, behind) = (whole.clone(), program.way(next));
+            whole.append(&behind);
+            is_tab_here = ends.blocks > 2 && is_tab(&before, &behind, &whole);
+        }
+        if is_tab_here || ends.close() {
+            return (last + 2, Some((last, is_tab_here)));
+        }
+        may_be_tab &= !program.stands_alone(next);
+    }
+    (last + 2, None)
+}

@@ -3,10 +3,10 @@
 
 use super::mended::{Moved, Ranges};
 use super::numbering::{Numbers, Renumbering};
-use super::path::{Cut, CutSteps, Step, Trace, cut_of};
+use super::path::{Step, Trace};
 use super::repair::gate::Tried;
 use super::report::Report;
-use super::steps::{self, Program};
+use super::steps::{self, CutAt, Program};
 use super::whereabouts::Whereabouts;
 use super::{iso, three_b};
 use crate::finding::{Fault, Finding, Rule, Severity, TextFix};
@@ -104,11 +104,11 @@ impl Document {
     pub fn edit(&mut self, range: Range<usize>, replacement: &str) -> usize {
         let first = of_language!(self, document => document.edit(range, replacement));
         let program = self.program();
-        let chunks = program.chunk_count();
+        let cuts = program.cut_count();
         // Before all steps the machine stands where the first of them begins.
-        let mut before = 0..first.min(chunks);
-        match before.any(|chunk| !program.sum_of(chunk).is_empty()) {
-            true if first < chunks => program.lines_of(first).start,
+        let mut before = 0..first.min(cuts);
+        match before.any(|cut| program.has_steps(cut)) {
+            true if first < cuts => program.first_line(first),
             true => program.text().line_count(),
             false => 0,
         }
@@ -311,14 +311,9 @@ impl Document {
         }
     }
 
-    /// The steps of the cut that touches a byte, its division, and the number of the touching one: by the ends of the
-    /// cut, where these divide it. Of two steps that touch the byte, the one that begins there.
-    pub(crate) fn cut_at(&self, offset: usize) -> Option<(CutSteps<'static>, Cut, usize)> {
-        let divided = |most: usize| {
-            let (held, nth) = steps::cut_at(self.program(), offset, most)?;
-            cut_of(&held).map(|cut| (held, cut, nth))
-        };
-        divided(CutSteps::ENDS).or_else(|| divided(usize::MAX))
+    /// The cut that touches a byte, its division, and the number of the touching move.
+    pub(crate) fn cut_at(&self, offset: usize) -> Option<CutAt> {
+        steps::cut_at(self.program(), offset)
     }
 
     /// The first stop after a byte.

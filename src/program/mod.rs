@@ -4,15 +4,13 @@
 //! way. Everything about one language is in its own folder.
 
 pub(crate) mod block_words;
-mod by_chunk;
-mod chunks;
 mod content;
 mod contours;
 pub mod convert;
+mod cuts;
 mod document;
 mod edits;
 mod encode;
-mod followed;
 mod format;
 pub(crate) mod grid;
 pub mod iso;
@@ -21,7 +19,6 @@ mod lookalikes;
 mod mended;
 pub(crate) mod notes;
 mod numbering;
-mod of_cut;
 pub mod path;
 mod profile;
 mod refactor;
@@ -31,7 +28,6 @@ mod report;
 pub(crate) mod steps;
 pub mod three_b;
 mod whereabouts;
-mod work;
 pub(crate) mod write;
 
 pub use document::{Document, Language};

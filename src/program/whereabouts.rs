@@ -2,7 +2,6 @@
 
 use super::path::Step;
 use super::steps::Program;
-use super::work::{self, Work};
 use crate::geometry::{Point, Vector};
 use std::ops::Range;
 
@@ -13,17 +12,15 @@ pub(crate) struct Stand {
     pub(crate) end: Option<Point>,
 }
 
-/// Answers for several places: the last chunk read is kept.
+/// Answers for several places: the last cut read is kept.
 pub(crate) struct Whereabouts<'a> {
     program: &'a dyn Program,
     /// After this line the position is unknown; it is only searched for when needed.
     lost: Option<usize>,
-    chunk: Option<usize>,
+    cut: Option<usize>,
     steps: Vec<Step>,
-    /// Chunks without steps, all those behind one with steps, or from the first on.
-    empty: Range<usize>,
-    /// Where the machine stands before all steps, once that was needed; `None` where there are none.
-    begin: Option<Option<Point>>,
+    /// The last cut before each one that has steps; none before that is known to have some.
+    stepped: Option<Vec<Option<usize>>>,
 }
 
 impl<'a> Whereabouts<'a> {
@@ -31,10 +28,9 @@ impl<'a> Whereabouts<'a> {
         Whereabouts {
             program,
             lost: None,
-            chunk: None,
+            cut: None,
             steps: Vec::new(),
-            empty: 0..0,
-            begin: None,
+            stepped: None,
         }
     }
 
@@ -45,31 +41,31 @@ impl<'a> Whereabouts<'a> {
         if line > *self.lost.get_or_insert_with(unread) {
             return None;
         }
-        let chunk = self.chunk_of(line)?;
-        let is_before = |step: &&Step| step.range.end <= range.start;
-        let steps = self.steps_of(chunk);
-        if let Some(step) = steps.iter().find(|step| !is_before(step))
-            && step.range.start < range.end
-        {
-            return Some(Stand {
-                start: in_mm(step.start),
-                end: step.moves().then(|| in_mm(step.end)),
-            });
+        let at = program.cuts_at(line);
+        // The cut read last mostly holds the next place, too.
+        let held = self.cut.filter(|cut| at.contains(cut));
+        let is_of_it = |step: &Step| step.range.end > range.start && step.range.start < range.end;
+        for &cut in held.iter().chain(&at) {
+            if let Some(step) = self.steps_of(cut).iter().find(|step| is_of_it(step)) {
+                return Some(Stand {
+                    start: in_mm(step.start),
+                    end: step.moves().then(|| in_mm(step.end)),
+                });
+            }
         }
-        // No step is here: the machine stands where the last one before ends, in whichever chunk that is.
-        let mut before = steps
-            .iter()
-            .take_while(is_before)
-            .last()
-            .map(|step| step.end);
+        // No step is here: the machine stands where the last one before ends, in whichever cut that is.
+        let cut = held.or_else(|| at.first().copied())?;
+        let is_before = |step: &&Step| step.range.end <= range.start;
+        let own = self.steps_of(cut).iter().take_while(is_before).last();
+        let mut before = own.map(|step| step.end);
         if before.is_none() {
-            before = match self.with_steps_before(chunk) {
+            before = match self.stepped_before(cut) {
                 Some(earlier) => self.steps_of(earlier).last().map(|step| step.end),
-                None => *self.begin.get_or_insert_with(|| {
-                    let mut chunks = 0..program.chunk_count();
-                    let has_steps = |chunk| !program.sum_of(chunk).is_empty();
-                    chunks.any(has_steps).then(|| program.begin().0)
-                }),
+                None => {
+                    let mut all = 0..program.cut_count();
+                    all.any(|cut| program.has_steps(cut))
+                        .then(|| program.begin().0)
+                }
             };
         }
         Some(Stand {
@@ -78,48 +74,29 @@ impl<'a> Whereabouts<'a> {
         })
     }
 
-    /// The last chunk before one that has steps. Those that are passed on the way are not looked at again for the next place.
-    fn with_steps_before(&mut self, chunk: usize) -> Option<usize> {
-        let mut first = chunk;
-        while let Some(before) = first.checked_sub(1) {
-            work::add(Work::ChunksPassed, 1);
-            if self.empty.contains(&before) {
-                first = self.empty.start;
-            } else if self.program.sum_of(before).is_empty() {
-                first = before;
-            } else {
-                break;
-            }
-        }
-        self.empty = first..chunk;
-        first.checked_sub(1)
+    fn stepped_before(&mut self, cut: usize) -> Option<usize> {
+        let program = self.program;
+        let found = || {
+            let mut last = None;
+            let before = |cut| {
+                let before = last;
+                last = program.has_steps(cut).then_some(cut).or(last);
+                before
+            };
+            (0..program.cut_count()).map(before).collect()
+        };
+        let before = self.stepped.get_or_insert_with(found);
+        before.get(cut).copied().flatten()
     }
 
-    fn steps_of(&mut self, chunk: usize) -> &[Step] {
-        if self.chunk != Some(chunk) {
-            self.chunk = Some(chunk);
+    fn steps_of(&mut self, cut: usize) -> &[Step] {
+        if self.cut != Some(cut) {
+            self.cut = Some(cut);
             self.steps.clear();
             let steps = &mut self.steps;
-            self.program
-                .walk(chunk, &mut 0, &mut |step| steps.push(step));
+            self.program.walk(cut, &mut 0, &mut |step| steps.push(step));
         }
         &self.steps
-    }
-
-    /// The first chunk that holds a line: where the chunks run in the order of the text, not all are searched for it.
-    fn chunk_of(&self, line: usize) -> Option<usize> {
-        let count = self.program.chunk_count();
-        let holds = |chunk: &usize| self.program.lines_of(*chunk).contains(&line);
-        let (mut from, mut to) = (0, count);
-        while from < to {
-            let middle = from.midpoint(to);
-            match self.program.lines_of(middle).end <= line {
-                true => from = middle + 1,
-                false => to = middle,
-            }
-        }
-        let at_hand = self.chunk.into_iter().chain([from]);
-        at_hand.chain(0..count).find(holds)
     }
 }
 
@@ -133,28 +110,19 @@ mod tests {
     use crate::program::iso::Document;
 
     #[test]
-    fn chunks_without_steps_are_passed_once() {
+    fn a_place_has_one_position_whichever_was_asked_for_before() {
         for head in ["", "G00 X1. Y2.\n"] {
-            let calls: String = (2..2_002)
-                .map(|number| format!("M98 P{number}\n"))
-                .collect();
+            let calls: String = (2..200).map(|number| format!("M98 P{number}\n")).collect();
             let text = format!("G90\nG92 X0. Y0.\n{head}{calls}M30\n");
             let document = Document::read(text.into_bytes());
             let mut whereabouts = Whereabouts::within(&document);
             let findings = document.findings();
-            assert!(findings.len() >= 2_000, "{}", findings.len());
-            let mut places: Vec<Range<usize>> = Vec::new();
+            assert!(findings.len() >= 190, "{}", findings.len());
             for finding in findings {
-                let crate::finding::Place::Text { range } = finding.place else {
+                let Some(range) = finding.place.in_text() else {
                     continue;
                 };
-                places.push(range);
-            }
-            work::take(Work::ChunksPassed);
-            let stands: Vec<_> = places.iter().map(|range| whereabouts.of(range)).collect();
-            let (chunks, passed) = (document.chunk_count(), work::take(Work::ChunksPassed));
-            assert!(passed <= 3 * chunks, "{passed} {chunks}");
-            for (range, stand) in places.iter().zip(stands) {
+                let stand = whereabouts.of(range);
                 assert_eq!(Whereabouts::within(&document).of(range), stand);
             }
         }

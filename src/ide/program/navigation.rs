@@ -3,6 +3,7 @@
 use super::of;
 use crate::program::Document;
 use crate::program::path::Kind;
+use crate::program::steps::CutAt;
 use std::ops::Range;
 
 /// The counterpart of the place at a byte.
@@ -48,7 +49,11 @@ fn pair(document: &Document, offset: usize) -> Option<(Range<usize>, Range<usize
         Kind::Pause => document.stop_behind(own.range.start)?,
         Kind::End => document.first_move()?,
         Kind::Line | Kind::Arc | Kind::Rapid => {
-            let (held, cut, index) = document.cut_at(own.range.start)?;
+            let CutAt {
+                steps,
+                cut,
+                nth: index,
+            } = document.cut_at(own.range.start)?;
             let contour = cut.contour_steps();
             let lead_out = contour.end..cut.steps.end;
             let target = if index < contour.start {
@@ -65,7 +70,7 @@ fn pair(document: &Document, offset: usize) -> Option<(Range<usize>, Range<usize
             } else {
                 contour.end.checked_sub(1)?
             };
-            held.step(target)?.range.clone()
+            steps.get(target)?.range.clone()
         }
     };
     Some((own.range.clone(), other))

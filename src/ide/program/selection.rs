@@ -4,6 +4,7 @@
 use super::words::words_of;
 use crate::ide::widen;
 use crate::program::Document;
+use crate::program::steps::CutAt;
 use std::ops::Range;
 
 /// Ranges of bytes around a byte, each within the next.
@@ -27,18 +28,19 @@ pub(crate) fn selections(document: &Document, offset: usize) -> Vec<Range<usize>
     }
     wider(text.line_range(line));
     let step = touching.or_else(|| own.iter().find(|step| step.line == line));
-    if let Some((held, cut, index)) = step
+    if let Some(CutAt {
+        steps: held,
+        cut,
+        nth,
+    }) = step
         .filter(|step| step.moves())
         .and_then(|step| document.cut_at(step.range.start))
     {
         let lines = |steps: Range<usize>| {
-            let (first, last) = (
-                held.step(steps.start)?,
-                held.step(steps.end.checked_sub(1)?)?,
-            );
+            let (first, last) = (held.get(steps.start)?, held.get(steps.end.checked_sub(1)?)?);
             Some(text.line_start(first.line)..text.line_range(last.line).end)
         };
-        if cut.contour_steps().contains(&index) {
+        if cut.contour_steps().contains(&nth) {
             lines(cut.contour_steps()).into_iter().for_each(&mut wider);
         }
         lines(cut.steps).into_iter().for_each(&mut wider);

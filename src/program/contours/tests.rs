@@ -1,6 +1,5 @@
-//! Edits of programs with many stops, in every language, leave what is known of them as read from scratch, and look at what they touch.
+//! Edits of programs with many stops, in every language, leave what is known of them as read from scratch.
 
-use crate::program::work::{self, Work};
 use crate::program::{Document, Language};
 use crate::settings::Effective;
 use proptest::prelude::*;
@@ -178,37 +177,6 @@ proptest! {
     }
 }
 
-/// What an edit looks at does not grow with the program, wherever it is made.
-#[test]
-fn an_edit_among_many_stops_looks_at_few_cuts() {
-    for language in Language::ALL {
-        for is_relative in [false, true] {
-            let openings: Vec<Opening> = (0..400).map(|nth| (nth as u8 % 2, 3, 8)).collect();
-            let text = program(language, &openings, is_relative);
-            let mut document =
-                Document::read(language, text.clone().into_bytes(), &Effective::default());
-            let all = work::take(Work::Cuts);
-            assert!(all >= 400, "{language:?}: {all}");
-            for (at, line) in text.match_indices('\n').skip(5).step_by(97) {
-                // Where the position is lost, it is lost for all later steps.
-                for word in ["1", "\n", "x"]
-                    .into_iter()
-                    .take(3 - usize::from(is_relative))
-                {
-                    document.edit(at..at, word);
-                    let come = work::take(Work::Cuts);
-                    document.edit(at..at + 1, "");
-                    let looked_at = come.max(work::take(Work::Cuts));
-                    assert!(
-                        looked_at <= 40,
-                        "{language:?} {is_relative} {at} {line:?} {word:?}: {looked_at}"
-                    );
-                }
-            }
-        }
-    }
-}
-
 /// Small contours that stay open, a few of them crossing themselves, each with the way to the next; some are numbered, and
 /// some share a line.
 fn open_contours(language: Language, contours: &[(u8, i32)], is_numbered: bool) -> String {
@@ -284,65 +252,5 @@ proptest! {
         };
         let text = open_contours(language, &contours, is_numbered);
         assert_edited_as_afresh(language, text, &words, &edits)?;
-    }
-}
-
-/// The contours that were judged since the last time, and in how many of them it was searched for a block to blame.
-fn judged() -> [usize; 2] {
-    [Work::Contours, Work::Blames].map(work::take)
-}
-
-/// What an edit judges and searches does not grow with the program, wherever it is made.
-#[test]
-fn an_edit_among_many_open_contours_judges_few() {
-    for language in Language::ALL {
-        let contours: Vec<(u8, i32)> = (0..600).map(|nth| (nth as u8 % 3, 5 + nth % 97)).collect();
-        let text = open_contours(language, &contours, false);
-        let mut document =
-            Document::read(language, text.clone().into_bytes(), &Effective::default());
-        let [all, _] = judged();
-        assert!(all >= 300, "{language:?}: {all}");
-        let lines = || text.match_indices('\n');
-        let behind_them = lines().rev().skip(2).step_by(3).take(8);
-        for (at, _) in lines().skip(5).step_by(211).chain(behind_them) {
-            for word in ["1", "\n", "x"] {
-                document.edit(at..at, word);
-                let come = judged();
-                document.edit(at..at + 1, "");
-                let gone = judged();
-                assert!(
-                    come[0] <= 80 && gone[0] <= 80,
-                    "{language:?} {at} {word:?}: {come:?} {gone:?}"
-                );
-                assert!(
-                    come[1] <= 4 && gone[1] <= 4,
-                    "{language:?} {at} {word:?}: {come:?} {gone:?}"
-                );
-            }
-        }
-    }
-}
-
-/// What is told of a program does not take longer where more is found, and an edit changes nothing of that.
-#[test]
-fn the_first_findings_are_told_without_a_look_at_all_others() {
-    for language in Language::ALL {
-        for count in [600, 2_400] {
-            let contours: Vec<(u8, i32)> = (0..count).map(|nth| (0, 5 + nth % 97)).collect();
-            let text = open_contours(language, &contours, false);
-            let settings = Effective::default();
-            let mut document = Document::read(language, text.clone().into_bytes(), &settings);
-            let (_, found) = document.findings(&settings, 7);
-            assert!(found >= count as usize / 3, "{language:?}: {found}");
-            let middle = text.len() / 2;
-            for word in ["", "1", "x"] {
-                document.edit(middle..middle, word);
-                let _ = [Work::Findings, Work::Troubles].map(work::take);
-                document.findings(&settings, 7);
-                let looked_at = [Work::Findings, Work::Troubles].map(work::take);
-                let few = looked_at.iter().all(|looked_at| *looked_at <= 80);
-                assert!(few, "{language:?} {count} {word:?}: {looked_at:?}");
-            }
-        }
     }
 }

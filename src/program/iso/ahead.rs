@@ -8,17 +8,10 @@ impl<'a, I: Iterator<Item = (usize, &'a [u8])> + Clone> Lines<'a> for I {}
 /// The lines after a line.
 pub(super) struct Ahead<'l, L> {
     pub(super) lines: &'l L,
-    /// The number of lines in the stretch.
-    pub(super) left: usize,
 }
 
 impl<'a, L: Lines<'a>> Ahead<'_, L> {
     pub(super) fn lines(&self) -> impl Iterator<Item = &'a [u8]> {
         self.lines.clone().map(|(_, line)| line)
-    }
-
-    /// How many of the lines read are after the stretch.
-    pub(super) fn beyond(&self, looked_at: usize) -> u32 {
-        looked_at.saturating_sub(self.left) as u32
     }
 }

@@ -1,90 +1,196 @@
-//! How the engine of all languages reads ISO text.
+//! How ISO text is read, cut by cut: the effect of a line depends on those before it.
 
 use super::corner;
-use super::machine::Machine;
-use super::moves::{Reading, apart};
-use super::stretch::{Pathless, Stretch};
-use crate::program::chunks::ChunkReader;
+use super::cut::{Cut, Entry, Moves};
+use super::evidence::Evidence;
+use super::limits::{Limits, Table, correction_in};
+use super::moves::{Move, Place, Reading, added, apart, micrometres};
+use super::order::Order;
+use super::read::Run;
+use super::summary::WireSide;
+use crate::program::cuts::Reader;
+use crate::program::path::{ControlOffset, Found, Node, Verdict, Way};
 use crate::text::SourceText;
 use std::ops::Range;
 
-/// How ISO text is read: the effect of a line depends on those before it.
-pub(super) struct Control {
-    /// The state before the first line.
-    pub(crate) begin: Machine,
-    pub(crate) reading: Reading,
+/// The lines of a text in the order in which they run.
+#[derive(Clone, Copy)]
+pub(super) struct Sequence<'a> {
+    pub(super) text: &'a SourceText,
     /// The first lines, which are not read.
-    pub(crate) leader: usize,
+    pub(super) leader: usize,
+    /// Where it is not that of the text.
+    pub(super) order: Option<&'a Order>,
 }
 
-impl ChunkReader for Control {
-    type State = Machine;
-    type Begun = Pathless;
-    type Chunk = Stretch;
-
-    // Unit tests have short texts.
-    const LINES: usize = if cfg!(test) { 24 } else { 192 };
-
-    fn begin(&self) -> Machine {
-        self.begin
+impl<'a> Sequence<'a> {
+    pub(super) fn count(&self) -> usize {
+        let of_text = self.text.line_count();
+        self.order.map_or(of_text, Order::count)
     }
 
-    fn run(&self, text: &SourceText, lines: Range<usize>, before: Machine) -> (Pathless, Machine) {
-        let pathless = Stretch::run(
-            lines_from(text, self.leader, lines.start),
-            lines.len(),
-            text.line_start(lines.start),
-            before,
-            self.reading,
-        );
-        let after = pathless.after();
-        (pathless, after)
+    /// The line of the text that runs as one of these.
+    pub(super) fn line(&self, nth: usize) -> usize {
+        self.order.map_or(nth, |order| order.line(nth))
     }
 
-    /// How the moves of a part lie relative to each other depends on nothing else.
-    fn finish(&self, _: &SourceText, pathless: Pathless, old: &[Stretch]) -> Stretch {
-        pathless.with_paths(old)
+    /// Byte from which places count in a cut that begins with one of them: the first of the text where lines run in another
+    /// order.
+    pub(super) fn base(&self, nth: usize) -> usize {
+        match self.order {
+            None => self.text.line_start(nth),
+            Some(_) => 0,
+        }
     }
 
-    fn before(stretch: &Stretch) -> Machine {
-        stretch.before
+    /// The bytes of a line of the text; none of the leader.
+    pub(super) fn bytes(&self, line: usize) -> &'a [u8] {
+        let read = (line >= self.leader).then(|| self.text.line(line));
+        read.unwrap_or_default()
     }
 
-    fn after(stretch: &Stretch) -> Machine {
-        stretch.after
+    /// Those from one on, each with the byte at which it begins, counted from another.
+    pub(super) fn from(
+        self,
+        nth: usize,
+        base: usize,
+    ) -> impl Iterator<Item = (usize, &'a [u8])> + Clone {
+        (nth..self.count()).map(move |nth| {
+            let line = self.line(nth);
+            (self.text.line_start(line) - base, self.bytes(line))
+        })
+    }
+}
+
+/// How the lines of a program are read.
+pub(super) struct Control<'a> {
+    pub(super) reading: Reading,
+    pub(super) limits: &'a Limits,
+    pub(super) table: &'a Table,
+    pub(super) leader: usize,
+    pub(super) order: Option<&'a Order>,
+    /// What all lines say of how numbers are meant.
+    pub(super) evidence: Evidence,
+}
+
+impl Control<'_> {
+    fn sequence<'t>(&'t self, text: &'t SourceText) -> Sequence<'t> {
+        Sequence {
+            text,
+            leader: self.leader,
+            order: self.order,
+        }
+    }
+
+    fn ran(&self, text: &SourceText, lines: Range<usize>, before: &Entry) -> (Run, usize) {
+        let sequence = self.sequence(text);
+        let mut run = Run::new(before.machine(), self.reading);
+        let own = sequence.from(lines.start, sequence.base(lines.start));
+        let count = run.lines(own, lines.len());
+        (run, lines.start + count)
+    }
+}
+
+/// Lines that were run: the first and the one behind them, and where the wire goes.
+pub(super) struct Begun {
+    lines: Range<usize>,
+    cut: Cut,
+    way: Vec<(Move, (u32, u32))>,
+}
+
+impl Reader for Control<'_> {
+    type State = Entry;
+    type Begun = Begun;
+    type Cut = Cut;
+
+    fn line_count(&self, text: &SourceText) -> usize {
+        self.sequence(text).count()
+    }
+
+    fn base(&self, text: &SourceText, line: usize) -> usize {
+        self.sequence(text).base(line)
+    }
+
+    fn run(&mut self, text: &SourceText, first: usize, before: &Entry) -> (Begun, usize, Entry) {
+        let lines = first..self.line_count(text);
+        let (run, behind) = self.ran(text, lines, before);
+        self.evidence.add(&run.evidence);
+        let after = Entry::of(run.after, Some(before));
+        let (cut, way) = run.finished();
+        let begun = Begun {
+            lines: first..behind,
+            cut,
+            way,
+        };
+        (begun, behind, after)
+    }
+
+    fn finish(&self, _: &SourceText, begun: Begun) -> Vec<(Range<usize>, Cut)> {
+        let Begun {
+            lines,
+            mut cut,
+            way,
+        } = begun;
+        if let Some(moves) = &mut cut.moves {
+            let way = way_of(way.iter().map(|(made, _)| made), &self.reading);
+            moves.verdict = Verdict::of(&way);
+            let start = micrometres(moves.sum.start()).coords;
+            cut.bounds = Some(moves.verdict.bounds.moved(start));
+            let offset = || moves.control_offset(self.limits, self.table);
+            let found = moves.sum.whole && !moves.sum.faulty;
+            let found = found.then(|| Found::of(&way, offset()));
+            moves.found = found.filter(|found| !found.is_clean()).map(Box::new);
+            moves.tight.shrink_to_fit();
+            moves.spurs.shrink_to_fit();
+        }
+        cut.numbers.shrink_to_fit();
+        vec![(lines, cut)]
+    }
+
+    fn forget(&mut self, text: &SourceText, lines: Range<usize>, before: &Entry) {
+        let (run, _) = self.ran(text, lines, before);
+        self.evidence.take(&run.evidence);
     }
 
     const REACH: usize = corner::REACH;
 
-    fn ahead(stretch: &Stretch) -> usize {
-        stretch.ahead as usize
+    fn ahead(cut: &Cut) -> usize {
+        cut.ahead as usize
     }
 
-    fn take_on(stretch: &mut Stretch, before: Machine) -> bool {
-        let old = stretch.before;
-        let Machine { at, torn, .. } = before;
-        let is_moved = Machine {
-            at: old.at,
-            torn: old.torn,
-            ..before
-        } == old
-            && (at == old.at || stretch.is_loose())
-            && stretch.tear(torn);
-        if is_moved {
-            stretch.shift(apart(at, old.at));
-        }
-        is_moved
+    /// All places of a cut count from where the wire enters it.
+    fn take_on(cut: &mut Cut, from: &Entry, to: &Entry) -> bool {
+        from.is_like(to) && (from.at == to.at || !cut.fixed)
+    }
+
+    fn taken_on(after: &Entry, from: &Entry, to: &Entry) -> Entry {
+        after.at(added(after.at, apart(to.at, from.at)))
     }
 }
 
-/// The lines of a text from one on, each with the byte at which it begins; those of its `leader` are empty.
-pub(super) fn lines_from(
-    text: &SourceText,
-    leader: usize,
-    first: usize,
-) -> impl Iterator<Item = (usize, &[u8])> + Clone {
-    (first..text.line_count()).map(move |line| {
-        let read = (line >= leader).then(|| text.line(line));
-        (text.line_start(line), read.unwrap_or_default())
-    })
+impl Moves {
+    /// With the correction of its first moves.
+    fn control_offset(&self, limits: &Limits, table: &Table) -> Option<ControlOffset> {
+        let WireSide::One(side) = self.sum.side else {
+            return None;
+        };
+        let [first, second] = &self.sum.first;
+        Some(ControlOffset {
+            side,
+            correction: correction_in(table, limits, second.offset.or(first.offset)),
+        })
+    }
+}
+
+/// The way of some moves, µm, from the start of the first.
+pub(super) fn way_of<'a>(moves: impl IntoIterator<Item = &'a Move>, reading: &Reading) -> Way {
+    let mut moves = moves.into_iter().peekable();
+    let start: Place = moves.peek().map_or([0, 0], |first| first.from);
+    let mut way = Way::from(Node::default(), reading.writing());
+    for made in moves {
+        let piece = made.seen_from(start).segment(reading);
+        let end = Node::at(micrometres(apart(made.to, start)));
+        way.push(piece, made.is_arc(), end);
+    }
+    way
 }

@@ -1,137 +1,188 @@
-//! A cut: consecutive moves of an ISO program without a rapid or a stop between, put together from the parts of its
-//! stretches.
+//! A cut: lines up to the stop behind moves that cut, or up to a rapid behind them, run.
+//!
+//! Places count from where the wire stands when it enters these lines, bytes from the first of them, so that an edit
+//! elsewhere changes nothing here.
 
-use super::moves::{Place, added, apart};
-use super::part::{Part, SEVERAL, changes_side};
-use super::stretch::{StopAt, Stretch};
-use crate::program::by_chunk::{Begun, ByChunk};
-use crate::program::contours::PartAt;
+use super::block::{Code, Offset, Stop};
+use super::machine::Machine;
+use super::moves::{Move, Place};
+use super::summary::{Spur, Summary, Tight, WireSide};
+use super::word::Term;
+use crate::finding::Finding;
+use crate::geometry::Bounds;
+use crate::program::path::{Found, Verdict};
+use std::sync::Arc;
 
-/// Bytes of a stretch, by its index.
-pub(crate) type BytesAt = (usize, (u32, u32));
-
-/// Consecutive moves, put together from the parts of the stretches that they run through.
-#[derive(Clone, Debug)]
-pub(crate) struct JoinedCut {
-    pub(crate) parts: Vec<PartAt>,
-    /// All of them as one.
-    pub(crate) sum: Box<Part>,
-    /// The line that begins it, and the one that ends it.
-    pub(crate) first_line: BytesAt,
-    pub(crate) last_line: BytesAt,
-    /// The stop that ended it, where it is a single one.
-    stop: Option<StopAt>,
-    stops: usize,
-    /// Moves before the stop at its tab.
-    pub(crate) before_tab: Option<u32>,
-    /// Where the wire was first sent to the other side, and the line that did so.
-    pub(crate) flip: Option<(Place, BytesAt)>,
-    /// All that is said of it depends on it alone, and is kept.
-    pub(crate) is_told: bool,
-    /// How far its first stretch had been moved when it was put together.
-    moved: Place,
+/// The state in which the machine enters a cut.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Entry {
+    /// Where the wire stands, nm.
+    pub(crate) at: Place,
+    /// All else: many cuts share it.
+    rest: Arc<Machine>,
 }
 
-impl Begun for JoinedCut {
-    /// How many there are of which not all that is said is kept.
-    type Sum = usize;
-
-    fn begin(&self) -> PartAt {
-        self.parts.first().copied().unwrap_or_default()
-    }
-
-    fn renumber(&mut self, moved: &dyn Fn(usize) -> usize) {
-        let parts = self.parts.iter_mut().map(|(stretch, _)| stretch);
-        let lines = [&mut self.first_line.0, &mut self.last_line.0];
-        let stop = self.stop.as_mut().map(|(stretch, _)| stretch);
-        let flip = self.flip.as_mut().map(|(_, (stretch, _))| stretch);
-        let all = parts.chain(lines).chain(stop).chain(flip);
-        all.for_each(|stretch| *stretch = moved(*stretch));
-    }
-
-    fn sum(list: &[JoinedCut]) -> usize {
-        list.iter().filter(|cut| !cut.is_told).count()
-    }
-}
-
-impl ByChunk<JoinedCut> {
-    /// Those of which not all that is said is kept.
-    pub(crate) fn untold(&self) -> impl Iterator<Item = &JoinedCut> {
-        let chunks = self.sums().enumerate();
-        let with_some = chunks.filter(|(_, untold)| **untold > 0);
-        let all = with_some.flat_map(|(chunk, _)| self.of(chunk));
-        all.filter(|cut| !cut.is_told)
-    }
-}
-
-impl JoinedCut {
-    pub(crate) fn of(of: &Stretch, stretch: usize, part: usize) -> Option<JoinedCut> {
-        let its = of.part_at(part)?;
-        let mut cut = JoinedCut {
-            parts: vec![(stretch, part)],
-            flip: its.flip.map(|(at, line)| (at, (stretch, line))),
-            first_line: (stretch, its.range),
-            last_line: (stretch, its.last_range),
-            sum: Box::new(its),
-            stop: None,
-            stops: 0,
-            before_tab: None,
-            is_told: false,
-            moved: of.moved,
+impl Entry {
+    /// The state of a machine; `before` may be the same but for its place.
+    pub(crate) fn of(machine: Machine, before: Option<&Entry>) -> Entry {
+        let rest = Machine {
+            at: [0, 0],
+            ..machine
         };
-        cut.stopped(its.stop, stretch);
-        Some(cut)
-    }
-
-    pub(crate) fn stopped(&mut self, stop: Option<u32>, stretch: usize) {
-        match stop {
-            None => {}
-            Some(SEVERAL) => self.stops += 2,
-            Some(at) => {
-                self.stops += 1;
-                self.stop = Some((stretch, at as usize));
-            }
+        let before = before.filter(|before| *before.rest == rest);
+        Entry {
+            at: machine.at,
+            rest: before.map_or_else(|| Arc::new(rest), |before| before.rest.clone()),
         }
     }
 
-    /// This cut followed by the next, which goes on from its end: after the stop at its tab, if there was one.
-    pub(crate) fn append(&mut self, next: JoinedCut) {
-        if self.stops > 0 {
-            self.before_tab.get_or_insert(self.sum.moves);
-        }
-        let flips = self.stops == 0 && changes_side(&self.sum.last[1], &next.sum.first[0]);
-        let flip = flips.then(|| (next.sum.start(), next.first_line));
-        self.flip = self.flip.take().or(flip).or(next.flip);
-        self.sum.append(&next.sum);
-        self.last_line = next.last_line;
-        self.parts.extend(next.parts);
-        (self.stop, self.stops) = (next.stop, next.stops);
-    }
-
-    /// The stretch that holds all of it, and its part in it.
-    pub(crate) fn only_place(&self) -> Option<PartAt> {
-        let [at] = self.parts[..] else { return None };
-        Some(at)
-    }
-
-    /// Whether its first stretch has been moved since.
-    pub(crate) fn is_elsewhere(&self, moved: Place) -> bool {
-        moved != self.moved
-    }
-
-    /// Takes it to where its first stretch has been moved.
-    pub(crate) fn follow(&mut self, moved: Place) {
-        let by = apart(moved, self.moved);
-        if by != [0, 0] {
-            self.moved = moved;
-            self.sum.shift(by);
-            self.flip
-                .iter_mut()
-                .for_each(|(at, _)| *at = added(*at, by));
+    pub(crate) fn machine(&self) -> Machine {
+        Machine {
+            at: self.at,
+            ..*self.rest
         }
     }
 
-    pub(crate) fn single_stop(&self) -> Option<StopAt> {
-        self.stop.filter(|_| self.stops == 1)
+    /// Whether it is another one in its place alone.
+    pub(crate) fn is_like(&self, other: &Entry) -> bool {
+        Arc::ptr_eq(&self.rest, &other.rest) || self.rest == other.rest
+    }
+
+    /// The same elsewhere.
+    pub(crate) fn at(&self, at: Place) -> Entry {
+        Entry {
+            at,
+            rest: self.rest.clone(),
+        }
     }
 }
+
+/// A word whose meaning depends on the machine, its first place, and how often it occurs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Foreign {
+    pub(crate) code: Code,
+    pub(crate) range: (u32, u32),
+    pub(crate) count: u32,
+}
+
+/// A value for the control's table.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Definition {
+    pub(crate) offset: Offset,
+    pub(crate) terms: Vec<Term>,
+    pub(crate) inch: bool,
+    pub(crate) range: (u32, u32),
+}
+
+/// Lines that have been run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Cut {
+    /// Tells it apart from all others that were read; 0 until it has a number.
+    pub(crate) id: u64,
+    /// The moves that cut; also `None` where they are sound and nothing else is to be known of them.
+    pub(crate) moves: Option<Box<Moves>>,
+    /// There are moves that cut.
+    pub(crate) cuts: bool,
+    /// Around these, µm, from where the wire enters.
+    pub(crate) bounds: Option<Bounds>,
+    /// Pauses before these, and whether nothing has moved between two of them.
+    pub(crate) pauses_before: u32,
+    pub(crate) pauses_again: bool,
+    /// The stop that ends it, or the program; the byte at which its line begins.
+    pub(crate) stop: Option<(Stop, u32)>,
+    /// Moves, with those that do not cut.
+    pub(crate) steps: u32,
+    /// What few lines have.
+    rare: Option<Box<Rare>>,
+    /// The decimals that its numbers have: a bit for each count of them.
+    pub(crate) places: u8,
+    /// There are lengths without a decimal point that are not 0, and with one.
+    pub(crate) has_bare: bool,
+    pub(crate) has_pointed: bool,
+    /// A word of it has the control make a corner.
+    pub(crate) has_corners: bool,
+    /// A subprogram is called.
+    pub(crate) calls: bool,
+    /// The program has ended.
+    pub(crate) ended: bool,
+    /// It holds coordinates under G90, or an absolute centre, or G92: its effect depends on where the wire stands before it.
+    pub(crate) fixed: bool,
+    /// How many lines after its own decide how its last ones run.
+    pub(crate) ahead: u32,
+    /// Lines that may have an N word.
+    pub(crate) blocks: u32,
+    /// The numbers of N words, with the byte at which their lines begin; none for the `O` of another program, which has its
+    /// own numbers.
+    pub(crate) numbers: Vec<(Option<u32>, u32)>,
+    /// The last line with any content.
+    pub(crate) last_words: Option<(u32, u32)>,
+}
+
+/// What few lines have.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Rare {
+    /// The faults of single lines.
+    pub(crate) faults: Vec<Finding>,
+    pub(crate) foreign: Vec<Foreign>,
+    pub(crate) definitions: Vec<Definition>,
+    /// The first line with an arc that counts as evidence.
+    pub(crate) first_center: Option<(u32, u32)>,
+    /// The first words after the end.
+    pub(crate) behind_end: Option<(u32, u32)>,
+}
+
+/// The moves of a cut that cut, and what is known of them.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Moves {
+    pub(crate) sum: Summary,
+    pub(crate) verdict: Verdict,
+    /// Where they cross each other, if they do, and what an offset loses of them.
+    pub(crate) found: Option<Box<Found>>,
+    pub(crate) tight: Vec<Tight>,
+    pub(crate) spurs: Vec<Spur>,
+    /// Whether there may be a finding about them as a whole, once that was looked at.
+    pub(crate) is_doubtful: Option<bool>,
+}
+
+impl Moves {
+    /// Whether others must know more of them than that they are there.
+    pub(crate) fn tell_nothing(&self) -> bool {
+        self.is_doubtful == Some(false)
+            && self.verdict.goes_round
+            && self.sum.side == WireSide::None
+            && self.sum.switched_on == 0
+    }
+}
+
+impl Cut {
+    pub(crate) fn rare(&self) -> &Rare {
+        static NONE: Rare = Rare {
+            faults: Vec::new(),
+            foreign: Vec::new(),
+            definitions: Vec::new(),
+            first_center: None,
+            behind_end: None,
+        };
+        self.rare.as_deref().unwrap_or(&NONE)
+    }
+
+    pub(crate) fn keep(&mut self, rare: Rare) {
+        self.rare = (rare != Rare::default()).then(|| Box::new(rare));
+    }
+
+    pub(crate) fn sum(&self) -> Option<&Summary> {
+        self.moves.as_ref().map(|moves| &moves.sum)
+    }
+
+    /// Whether each of its numbers is larger than the one before.
+    pub(crate) fn rise(&self) -> bool {
+        let mut numbers = self.numbers.iter().filter_map(|(number, _)| *number);
+        let Some(mut last) = numbers.next() else {
+            return true;
+        };
+        numbers.all(|number| std::mem::replace(&mut last, number) < number)
+    }
+}
+
+/// A move that cuts, and the bytes of its words in the text.
+pub(crate) type Heard = (Move, std::ops::Range<usize>);

@@ -1,54 +1,47 @@
 //! ISO text as an open document: its lines, their effects, and what an edit leaves unchanged.
 
 use super::block::{Block, Offset};
-use super::control::{Control, lines_from};
-use super::cut::JoinedCut;
+use super::control::{Control, Sequence, way_of};
+use super::cut::{Cut, Entry, Heard};
 use super::evidence::{Evidence, UsualDecimals};
-use super::last_run::LastRun;
 use super::layout::{LOOKED_AT, is_parted};
 use super::leader::leader;
-use super::limits::Limits;
+use super::limits::{Limits, Table, correction_in};
 use super::machine::Machine;
 use super::moves::{Move, Reading};
 use super::order::{Order, labels, order};
-use super::read::words_of;
+use super::read::{Run, words_of};
 use super::repair::found::Repairs;
-use super::stretch::{Placed, StopAt, Stretch};
-use crate::program::by_chunk::ByChunk;
-use crate::program::chunks::{ChunkReader, Chunks, Reread};
-use crate::program::contours::{Contours, PartAt, Touched};
-use crate::program::of_cut::OfCut;
-use crate::program::path::Known;
+use crate::program::contours::Contours;
+use crate::program::cuts::Cuts;
+use crate::program::path::Way;
 use crate::settings::Effective;
 use crate::text::SourceText;
 use rustc_hash::FxHashMap;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
+/// Lines at the beginning that show how numbers are meant: a first guess.
+const HEAD: usize = 3_000;
+
 /// An ISO program as text, with the effects of its lines.
 ///
-/// The effect of a line depends on those before it, so a program is kept as stretches with the state before and after
-/// each. An edit runs the stretches that it touched, and those after them whose state changes; a stretch that only moved is
-/// shifted. A program that calls subprograms is run again with each edit.
+/// The effect of a line depends on those before it, so a program is kept as cuts, each with the state in which the machine
+/// enters it. An edit runs the cuts that it touched, and those after them whose state changes; a cut that only moved stays
+/// as it is. A program that calls subprograms is run again with each edit.
 #[derive(Clone, Debug)]
 pub struct Document {
     text: SourceText,
-    pub(super) stretches: Chunks<Stretch>,
+    pub(super) cuts: Cuts<Cut, Entry>,
+    /// How many cuts have been read: each gets a number of its own.
+    read: u64,
     reading: Reading,
     /// The first lines, which no control reads.
     leader: usize,
     evidence: Evidence,
-    /// The order of the lines, where it is not that of the text: then there is one stretch for each range in it.
+    /// The order of the lines, where it is not that of the text.
     order: Option<Order>,
-    /// The stops within contours, before their tabs, and the contours that cross themselves.
-    pub(super) contours: Contours<JoinedCut>,
-    /// The contours with possible findings, and those that may belong together with one of them.
-    pub(super) doubtful: ByChunk<JoinedCut>,
-    /// The findings about those that depend on them alone, and those about contours that cross
-    /// themselves.
-    pub(super) told: ByChunk<OfCut>,
-    /// The results of the search for crossings.
-    known: Box<Known>,
+    pub(super) contours: Contours,
     /// The settings that faults depend on.
     pub(crate) limits: Box<Limits>,
     /// The values that the program puts into the control's table.
@@ -57,16 +50,11 @@ pub struct Document {
     pub(super) repairs: OnceLock<Arc<Repairs>>,
     /// Those before the last edit.
     pub(super) repairs_before: Option<Arc<Repairs>>,
-    /// The moves of one stretch, until one of them changes.
-    last_run: LastRun,
     /// Whether its words stand apart, once somebody has asked.
     is_parted: OnceLock<bool>,
     /// The line of each N and O number, once somebody has asked.
     labels: OnceLock<Arc<FxHashMap<u32, usize>>>,
 }
-
-/// The last value of each place of the control's table, nm.
-pub(super) type Table = FxHashMap<Offset, i64>;
 
 impl Document {
     /// Reads program text. Never fails: damage is in [`Document::findings`].
@@ -79,19 +67,16 @@ impl Document {
         let mut document = Document {
             leader: 0,
             text: SourceText::new(bytes),
-            stretches: Chunks::default(),
+            cuts: Cuts::before(Entry::of(Machine::default(), None)),
+            read: 0,
             reading: Evidence::default().reading(&limits),
             evidence: Evidence::default(),
             order: None,
             contours: Contours::default(),
-            doubtful: ByChunk::default(),
-            told: ByChunk::default(),
-            known: Box::default(),
             limits: Box::new(limits),
             table: Box::default(),
             repairs: OnceLock::new(),
             repairs_before: None,
-            last_run: LastRun::default(),
             is_parted: OnceLock::new(),
             labels: OnceLock::new(),
         };
@@ -105,7 +90,7 @@ impl Document {
 
     /// True where it feeds an electrode downwards.
     pub(crate) fn mills(&self) -> bool {
-        self.stretches.iter().any(|stretch| stretch.after.mills)
+        self.cuts.state_before(self.cuts.len()).machine().mills
     }
 
     /// The meaning found for the program's numbers.
@@ -124,37 +109,16 @@ impl Document {
     /// Checks again under other settings.
     pub(crate) fn set_settings(&mut self, settings: &Effective) {
         let limits = Limits::of(settings);
-        if limits == *self.limits {
-            return;
-        }
-        let center = limits.center != self.limits.center;
-        let numbers = |limits: &Limits| (limits.inch, limits.whole, limits.writes_micrometres);
-        let is_other_unit = numbers(&limits) != numbers(&self.limits);
-        *self.limits = limits;
-        self.repairs = OnceLock::new();
-        if is_other_unit {
-            self.guess_reading();
-            return self.run_all();
-        }
-        self.look_at_all();
-        if center {
-            self.find_reading();
-        }
-        self.look(None);
-    }
-
-    /// Forgets which cuts are sound.
-    fn look_at_all(&mut self) {
-        let again = self.stretches.iter_mut().map(Stretch::look_again);
-        if !again.fold(true, |all, is_held| all & is_held) {
-            self.run_stretches();
+        if limits != *self.limits {
+            *self.limits = limits;
+            self.repairs = OnceLock::new();
+            self.read_all();
         }
     }
 
     /// The correction in a place of the control's table, µm: from the program's own table, else the settings.
     pub(super) fn correction(&self, offset: Option<Offset>) -> f64 {
-        let of_settings = self.limits.correction * 1e3;
-        self.stated_correction(offset).unwrap_or(of_settings)
+        correction_in(&self.table, &self.limits, offset)
     }
 
     /// The same where the program itself states it.
@@ -173,10 +137,18 @@ impl Document {
         self.labels.get_or_init(|| Arc::new(labels(&self.text)))
     }
 
+    /// Its lines in the order in which they run.
+    pub(super) fn sequence(&self) -> Sequence<'_> {
+        Sequence {
+            text: &self.text,
+            leader: self.leader,
+            order: self.order.as_ref(),
+        }
+    }
+
     /// A line's bytes, without its end; none of a line before the first `%`.
     pub(super) fn line_bytes(&self, line: usize) -> &[u8] {
-        let read = (line >= self.leader).then(|| self.text.line(line));
-        read.unwrap_or_default()
+        self.sequence().bytes(line)
     }
 
     /// The first lines, which no control reads: those before its first `%`.
@@ -206,68 +178,50 @@ impl Document {
         self.evidence.pointed()
     }
 
-    /// Whether a stop stands within a contour, before its tab.
-    pub(super) fn is_tab(&self, stop: StopAt) -> bool {
-        self.contours.is_tab(stop)
+    /// Some bytes that count from the beginning of a cut, in the text.
+    pub(super) fn bytes_in(&self, cut: usize, (start, end): (u32, u32)) -> Range<usize> {
+        let byte = self.cuts.byte(cut);
+        byte + start as usize..byte + end as usize
     }
 
-    /// Byte of the text from which the places of a stretch count.
-    pub(super) fn byte_of(&self, stretch: usize) -> usize {
-        self.stretches.byte(stretch)
+    /// Runs lines of a cut again.
+    fn run_again(&self, cut: usize, most: usize) -> Run {
+        let first = self.cuts.lines(cut).start;
+        let mut run = Run::new(self.cuts.state_before(cut).machine(), self.reading);
+        run.lines(self.sequence().from(first, self.cuts.byte(cut)), most);
+        run
     }
 
-    /// Hands out each move of a part; returns the byte from which their places count.
-    pub(super) fn hear(
-        &self,
-        (index, part): PartAt,
-        each: &mut dyn FnMut(&Move, (u32, u32)),
-    ) -> usize {
-        let Some(placed) = self.placed_at(index) else {
-            return 0;
+    /// The moves of a cut that cut, and the bytes of their words.
+    pub(super) fn moves_of(&self, cut: usize) -> Vec<Heard> {
+        let (_, way) = self.run_again(cut, self.cuts.lines(cut).len()).finished();
+        let at = self.cuts.state_before(cut).at;
+        let placed = |(made, range): (Move, _)| (made.shifted(at), self.bytes_in(cut, range));
+        way.into_iter().map(placed).collect()
+    }
+
+    pub(super) fn way_in(&self, cut: usize) -> Way {
+        let (_, way) = self.run_again(cut, self.cuts.lines(cut).len()).finished();
+        way_of(way.iter().map(|(made, _)| made), &self.reading)
+    }
+
+    /// The state before a line, with the wire's position, or behind it; and the cut in which it first runs, up to there. `None`
+    /// for a line that does not run.
+    pub(super) fn run_up_to(&self, line: usize, behind: bool) -> Option<(usize, Run)> {
+        let nth = match &self.order {
+            None => line,
+            Some(order) => order.of_line(line).next()?,
         };
-        let Range { start, end } = placed.lines;
-        let moves = self.last_run.of(index, |heard| {
-            let lines = lines_from(&self.text, self.leader, start);
-            let before = placed.stretch.before;
-            Stretch::run_with(
-                lines,
-                end - start,
-                placed.offset,
-                before,
-                self.reading,
-                heard,
-            );
-        });
-        let own = moves.iter().skip_while(|(of, ..)| *of < part);
-        own.take_while(|(of, ..)| *of == part)
-            .for_each(|(_, step, range)| each(step, *range));
-        placed.offset
+        let cut = self.cuts.first_at(nth);
+        let first = self.cuts.get(cut).map(|_| self.cuts.lines(cut).start)?;
+        Some((cut, self.run_again(cut, nth - first + usize::from(behind))))
     }
 
-    /// The stretches in the order in which they run.
-    pub(super) fn placed(&self) -> impl Iterator<Item = Placed<'_>> {
-        self.stretches.placed().map(|(stretch, place)| Placed {
-            stretch,
-            lines: place.lines.clone(),
-            offset: place.byte,
-        })
-    }
-
-    pub(super) fn placed_at(&self, index: usize) -> Option<Placed<'_>> {
-        let place = self.stretches.place(index);
-        self.stretches.get(index).map(|stretch| Placed {
-            stretch,
-            lines: place.lines,
-            offset: place.byte,
-        })
-    }
-
-    /// Replaces a range of bytes and runs again what it touched. Returns the first stretch in which the machine may
-    /// stand elsewhere than before.
+    /// Replaces a range of bytes and runs again what it touched. Returns the first cut in which the machine may stand
+    /// elsewhere than before.
     pub fn edit(&mut self, range: Range<usize>, replacement: &str) -> usize {
         self.repairs_before = self.repairs.take().or(self.repairs_before.take());
         self.labels = OnceLock::new();
-        self.last_run = LastRun::default();
         // The byte before belongs to the edit: a CR there may become one line end with an inserted LF.
         let first = range.start.min(self.text.len()).saturating_sub(1);
         if self.text.line_of(first) < LOOKED_AT {
@@ -279,44 +233,35 @@ impl Document {
             self.read_all();
             return 0;
         }
-        let control = self.control();
-        let evidence = &mut self.evidence;
-        let reread = self
-            .stretches
-            .edit(&control, &mut self.text, (range, replacement), |gone| {
-                evidence.take(&gone.evidence)
-            });
-        let read = &self.stretches[reread.chunks.clone()];
-        read.iter()
-            .for_each(|stretch| evidence.add(&stretch.evidence));
-        if leader(&self.text) != self.leader {
-            self.read_all();
-            return 0;
-        }
-        let first = reread.chunks.start;
-        match self.settle(Some(reread)) {
-            true => 0,
-            false => first,
-        }
-    }
-
-    /// A first guess of the meaning of numbers, from the beginning of the text: it saves running everything twice.
-    fn guess_reading(&mut self) {
-        let head = 0..self.text.line_count().min(16 * Control::LINES);
-        self.reading = Evidence::default().reading(&self.limits);
-        for _ in 0..2 {
-            let head = Chunks::read(&self.control(), &self.text, head.clone());
-            self.reading = self.summed(&head).reading(&self.limits);
-        }
-    }
-
-    /// The present way of reading the text.
-    pub(super) fn control(&self) -> Control {
-        Control {
-            begin: self.first_machine(),
+        let mut control = Control {
             reading: self.reading,
+            limits: &self.limits,
+            table: &self.table,
             leader: self.leader,
+            order: None,
+            evidence: std::mem::take(&mut self.evidence),
+        };
+        let edit = (range, replacement);
+        let first = self.cuts.edit(&mut control, &mut self.text, edit);
+        self.evidence = control.evidence;
+        match leader(&self.text) == self.leader && !self.must_run_again() {
+            true => {
+                self.look();
+                first
+            }
+            false => {
+                self.read_all();
+                0
+            }
         }
+    }
+
+    /// Whether the program as a whole shows that its lines are to be read otherwise than they were.
+    fn must_run_again(&self) -> bool {
+        let calls = self.order.is_none() && self.cuts.iter().any(|cut| cut.calls);
+        calls
+            || self.evidence.reading(&self.limits) != self.reading
+            || self.stated_table() != *self.table
     }
 
     /// The control before the first line.
@@ -327,122 +272,85 @@ impl Document {
         }
     }
 
-    fn summed(&self, stretches: &[Stretch]) -> Evidence {
-        let mut evidence = Evidence {
-            inches: u32::from(self.limits.inch),
-            ..Evidence::default()
+    /// Runs all lines.
+    fn run(&mut self) {
+        let mut control = Control {
+            reading: self.reading,
+            limits: &self.limits,
+            table: &self.table,
+            leader: self.leader,
+            order: self.order.as_ref(),
+            evidence: Evidence {
+                inches: u32::from(self.limits.inch),
+                ..Evidence::default()
+            },
         };
-        stretches
-            .iter()
-            .for_each(|stretch| evidence.add(&stretch.evidence));
-        evidence
+        let begin = Entry::of(self.first_machine(), None);
+        self.cuts = Cuts::read(&mut control, &self.text, begin);
+        self.evidence = control.evidence;
     }
 
     /// Reads all of the text.
     fn read_all(&mut self) {
         self.leader = leader(&self.text);
-        self.guess_reading();
-        self.run_all();
-    }
-
-    /// Runs the whole program.
-    fn run_all(&mut self) {
         self.order = None;
-        self.run_stretches();
-        self.settle(None);
-    }
-
-    fn run_stretches(&mut self) {
-        self.last_run = LastRun::default();
-        let (control, text) = (self.control(), &self.text);
-        self.stretches = match &self.order {
-            None => Chunks::read(&control, text, 0..text.line_count()),
-            Some(order) => Chunks::read_in_order(&control, text, &order.lines),
-        };
-        self.evidence = self.summed(&self.stretches);
-    }
-
-    /// Compares the reading with the evidence of the whole program, and runs it again where it suggests another one:
-    /// first the unit and the finest step, then, measured with these, the meaning of I and J. True where it did.
-    fn settle(&mut self, reread: Option<Reread>) -> bool {
-        let is_run_again = self.find_reading();
-        self.look(reread.filter(|_| !is_run_again));
-        is_run_again
-    }
-
-    /// Checks what depends on the program as a whole; what an edit has not `reread` is kept.
-    fn look(&mut self, mut reread: Option<Reread>) {
-        // The findings of a cut depend on its own lines, on the settings and on the control's table.
-        let table = self.stated_table();
-        if table != *self.table {
-            *self.table = table;
-            self.look_at_all();
-            reread = None;
-        }
-        let mut contours = std::mem::take(&mut self.contours);
-        let mut doubtful = std::mem::take(&mut self.doubtful);
-        let (reread, [from, to]) = match &reread {
-            Some(reread) => self.touched(reread),
-            None => {
-                (contours, doubtful) = (Contours::default(), ByChunk::default());
-                self.told = ByChunk::default();
-                let all = Reread::all(&self.stretches);
-                (all, [(0, 0), (self.stretches.len(), 0)])
-            }
-        };
-        let touched = Touched {
-            reread: &reread,
-            from,
-            to,
-        };
-        let (mut known, mut found) = (std::mem::take(&mut self.known), Vec::new());
-        let mut is_doubtful = self.doubts();
-        let looked_at = contours.look(self, touched, &mut known, |cut, crosses| {
-            let is_kept = crosses == Some(true) || is_doubtful(&cut);
-            found.extend(is_kept.then_some(cut));
-        });
-        drop(is_doubtful);
-        (self.contours, self.known) = (contours, known);
-        let told = self.tell(looked_at.from..looked_at.to, &mut found);
-        self.told.splice(&looked_at, told);
-        doubtful.splice(&looked_at, found);
-        // All that begin in a stretch stand where it stood, but for those that were looked at.
-        for (chunk, stretch) in self.stretches.iter().enumerate() {
-            let is_elsewhere = |cut: &JoinedCut| cut.is_elsewhere(stretch.moved);
-            let of = doubtful.of(chunk);
-            if of.first().is_some_and(is_elsewhere) || of.last().is_some_and(is_elsewhere) {
-                doubtful.change(chunk, |cut| cut.follow(stretch.moved));
-            }
-        }
-        self.doubtful = doubtful;
-        let last = self.stretches.len().min(looked_at.to.0 + 1);
-        for index in self.clean(looked_at.from.0..last) {
-            self.stretches[index].let_go();
-        }
-        let read = &mut self.stretches[reread.chunks.clone()];
-        read.iter_mut().for_each(|stretch| stretch.is_fresh = false);
-    }
-
-    /// Runs the program again where it shows another meaning of its numbers; true where it did.
-    fn find_reading(&mut self) -> bool {
-        let mut is_run_again = false;
-        if self.order.is_none() && self.stretches.iter().any(|stretch| stretch.calls) {
+        self.table = Box::default();
+        self.guess_reading();
+        self.run();
+        if self.cuts.iter().any(|cut| cut.calls) {
             self.order = Some(order(&self.text));
-            self.run_stretches();
-            is_run_again = true;
+            self.run();
         }
-        debug_assert_eq!(self.evidence, self.summed(&self.stretches));
-        // The evidence of an arc depends on the unit and the step, but not the other way round:
-        // after two runs the evidence leads to no other reading.
-        for _ in 0..2 {
-            let reading = self.evidence.reading(&self.limits);
-            if reading == self.reading {
+        // The evidence of an arc depends on the unit and the step, but not the other way round: after two runs the evidence
+        // leads to no other reading, and with a third to no other table.
+        for _ in 0..3 {
+            if !self.must_run_again() {
                 break;
             }
-            self.reading = reading;
-            self.run_stretches();
-            is_run_again = true;
+            self.reading = self.evidence.reading(&self.limits);
+            *self.table = self.stated_table();
+            self.run();
         }
-        is_run_again
+        self.contours = Contours::default();
+        self.look();
+    }
+
+    /// A first guess of the meaning of numbers, from the beginning of the text: it saves running everything twice.
+    fn guess_reading(&mut self) {
+        self.reading = Evidence::default().reading(&self.limits);
+        for _ in 0..2 {
+            let mut run = Run::new(self.first_machine(), self.reading);
+            let mut evidence = Evidence {
+                inches: u32::from(self.limits.inch),
+                ..Evidence::default()
+            };
+            let mut lines = 0;
+            while lines < HEAD.min(self.text.line_count()) {
+                let before = run.after;
+                run = Run::new(before, self.reading);
+                lines += run
+                    .lines(self.sequence().from(lines, 0), HEAD - lines)
+                    .max(1);
+                evidence.add(&run.evidence);
+            }
+            self.reading = evidence.reading(&self.limits);
+        }
+    }
+
+    /// Checks what depends on the program as a whole; what is known of cuts that were not run again is used again.
+    fn look(&mut self) {
+        for cut in self.cuts.iter_mut().filter(|cut| cut.id == 0) {
+            self.read += 1;
+            cut.id = self.read;
+        }
+        let before = std::mem::take(&mut self.contours);
+        self.contours = Contours::of(self, before);
+        let doubtful = self.doubts();
+        for (cut, is_doubtful) in self.cuts.iter_mut().zip(doubtful) {
+            if let Some(moves) = &mut cut.moves {
+                moves.is_doubtful = is_doubtful.or(moves.is_doubtful);
+            }
+            cut.moves.take_if(|moves| moves.tell_nothing());
+        }
     }
 }

@@ -6,7 +6,7 @@
 use super::block::{Block, Code};
 use super::moves::{FARTHEST_MM, Reading};
 use super::plain::words_in;
-use super::stretch::Stretch;
+use super::read::Run;
 use super::word::{Number, Token};
 use crate::finding::{Fault, Finding, Rule};
 use crate::text::shown;
@@ -19,7 +19,7 @@ impl Code {
     }
 }
 
-impl Stretch {
+impl Run {
     /// What is said of a line that leads farther than any machine.
     pub(super) fn too_far(&self, block: &Block, range: (u32, u32)) -> Option<Finding> {
         let range = range.0 as usize..range.1 as usize;

@@ -1,8 +1,6 @@
 //! Block numbers near a line, and the subprograms that are called by them.
 
-use super::block::Stop;
 use super::document::Document;
-use super::stretch::Placed;
 use crate::program::numbering::step;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -44,10 +42,10 @@ impl Document {
 
     /// The line that ends a program without calls.
     fn last_line(&self) -> Option<usize> {
-        let mut ending = self.placed().find(|placed| placed.stretch.after.ended)?;
-        ending
-            .lines
-            .find(|line| self.block(*line).stop == Some(Stop::End))
+        let ending = self.cuts.iter().position(|cut| cut.ended)?;
+        let (_, byte) = self.cuts[ending].stop?;
+        let byte = self.cuts.byte(ending) + byte as usize;
+        Some(self.text().line_of(byte))
     }
 
     /// The last block number before a line, and the step of the numbers there.
@@ -82,10 +80,11 @@ impl Document {
         line + 1..self.text().line_count().min(line + 1 + LOOKED_BACK)
     }
 
-    /// The numbers that are missing from the sequence of a stretch's blocks: each with its line.
-    pub(super) fn lacking_numbers(&self, placed: &Placed<'_>) -> Vec<(usize, u32)> {
+    /// The numbers that are missing from the sequence of a cut's blocks: each with its line.
+    pub(super) fn lacking_numbers(&self, cut: usize) -> Vec<(usize, u32)> {
         let mut found = Vec::new();
-        for line in placed.lines.clone() {
+        for nth in self.cuts.lines(cut) {
+            let line = self.sequence().line(nth);
             let own = self.block(line);
             if own.empty || own.number.is_some() || own.program.is_some() {
                 continue;

@@ -1,8 +1,9 @@
 //! The settings that decide what is a fault of an ISO program.
 
-use super::block::{Block, Code, Note, Stop, read_line};
+use super::block::{Block, Code, Note, Offset, Stop, read_line};
 use super::moves::CenterRule;
 use crate::settings::{Effective, NumberUnit, Profile, UnitSetting, shipped_profiles};
+use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
 use std::sync::{Arc, LazyLock};
 
@@ -116,4 +117,13 @@ fn end_word(settings: &Effective) -> String {
     let mut ends = lines.filter(|line| Block::of(line.as_bytes()).stop == Some(Stop::End));
     ends.next_back()
         .map_or_else(|| "M02".into(), |line| line.trim().into())
+}
+
+/// The last value of each place of the control's table, nm.
+pub(crate) type Table = FxHashMap<Offset, i64>;
+
+/// The correction in a place of a table, µm: from there, else from the settings.
+pub(super) fn correction_in(table: &Table, limits: &Limits, offset: Option<Offset>) -> f64 {
+    let stated = offset.and_then(|offset| table.get(&offset));
+    stated.map_or(limits.correction * 1e3, |nm| (*nm as f64 / 1e3).abs())
 }

@@ -4,7 +4,6 @@ use super::block::{Block, Compensation, Corner, Motion, Offset, Stop};
 use super::variables::Variables;
 use super::word::Number;
 use crate::finding::Side;
-use crate::program::path::mixed;
 
 use super::moves::{Bend, CenterRule, Course, Move, Place, Reading, added, apart, bend_about};
 
@@ -334,4 +333,11 @@ pub(super) fn mark_of(block: &Block, made: &Move) -> u64 {
             ),
             None => mixed(mark, 1 << 55),
         })
+}
+
+/// The mark of something with one more field.
+fn mixed(mark: u64, field: u64) -> u64 {
+    (mark ^ field)
+        .wrapping_mul(0x2545_f491_4f6c_dd1d)
+        .rotate_left(23)
 }

@@ -1,9 +1,7 @@
 //! The order in which the lines of a program run: from the first to the last, or through the subprograms that `M98 P…` calls.
 
 use super::block::{Block, Stop};
-use super::control::Control;
 use super::leader::leader;
-use crate::program::chunks::ChunkReader;
 use crate::text::SourceText;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::ops::Range;
@@ -21,6 +19,8 @@ pub(super) const MOST_CALLS: usize = 20_000;
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Order {
     pub(crate) lines: Vec<Range<usize>>,
+    /// How many lines run up to the end of each of these ranges.
+    counts: Vec<usize>,
     /// The line of each N and O number.
     pub(crate) labels: FxHashMap<u32, usize>,
     /// The numbers that are called.
@@ -35,6 +35,30 @@ pub(crate) struct Order {
     pub(crate) left_out: Option<usize>,
     /// How many lines may run in all.
     pub(crate) most_lines: usize,
+}
+
+impl Order {
+    /// How many lines run.
+    pub(super) fn count(&self) -> usize {
+        self.counts.last().copied().unwrap_or(0)
+    }
+
+    /// The line of the text that runs as one of them.
+    pub(super) fn line(&self, nth: usize) -> usize {
+        let range = self.counts.partition_point(|count| *count <= nth);
+        let before = range
+            .checked_sub(1)
+            .and_then(|before| self.counts.get(before));
+        let first = self.lines.get(range).map_or(0, |lines| lines.start);
+        first + nth - before.copied().unwrap_or(0)
+    }
+
+    /// The numbers of the lines that run as one of the text.
+    pub(super) fn of_line(&self, line: usize) -> impl Iterator<Item = usize> + '_ {
+        let ranges = self.lines.iter().zip(&self.counts);
+        let holding = ranges.filter(move |(lines, _)| lines.contains(&line));
+        holding.map(move |(lines, count)| count - (lines.end - line))
+    }
 }
 
 /// Follows the calls of a program that has some.
@@ -154,13 +178,12 @@ impl Walk<'_> {
         }
     }
 
-    /// Lines that run one after another, in stretches: crossings are searched for stretch by stretch.
+    /// Lines that run one after another.
     fn push(&mut self, lines: Range<usize>) {
-        let stretches = lines
-            .clone()
-            .step_by(Control::LINES)
-            .map(|first| first..(first + Control::LINES).min(lines.end));
-        self.order.lines.extend(stretches);
+        if !lines.is_empty() {
+            self.order.counts.push(self.order.count() + lines.len());
+            self.order.lines.push(lines);
+        }
     }
 
     fn call(&mut self, number: u32, from: usize, depth: usize) -> bool {

@@ -6,100 +6,134 @@ use super::ahead::Ahead;
 pub(crate) use super::ahead::Lines;
 use super::block::{Block, Note, Stop, read_under};
 use super::corner::{self, Turned, turned};
-use super::evidence::FEW_BARE;
+use super::cut::{Cut, Definition, Foreign, Moves, Rare};
+use super::evidence::Evidence;
 use super::machine::{Behind, Machine, Trail, mark_of};
-use super::moves::{Course, Move, Reading, added, apart};
-use super::part::{Hears, Part, SEVERAL, Spur, Tight, Ways};
+use super::moves::{Course, Move, Place, Reading, apart};
 use super::shape::Shape;
-use super::stretch::{Definition, Foreign, Pathless, Stretch};
+use super::summary::{Spur, Summary, Tight};
 use crate::finding::{Fault, Finding, Rule};
 use crate::geometry::Side;
-use crate::program::path::joint;
+use crate::program::path::{Verdict, joint};
 use std::f64::consts::PI;
 use std::ops::Range;
 
 /// Arcs with a larger radius are not kept: no correction comes near, nm.
 const LARGEST_CORRECTION: f64 = 5e6;
 
-impl Stretch {
-    /// Runs the first `count` of `lines`, each with the byte at which it begins, counted from `start`; the lines after
-    /// complete the last of them.
-    pub(crate) fn run<'a>(
-        lines: impl Lines<'a>,
-        count: usize,
-        start: usize,
-        before: Machine,
-        reading: Reading,
-    ) -> Pathless {
-        let mut ways: Vec<Ways> = Vec::new();
-        let stretch = Stretch::run_with(
-            lines,
-            count,
-            start,
-            before,
+/// Lines up to the end of a cut as they are run.
+pub(crate) struct Run {
+    pub(crate) cut: Cut,
+    pub(crate) rare: Rare,
+    /// The state after the last of them.
+    pub(crate) after: Machine,
+    /// Where the wire stood before the first.
+    begin: Place,
+    pub(crate) reading: Reading,
+    pub(crate) evidence: Evidence,
+    /// Their moves that cut, from there.
+    pub(crate) way: Vec<(Move, (u32, u32))>,
+    sum: Option<Summary>,
+    tight: Vec<Tight>,
+    spurs: Vec<Spur>,
+    /// The lines that were looked at beyond the last.
+    reach: usize,
+}
+
+impl Run {
+    pub(crate) fn new(before: Machine, reading: Reading) -> Run {
+        Run {
+            cut: Cut::default(),
+            rare: Rare::default(),
+            after: before,
+            begin: before.at,
             reading,
-            &mut |part, step, _| {
-                if ways.len() <= part {
-                    ways.resize_with(part + 1, Ways::default);
-                }
-                if let Some(way) = ways.get_mut(part) {
-                    way.push(*step);
-                }
-            },
-        );
-        Pathless { stretch, ways }
+            evidence: Evidence::default(),
+            way: Vec::new(),
+            sum: None,
+            tight: Vec::new(),
+            spurs: Vec::new(),
+            reach: 0,
+        }
     }
 
-    /// The same without paths; `each` gets every move of a part.
-    pub(crate) fn run_with<'a>(
-        mut lines: impl Lines<'a>,
-        count: usize,
-        start: usize,
-        before: Machine,
-        reading: Reading,
-        each: &mut Hears<'_>,
-    ) -> Stretch {
-        let mut stretch = Stretch {
-            before,
-            after: before,
-            reading,
-            numbers_rise: true,
-            is_fresh: true,
-            ..Stretch::default()
-        };
-        for left in (0..count).rev() {
+    /// Runs lines, each with the byte at which it begins counted from that from which places count, up to the end of a cut,
+    /// at most `most`; returns how many.
+    pub(crate) fn lines<'a>(&mut self, mut lines: impl Lines<'a>, most: usize) -> usize {
+        let mut count = 0;
+        while count < most && !self.is_over() {
             let Some((offset, line)) = lines.next() else {
                 break;
             };
-            let known = stretch.faults.len();
-            stretch.line(
-                line,
-                offset - start,
-                &Ahead {
-                    lines: &lines,
-                    left,
-                },
-                each,
-            );
-            if stretch.faults.len() > known {
-                stretch.mark_fault();
+            count += 1;
+            self.reach = self.reach.saturating_sub(1);
+            let known = self.rare.faults.len();
+            self.line(line, offset, &Ahead { lines: &lines });
+            if self.rare.faults.len() > known
+                && let Some(sum) = &mut self.sum
+            {
+                sum.faulty |= sum.open;
             }
         }
-        stretch
+        self.after.trail = Trail::default();
+        count
+    }
+
+    /// Something has ended moves that cut.
+    fn is_over(&self) -> bool {
+        self.sum.as_ref().is_some_and(|sum| !sum.open)
+    }
+
+    /// What was run.
+    pub(crate) fn finished(self) -> (Cut, Vec<(Move, (u32, u32))>) {
+        let places = self.evidence.places.iter().enumerate();
+        let used = places.filter(|(_, count)| **count > 0);
+        let places = used.fold(0, |bits, (place, _)| bits | 1 << place);
+        let Run {
+            mut cut,
+            rare,
+            after,
+            sum,
+            tight,
+            spurs,
+            way,
+            reach,
+            ..
+        } = self;
+        cut.keep(rare);
+        cut.cuts = sum.is_some();
+        cut.places = places;
+        cut.ahead = reach as u32;
+        cut.ended = after.ended;
+        cut.moves = sum.map(|sum| {
+            Box::new(Moves {
+                sum,
+                verdict: Verdict::default(),
+                found: None,
+                tight,
+                spurs,
+                is_doubtful: None,
+            })
+        });
+        (cut, way)
     }
 
     /// The block of a line, whether the wire's upper end may go elsewhere than before, and whether a length stands in a
     /// word beside the wire's way.
     fn block(&mut self, line: &[u8], offset: usize) -> (Block, bool, bool) {
-        let Stretch {
+        let Run {
+            after,
+            evidence,
+            cut,
+            rare,
+            ..
+        } = &mut *self;
+        let Rare {
             faults,
             foreign,
             definitions,
-            lengths,
-            after,
-            evidence,
             ..
-        } = &mut *self;
+        } = rare;
         let (inch, known_faults) = (after.inch, faults.len());
         let (mut leans, mut measures, mut is_unread) = (false, false, false);
         let block = read_under(&mut after.variables, line, offset, |note| match note {
@@ -139,13 +173,9 @@ impl Stretch {
                     range,
                 });
             }
-            Note::Length { pointed, range } => {
-                let [bare, with_point] = &mut *lengths;
-                let kept = if pointed { with_point } else { bare };
-                // The numbers of a single stretch may be all that are reported.
-                if kept.len() < FEW_BARE as usize {
-                    kept.push(pair(range));
-                }
+            Note::Length { pointed, .. } => {
+                cut.has_pointed |= pointed;
+                cut.has_bare |= !pointed;
             }
             Note::Twice { letter, range } => {
                 if faults.len() == known_faults {
@@ -157,40 +187,35 @@ impl Stretch {
         (block, leans, measures)
     }
 
-    fn line<'a>(
-        &mut self,
-        line: &[u8],
-        offset: usize,
-        ahead: &Ahead<'_, impl Lines<'a>>,
-        each: &mut Hears<'_>,
-    ) {
-        let known_faults = self.faults.len();
+    fn line<'a>(&mut self, line: &[u8], offset: usize, ahead: &Ahead<'_, impl Lines<'a>>) {
+        let known_faults = self.rare.faults.len();
         let (block, leans, measures) = self.block(line, offset);
         if block.empty {
             return;
         }
         let range = words_of(line, offset);
-        self.last_words = Some(range);
+        self.cut.last_words = Some(range);
         self.number(&block, range.0);
-        self.calls |= block.call.is_some();
+        self.cut.calls |= block.call.is_some();
         if self.after.ended {
-            self.behind_end.get_or_insert(range);
+            self.rare.behind_end.get_or_insert(range);
             return;
         }
         let incremental = block.incremental.unwrap_or(self.after.incremental);
         self.evidence.numbers(&block, incremental);
-        self.fixed |= block.sets_position;
+        self.cut.fixed |= block.sets_position;
         let (torn, behind) = (self.after.torn, self.after.behind);
-        self.faults.extend(self.too_far(&block, range));
+        self.rare.faults.extend(self.too_far(&block, range));
         if measures {
-            self.faults
+            self.rare
+                .faults
                 .extend(self.beside_too_far(line, offset, &block));
         }
         let steered = self.after.steer(&block, &self.reading);
         // A line that says where to go fixes the position even where it makes no move because the
         // position before it is unknown.
-        self.fixed |= !self.after.incremental && block.has_coordinates();
-        let is_free = self.faults.len() == known_faults;
+        self.cut.fixed |= !self.after.incremental && block.has_coordinates();
+        let is_free = self.rare.faults.len() == known_faults;
         if is_free && !block.broken && block.has_stray_center(self.after.motion) {
             let sentence = say!(i_and_j_stand_beside_a_straight_cut);
             self.fault(Fault::said(Rule::CenterOnLine, sentence), range);
@@ -204,7 +229,7 @@ impl Stretch {
                     _ if !said.is_arc() => {}
                     Some(stated) => self.evidence.states(&said, stated),
                     None if self.evidence.arc(&said, self.reading.tolerance) => {
-                        self.first_center.get_or_insert(range);
+                        self.rare.first_center.get_or_insert(range);
                     }
                     None => {}
                 }
@@ -212,7 +237,6 @@ impl Stretch {
                     self.fault(fault, range);
                 }
                 let made = steered.made(&self.reading);
-                self.moves += 1;
                 if is_free && !leans {
                     self.said(&block, &made, range);
                 }
@@ -222,20 +246,14 @@ impl Stretch {
                     is_fixed,
                     ..
                 } = self.turned(made, range, ahead);
-                self.fixed |= is_fixed;
-                self.made(made, range, torn, ahead, each);
+                self.cut.fixed |= is_fixed;
+                self.made(made, range, torn, ahead);
                 if let Some(corner) = corner {
-                    self.made(corner, range, torn, ahead, each);
+                    self.made(corner, range, torn, ahead);
                 }
             }
             None if self.after.torn => self.interrupt(false),
             None => {}
-        }
-        if !self.leaves_cut {
-            let is_rapid = steered.is_some_and(|steered| !steered.said.is_cut());
-            self.leaves_cut = is_rapid || block.stop.is_some();
-            let stands = steered.is_none() && !self.leaves_cut;
-            self.heeds_loss |= stands || self.after.lost != [false, false];
         }
         if let Some(stop) = block.stop {
             self.stop(stop, steered.is_none() && behind == Behind::Stop, range);
@@ -245,29 +263,23 @@ impl Stretch {
     /// The number of a block, or where a program begins.
     fn number(&mut self, block: &Block, place: u32) {
         match block.program {
-            Some(_) => self.programs.push(self.numbers.len() as u32),
-            None => self.blocks += 1,
+            Some(_) => self.cut.numbers.push((None, place)),
+            None => self.cut.blocks += 1,
         }
-        if let Some(number) = block.number {
-            let last = self.numbers.last();
-            self.numbers_rise &= last.is_none_or(|(before, _)| number > *before);
-            self.numbers.push((number, place));
+        if block.number.is_some() {
+            self.cut.numbers.push((block.number, place));
         }
     }
 
     /// The machine stops, `again` where nothing moves between this stop and the one before.
     fn stop(&mut self, stop: Stop, again: bool, range: (u32, u32)) {
-        self.sum.stops += 1;
         self.interrupt(true);
-        let known = self.parts.last_mut();
-        if stop == Stop::Pause {
-            self.pauses += 1;
-            let (ends_open, stops) = match known {
-                Some(part) => (&mut part.ends_open, &mut part.stop),
-                None => (&mut self.ends_open_before, &mut self.stop_before),
-            };
-            *ends_open |= again;
-            *stops = Some(stops.map_or(range.0, |_| SEVERAL));
+        match self.sum.is_none() && stop == Stop::Pause {
+            true => {
+                self.cut.pauses_before += 1;
+                self.cut.pauses_again |= again;
+            }
+            false => self.cut.stop = Some((stop, range.0)),
         }
         if stop == Stop::End && self.after.side.is_some() && self.after.switches.is_none() {
             self.fault(Fault::StillOn, range);
@@ -276,7 +288,7 @@ impl Stretch {
 
     fn fault(&mut self, fault: Fault, range: (u32, u32)) {
         let range = range.0 as usize..range.1 as usize;
-        self.faults.push(Finding::of(fault, range));
+        self.rare.faults.push(Finding::of(fault, range));
     }
 
     /// An arc whose I and J lead along another arc than its R: some controls take the one, some the other.
@@ -314,9 +326,9 @@ impl Stretch {
                 is_fixed: false,
             };
         }
-        self.has_corners = true;
+        self.cut.has_corners = true;
         let turned = turned(made, &mut self.after, ahead.lines(), &self.reading);
-        self.ahead = self.ahead.max(ahead.beyond(turned.looked_at));
+        self.reach = self.reach.max(turned.looked_at);
         if turned.corner.is_none() {
             let sentence = say!(the_word_for_a_corner_finds_none_here);
             self.fault(Fault::said(Rule::CornerWord, sentence), range);
@@ -338,21 +350,12 @@ impl Stretch {
         }
     }
 
-    /// Marks a fault in a line of the present cut.
-    fn mark_fault(&mut self) {
-        match self.parts.last_mut() {
-            Some(part) => part.faulty |= part.open,
-            None => self.faulty_before |= self.ends_cut_before.is_none(),
-        }
-    }
-
-    /// Begins a new cut; `whole` is false where lines between cannot be read.
+    /// Ends the moves that cut; `whole` is false where lines between cannot be read.
     fn interrupt(&mut self, whole: bool) {
         self.after.trail = Trail::default();
-        match self.parts.last_mut() {
-            Some(part) if part.open => (part.open, part.whole) = (false, part.whole && whole),
-            Some(_) => {}
-            None => _ = self.ends_cut_before.get_or_insert(whole),
+        if let Some(sum) = &mut self.sum {
+            sum.whole &= whole || !sum.open;
+            sum.open = false;
         }
     }
 
@@ -362,13 +365,9 @@ impl Stretch {
         range: (u32, u32),
         torn: bool,
         ahead: &Ahead<'_, impl Lines<'a>>,
-        each: &mut Hears<'_>,
     ) {
-        self.fixed |= !made.incremental || self.after.center.is_some();
-        self.sum.moves += 1;
-        self.sum.arcs += usize::from(made.is_arc());
-        self.sum.rapids += usize::from(!made.is_cut());
-        self.sum.travel = added(self.sum.travel, apart(made.to, made.from));
+        self.cut.fixed |= !made.incremental || self.after.center.is_some();
+        self.cut.steps += 1;
         if self.after.mills {
             // Layers are neither contours of a part nor passes along one.
             return self.interrupt(true);
@@ -397,29 +396,22 @@ impl Stretch {
         }
         let odd = self.examine(&made, ahead);
         self.after.trail.push(&made);
-        match self.parts.last_mut() {
-            Some(part) if part.open => part.push(made, cap, range),
-            last => {
-                let is_first = last.is_none() && self.ends_cut_before.is_none();
-                let continues = is_first && self.before.trail.last[0].is_some();
-                self.heeds_loss |= !continues && !self.leaves_cut;
-                self.parts
-                    .push(Part::begin(made, cap, range, continues, !torn));
-            }
+        let local = made.shifted(apart([0, 0], self.begin));
+        match &mut self.sum {
+            Some(sum) => sum.push(local, cap, range),
+            None => self.sum = Some(Summary::begin(local, cap, range, !torn)),
         }
-        let part = self.parts.len() - 1;
         match odd {
             // Whether it is one depends on where its cut begins.
             Some(Fault::Spur { length }) => self.spurs.push(Spur {
-                tip: made.from,
+                tip: local.from,
                 length,
                 range,
-                part: part as u32,
             }),
             Some(fault) => self.fault(fault, range),
             None => {}
         }
-        each(part, &made, range);
+        self.way.push((local, range));
     }
 
     /// Twice the area between a move and its chord, nm²; an arc is kept where it may be too tight, and its fault.
@@ -427,20 +419,11 @@ impl Stretch {
         // Relative to its own start, so that the result is the same to the last bit anywhere.
         match made.at_origin().course(&self.reading) {
             Course::Arc(arc) => {
-                if arc.radius * 1e3 < LARGEST_CORRECTION {
-                    let goes_on = self.parts.last().is_some_and(|part| part.open);
-                    let part = (self.parts.len() - usize::from(goes_on)) as u32;
-                    let tightest = if made.side.is_some() {
-                        &mut self.tightest.offset
-                    } else {
-                        &mut self.tightest.plain
-                    };
-                    *tightest = tightest.min(arc.radius);
+                if arc.radius * 1e3 < LARGEST_CORRECTION && made.is_cut() {
                     self.tight.push(Tight {
-                        arc: made,
+                        arc: made.shifted(apart([0, 0], self.begin)),
                         radius: arc.radius,
                         range,
-                        part,
                     });
                 }
                 // µm² to nm².
@@ -466,8 +449,8 @@ impl Stretch {
         let made = shape(made.at_origin());
         let joint = joint(came.map(shape), &shape(before?), made)?;
         let next = corner::next_move(self.after, ahead.lines(), &reading, Move::goes_anywhere);
-        self.ahead = self.ahead.max(ahead.beyond(next.looked_at));
-        self.fixed |= next.is_fixed;
+        self.reach = self.reach.max(next.looked_at);
+        self.cut.fixed |= next.is_fixed;
         let next = next.made.map(|next| shape(next.at_origin()));
         joint.fault(next.as_ref())
     }

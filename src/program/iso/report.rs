@@ -1,4 +1,4 @@
-//! The findings of a program, from those of its stretches.
+//! The findings of a program, from what is known of its cuts.
 
 mod arcs;
 mod passes;
@@ -6,19 +6,18 @@ mod text;
 mod told;
 
 use super::block::Code;
-use super::cut::JoinedCut;
-use super::document::{Document, Table};
-use super::limits::Limits;
-use super::moves::{Place as Spot, Reading, apart, meet, micrometres};
-use super::part::{Part, Spur, WireSide};
+use super::contours::Contour;
+use super::cut::Cut;
+use super::document::Document;
+use super::limits::{Limits, Table};
+use super::moves::{Place as Spot, Reading, added, apart, meet, micrometres};
 use super::repair::found::Repair;
 use super::repair::{Troubles, cut_within};
-use super::stretch::Stretch;
+use super::summary::{Spur, Summary, WireSide};
 use crate::finding::{Detail, Fault, Finding, Place, Rule, Severity, Side};
 use crate::geometry::cross;
-use crate::program::by_chunk::ByChunk;
-use crate::program::followed::Followed;
-use crate::program::path::{HasCuts, tolerance};
+use crate::program::contours::Divided;
+use crate::program::path::tolerance;
 use crate::program::repair::gate::Tried;
 use crate::program::report::{self, place_of};
 use crate::settings::{CenterRule, SideSetting};
@@ -42,29 +41,24 @@ impl Document {
 
     /// The same without merely suspected blocks, and without a search for the slip behind them.
     pub(crate) fn plain_findings(&self) -> Vec<Finding> {
-        let mut report = self.report();
-        let told = self.told.iter();
-        let told = told.map(|told| told.finding(|chunk| self.byte_of(chunk), self.text()));
-        report.findings.extend(told);
-        report.finish()
+        self.report().finish()
     }
 
-    /// The findings beside those that are kept.
+    /// The findings, without suspected blocks.
     pub(super) fn report(&self) -> Report<'_> {
         let mut report = Report::new(self);
         let mut last_words = None;
         let mut is_ended = false;
         let mut behind_end = None;
-        for placed in self.placed() {
-            let (stretch, offset) = (placed.stretch, placed.offset);
-            report.line_faults(stretch, offset);
-            report.note(stretch, offset);
-            is_ended = stretch.after.ended;
-            if let Some(words) = stretch.last_words {
-                last_words = Some(at(offset, words));
+        for (index, cut) in self.cuts.iter().enumerate() {
+            report.line_faults(index, cut);
+            report.note(index, cut);
+            is_ended = cut.ended;
+            if let Some(words) = cut.last_words {
+                last_words = Some(self.bytes_in(index, words));
             }
-            if let Some(behind) = stretch.behind_end {
-                behind_end.get_or_insert(at(offset, behind));
+            if let Some(behind) = cut.rare().behind_end {
+                behind_end.get_or_insert(self.bytes_in(index, behind));
             }
         }
         // Subprograms stand behind the end, and of some calls nobody knows which.
@@ -74,19 +68,19 @@ impl Document {
             let word = report.end_before(behind.start);
             report.add(behind, Fault::TextAfterEnd { word });
         }
-        for cut in self.doubtful.untold() {
-            report.judge(cut, Some(&self.doubtful));
+        let is_doubtful = |cut: usize| {
+            let moves = self.cuts[cut].moves.as_ref();
+            let is_one = self.contours.of_cut(cut).is_none();
+            moves.is_some_and(|moves| !is_one || moves.is_doubtful != Some(false))
+        };
+        let doubtful = (0..self.cuts.len()).filter(|cut| is_doubtful(*cut));
+        let doubtful: Vec<Contour<'_>> = doubtful.filter_map(|cut| self.contour(cut)).collect();
+        for contour in &doubtful {
+            report.judge(contour, &doubtful);
+            report.crossings(contour);
         }
         if self.order().is_none() {
             report.passes_between_stops();
-        }
-        // With subprograms nothing is kept.
-        if self.order().is_some() {
-            for (cut, found) in self.contours.crossing() {
-                report
-                    .findings
-                    .extend(self.crosses_itself(cut, found, self.text()));
-            }
         }
         report.taper();
         report.definitions();
@@ -97,7 +91,7 @@ impl Document {
         report.block_numbers();
         report.calls();
         if let (false, Some(words)) = (is_ended, last_words)
-            && report.moves > 0
+            && report.steps > 0
             && report.is_whole()
         {
             let word = self.limits.end.clone();
@@ -124,40 +118,31 @@ impl Document {
         report
     }
 
-    /// Those of some stretches whose own cuts are sound: cuts that begin and end there have no
-    /// fault as a whole.
-    pub(super) fn clean(&self, stretches: Range<usize>) -> Vec<usize> {
+    /// Whether there may be a finding about the moves of each cut as a whole, of those of which that is not known.
+    pub(super) fn doubts(&self) -> Vec<Option<bool>> {
         let mut report = Report::new(self);
-        let crossing = self.contours.crossing();
-        let places = crossing.flat_map(|(cut, _)| &cut.parts);
-        let touched: FxHashSet<usize> = places.map(|(stretch, _)| *stretch).collect();
-        let mut is_clean = |index: &usize| {
-            let of = &self.stretches[*index];
-            let mut inner = of.inner();
-            let is_sound = |part: usize| {
-                let cut = JoinedCut::of(of, *index, part);
-                // A pass is compared with the next one, behind a stop.
-                cut.is_none_or(|cut| cut.sum.switched_on != 1 && report.is_sound(&cut))
-            };
-            !of.is_clean && (inner.is_empty() || !touched.contains(index) && inner.all(is_sound))
+        let mut doubt = |cut: usize| {
+            let moves = self.cuts[cut].moves.as_ref()?;
+            if moves.is_doubtful.is_some() || self.contours.of_cut(cut).is_some() {
+                return None;
+            }
+            let contour = self.contour(cut)?;
+            let leads_on = contour.verdict.ends.lead_on().is_some();
+            Some(
+                moves.found.is_some()
+                    || leads_on
+                    || report.may_belong_to_others(&contour)
+                    || report.says(&contour),
+            )
         };
-        stretches.filter(|index| is_clean(index)).collect()
-    }
-
-    /// A test for cuts with possible findings, and for those that may belong together with one of them.
-    pub(super) fn doubts(&self) -> impl FnMut(&JoinedCut) -> bool + '_ {
-        let mut report = Report::new(self);
-        move |cut| {
-            let is_beside = matches!(cut.sum.side, WireSide::One(_));
-            (is_beside && report.may_belong_to_others(cut)) || report.says(cut)
-        }
+        (0..self.cuts.len()).map(|cut| doubt(cut)).collect()
     }
 }
 
 /// The blocks that may explain the findings by one slip, unless they have a finding already.
 fn suspects(document: &Document, troubles: &mut Troubles<'_>) -> Vec<Finding> {
     let found = document.repairs_of(troubles);
-    let mut is_said = |line: usize| !troubles.within(&(line..line + 1)).is_empty();
+    let is_said = |line: usize| !troubles.within(&(line..line + 1)).is_empty();
     let first = |(_, repairs): &(Range<usize>, Vec<Repair>)| repairs.first().cloned();
     let repairs = found.of_cuts.iter().filter_map(first);
     let suspect = |repair: Repair| {
@@ -204,11 +189,7 @@ pub(super) struct Report<'a> {
     definitions: &'a Table,
     /// µm; an arc of at least this radius suits every correction.
     largest_correction: f64,
-    moves: u32,
-}
-
-fn at(offset: usize, range: (u32, u32)) -> Range<usize> {
-    offset + range.0 as usize..offset + range.1 as usize
+    steps: u32,
 }
 
 impl<'a> Report<'a> {
@@ -222,7 +203,7 @@ impl<'a> Report<'a> {
             foreign: FxHashMap::default(),
             definitions: &document.table,
             largest_correction: 0.0,
-            moves: 0,
+            steps: 0,
         };
         report.largest_correction = report.largest_correction();
         report
@@ -240,8 +221,9 @@ impl<'a> Report<'a> {
         self.findings.push(Finding::in_text(rule, range, detail));
     }
 
-    fn line_faults(&mut self, stretch: &Stretch, offset: usize) {
-        for found in &stretch.faults {
+    fn line_faults(&mut self, index: usize, cut: &Cut) {
+        let offset = self.document.cuts.byte(index);
+        for found in &cut.rare().faults {
             let Some(range) = found.place.in_text() else {
                 continue;
             };
@@ -257,13 +239,11 @@ impl<'a> Report<'a> {
     }
 
     /// Adds up the evidence for the program as a whole.
-    fn note(&mut self, stretch: &Stretch, offset: usize) {
-        self.moves = self.moves.saturating_add(stretch.moves);
-        for word in &stretch.foreign {
-            let known = self
-                .foreign
-                .entry(word.code)
-                .or_insert_with(|| (at(offset, word.range), 0));
+    fn note(&mut self, index: usize, cut: &Cut) {
+        self.steps = self.steps.saturating_add(cut.steps);
+        for word in &cut.rare().foreign {
+            let place = || (self.document.bytes_in(index, word.range), 0);
+            let known = self.foreign.entry(word.code).or_insert_with(place);
             known.1 += word.count as usize;
         }
     }
@@ -275,33 +255,28 @@ impl<'a> Report<'a> {
             .is_none_or(|order| order.left_out.is_none())
     }
 
-    /// Whether a cut is sound as a whole, and need not be compared with others.
-    fn is_sound(&mut self, cut: &JoinedCut) -> bool {
-        !self.may_belong_to_others(cut) && !self.says(cut)
-    }
-
     /// Whether a cut may be a part of a contour with others.
-    fn may_belong_to_others(&self, cut: &JoinedCut) -> bool {
+    fn may_belong_to_others(&self, contour: &Contour<'_>) -> bool {
         // Passes to and fro close by themselves, and may belong to the next or to the one before.
-        let only = self.document.only_lay(cut);
-        let may_be_tab = only.is_some_and(|lay| lay.closes && !lay.goes_round);
+        let closes = contour.verdict.closes();
+        let may_be_tab = contour.verdict.closing.closed && !contour.verdict.goes_round;
         // So may cuts that end open.
-        let is_open = cut.sum.whole && !self.document.is_closed(cut);
-        may_be_tab || is_open || self.may_lack_its_tab(&cut.sum)
+        let is_open = contour.sum.whole && !closes;
+        may_be_tab || is_open || self.may_lack_its_tab(contour)
     }
 
     /// Whether a cut by itself has a finding.
-    fn says(&mut self, cut: &JoinedCut) -> bool {
+    fn says(&mut self, contour: &Contour<'_>) -> bool {
         let known = self.findings.len();
-        self.judge(cut, None);
+        self.judge(contour, &[]);
         let says = self.findings.len() > known;
         self.findings.truncate(known);
         says
     }
 
     /// Whether a cut beside which the wire runs leads back to the thread hole from elsewhere than where it came.
-    fn may_lack_its_tab(&self, sum: &Part) -> bool {
-        let tolerance = self.document.tolerance(sum);
+    fn may_lack_its_tab(&self, contour: &Contour<'_>) -> bool {
+        let (sum, tolerance) = (&contour.sum, contour.tolerance());
         let meet = |one: Spot, other: Spot| meet(one, other, tolerance);
         let [[first, second], [before, last]] = [sum.first, sum.last];
         let mut closes = meet(first.to, last.from) || meet(first.to, last.to);
@@ -316,28 +291,50 @@ impl<'a> Report<'a> {
         matches!(sum.side, WireSide::One(_)) && !closes
     }
 
-    /// Checks a cut as a whole: does it close, does the wire run on the right side, is an arc too tight. `all` are
+    /// Where a contour crosses itself, and what an offset loses of it.
+    fn crossings(&mut self, contour: &Contour<'_>) {
+        let document = self.document;
+        let of_whole = document.contours.of_cut(contour.cuts.start);
+        let of_cut = document.cuts[contour.cuts.start].moves.as_ref();
+        let found = match of_whole {
+            Some(whole) => Some(whole.found()),
+            None => of_cut.and_then(|moves| moves.found.as_deref()),
+        };
+        let Some(found) = found.filter(|found| !found.is_clean()) else {
+            return;
+        };
+        let heard = contour.cuts.clone().flat_map(|cut| document.moves_of(cut));
+        let ranges: Vec<Range<usize>> = heard.map(|(_, range)| range).collect();
+        let way = document.way_of(&contour.cuts);
+        let all = 0..found.all().len();
+        let worded = all.filter_map(|index| found.worded(index, &way, &ranges, self.text));
+        self.findings.extend(worded);
+    }
+
+    /// Checks a contour as a whole: does it close, does the wire run on the right side, is an arc too tight. `all` are
     /// those with which it may belong together.
-    fn judge(&mut self, cut: &JoinedCut, all: Option<&ByChunk<JoinedCut>>) {
-        let sum = &*cut.sum;
+    fn judge(&mut self, cut: &Contour<'_>, all: &[Contour<'_>]) {
+        let sum = &cut.sum;
         self.spurs(cut);
         if sum.open && !self.is_whole() {
             // A cut that was not read completely tells nothing about the whole.
             return;
         }
-        let closes = self.document.is_closed(cut);
-        let is_fragment = self.document.is_fragment(cut);
-        if !closes && sum.whole && !sum.ends_open {
-            let finding = self.document.not_closed(cut, is_fragment);
-            self.findings.extend(finding);
+        let closes = cut.verdict.closes();
+        let is_fragment = cut.is_fragment();
+        if !closes && sum.whole && !cut.ends_open {
+            let finding = Finding::of(cut.verdict.ends.not_closed(), cut.last_line.clone());
+            self.findings.push(match is_fragment {
+                true => finding.with(Severity::Information),
+                false => finding,
+            });
         }
-        let is_last = self.document.behind(cut).0 >= self.document.stretches.len();
+        let (_, next) = self.document.stops_behind(cut.cuts.end - 1);
         if closes
-            && !is_last
-            && let Some(length) = self.document.leads_on(cut)
+            && next < self.document.cuts.len()
+            && let Some(length) = cut.verdict.ends.lead_on()
         {
-            let range = self.document.bytes_of(cut.last_line);
-            self.add(range, Fault::LeadsOn { length });
+            self.add(cut.last_line.clone(), Fault::LeadsOn { length });
         }
         self.off_too_early(cut);
         let has_passes = self.passes(cut);
@@ -358,7 +355,7 @@ impl<'a> Report<'a> {
                 SideSetting::Punch => inside,
                 _ => false,
             };
-            let range = || self.switch_range(self.document.bytes_of(cut.first_line).start);
+            let range = || self.switch_range(cut.first_line.start);
             let mut inside = is_inside(orientation);
             if is_wrong(inside) {
                 inside = self.area_with_tab(cut, all).map_or(inside, is_inside);
@@ -371,7 +368,7 @@ impl<'a> Report<'a> {
                         punch: !inside,
                     },
                 );
-            } else if self.side_of_entry(sum).is_some_and(|entry| entry != side) {
+            } else if self.side_of_entry(cut).is_some_and(|entry| entry != side) {
                 self.add(range(), Fault::EntrySide { side });
             }
         }
@@ -380,42 +377,44 @@ impl<'a> Report<'a> {
             let begins = [sum.first[0].from, sum.first[0].to];
             if !begins
                 .iter()
-                .any(|begin| meet(*begin, *place, self.document.tolerance(&cut.sum)))
+                .any(|begin| meet(*begin, *place, cut.tolerance()))
             {
-                self.side_change(self.document.bytes_of(*line));
+                self.side_change(line.clone());
             }
         }
         self.tight_arcs(cut, orientation);
     }
 
     /// A way out and in again between two passes is no spur: its tip is the start of the cut.
-    fn spurs(&mut self, cut: &JoinedCut) {
-        let (document, begin) = (self.document, cut.sum.start());
-        let tolerance = document.tolerance(&cut.sum);
-        for &(stretch, part) in &cut.parts {
-            let own = document.stretches.get(stretch);
-            let all = own.into_iter().flat_map(|own| own.spurs_of(part));
-            for spur in all.filter(|spur| !meet(begin, spur.tip, tolerance)) {
-                let Spur { length, range, .. } = spur;
-                let range = document.bytes_of((stretch, range));
-                self.add(range, Fault::Spur { length });
+    fn spurs(&mut self, contour: &Contour<'_>) {
+        let (document, begin) = (self.document, contour.sum.start());
+        let tolerance = contour.tolerance();
+        for cut in contour.cuts.clone() {
+            let at = document.cuts.state_before(cut).at;
+            let moves = document.cuts[cut].moves.as_ref();
+            let all = moves.into_iter().flat_map(|moves| &moves.spurs);
+            for Spur { tip, length, range } in all {
+                if !meet(begin, added(*tip, at), tolerance) {
+                    let range = document.bytes_in(cut, *range);
+                    self.add(range, Fault::Spur { length: *length });
+                }
             }
         }
     }
 
     /// Twice the area of the contour of which a cut is the tab, or all but the tab, where both are cut from and to the
     /// thread hole.
-    fn area_with_tab(&self, cut: &JoinedCut, all: Option<&ByChunk<JoinedCut>>) -> Option<i128> {
-        let begins = |sum: &Part| sum.first.map(|step| step.to);
-        let ends = |sum: &Part| sum.last.map(|step| step.from);
-        let tolerance = self.document.tolerance(&cut.sum);
+    fn area_with_tab(&self, cut: &Contour<'_>, all: &[Contour<'_>]) -> Option<i128> {
+        let begins = |sum: &Summary| sum.first.map(|step| step.to);
+        let ends = |sum: &Summary| sum.last.map(|step| step.from);
+        let tolerance = cut.tolerance();
         let meet = |one: Spot, other: Spot| meet(one, other, tolerance);
         let common = |some: [Spot; 2], others: [Spot; 2]| {
             let is_met = move |spot: &Spot| others.iter().any(|other| meet(*spot, *other));
             some.into_iter().filter(is_met)
         };
-        let own = &*cut.sum;
-        let area = |other: &Part| {
+        let own = &cut.sum;
+        let area = |other: &Summary| {
             let from = common(begins(own), ends(other));
             let mut tabs =
                 from.flat_map(|from| common(ends(own), begins(other)).map(move |to| (from, to)));
@@ -426,7 +425,7 @@ impl<'a> Report<'a> {
                 && tabs.any(|(from, to)| !meet(from, to));
             are_one.then_some(area)
         };
-        all?.iter().find_map(|other| area(&other.sum))
+        all.iter().find_map(|other| area(&other.sum))
     }
 
     /// A G41 that becomes G42 within a cut, at the word that does so.
@@ -447,12 +446,13 @@ impl<'a> Report<'a> {
 
     /// The side of the contour from which the way in comes, by the contour's directions at its start and end; `None`
     /// where they disagree, or the cut has no way in with the correction on.
-    fn side_of_entry(&self, sum: &Part) -> Option<Side> {
+    fn side_of_entry(&self, cut: &Contour<'_>) -> Option<Side> {
+        let (sum, arcs) = (&cut.sum, cut.verdict.ends.arcs);
         let lead = &sum.first[0];
         if lead.switches != Some(true) || lead.is_arc() {
             return None;
         }
-        let near = |spot: Spot| meet(spot, lead.to, tolerance(sum.arcs as usize));
+        let near = |spot: Spot| meet(spot, lead.to, tolerance(arcs));
         let last = sum.last.iter().rev().find(|step| near(step.to))?;
         let ahead = sum.first[1]
             .at_origin()

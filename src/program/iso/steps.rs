@@ -1,21 +1,17 @@
 //! A running ISO program: the moves of its lines, the state at a line, and the cut in progress there.
 
 use super::block::{Block, Stop, read_under};
-use super::control::lines_from;
 use super::corner::turned;
 use super::document::Document;
 use super::machine::Machine;
 use super::moves::{Move, Place, micrometres};
-use super::part::Part;
-use super::read::words_of;
-use super::stretch::{Placed, Stretch};
+use super::read::{Run, words_of};
 use super::variables::Variables;
 use crate::finding::{Rule, Severity};
 use crate::geometry::Point;
-use crate::program::chunks::ChunkReader;
 use crate::program::path::{Kind, Step, Trace, Writing};
 use crate::program::report::place_of;
-use crate::program::steps::{self, Program, Sum};
+use crate::program::steps::{self, Program};
 use crate::text::SourceText;
 use std::ops::Range;
 
@@ -60,13 +56,12 @@ impl Document {
         steps::trace(self)
     }
 
-    /// Hands out the lines of a stretch that run.
-    pub(super) fn run_lines(&self, stretch: usize, each: &mut dyn FnMut(&Ran<'_>)) {
-        let Some(placed) = self.placed_at(stretch) else {
-            return;
-        };
-        let mut machine = placed.stretch.before;
-        for line in placed.lines {
+    /// Hands out the lines of a cut that run.
+    pub(super) fn run_lines(&self, cut: usize, each: &mut dyn FnMut(&Ran<'_>)) {
+        let mut machine = self.cuts.state_before(cut).machine();
+        let sequence = self.sequence();
+        for nth in self.cuts.lines(cut) {
+            let line = sequence.line(nth);
             if machine.ended {
                 return;
             }
@@ -79,7 +74,7 @@ impl Document {
             }
             let (made, corner) = match machine.run(&block, self.reading()) {
                 Some(made) => {
-                    let (made, corner) = self.turned(line, made, &mut machine);
+                    let (made, corner) = self.turned(nth, made, &mut machine);
                     (Some(made), corner)
                 }
                 None => (None, None),
@@ -98,8 +93,8 @@ impl Document {
 
     /// Hands out the moves in the order in which they run, each with its line and the state after it.
     pub(crate) fn moves(&self, each: &mut dyn FnMut(usize, Move, &Machine)) {
-        for stretch in 0..self.stretches.len() {
-            self.run_lines(stretch, &mut |ran| {
+        for cut in 0..self.cuts.len() {
+            self.run_lines(cut, &mut |ran| {
                 for made in ran.moves() {
                     each(ran.line, made, ran.machine);
                 }
@@ -107,55 +102,31 @@ impl Document {
         }
     }
 
-    /// A move up to where the corner at its end begins, and that corner.
-    pub(crate) fn turned(
-        &self,
-        line: usize,
-        made: Move,
-        machine: &mut Machine,
-    ) -> (Move, Option<Move>) {
+    /// A move up to where the corner at its end begins, and that corner: the line that makes it is one of those that run.
+    fn turned(&self, nth: usize, made: Move, machine: &mut Machine) -> (Move, Option<Move>) {
         if made.corner.is_none() {
             return (made, None);
         }
-        let turned = turned(
-            made,
-            machine,
-            lines_from(self.text(), self.leader(), line + 1).map(|(_, line)| line),
-            self.reading(),
-        );
+        let behind = self.sequence().from(nth + 1, 0).map(|(_, line)| line);
+        let turned = turned(made, machine, behind, self.reading());
         (turned.made, turned.corner)
     }
 
     /// True where the control makes corners of its own.
     pub(crate) fn has_corners(&self) -> bool {
-        self.stretches.iter().any(|stretch| stretch.has_corners)
+        self.cuts.iter().any(|cut| cut.has_corners)
     }
 
     // The state at a line.
 
-    /// Runs the lines before `line`, and itself where `behind` is set, in the stretch in which it first runs; `None`
-    /// for a line that does not run.
-    fn run_up_to(&self, line: usize, behind: bool) -> Option<(usize, Stretch)> {
-        let (index, placed) = self
-            .placed()
-            .enumerate()
-            .find(|(_, placed)| placed.lines.contains(&line))?;
-        let lines = placed.lines.start..line + usize::from(behind);
-        let (begun, _) = self
-            .control()
-            .run(self.text(), lines, placed.stretch.before);
-        Some((index, self.control().finish(self.text(), begun, &[])))
-    }
-
     /// The state before a line, with the wire's position; `None` for a line that does not run.
     pub(crate) fn machine_before(&self, line: usize) -> Option<Machine> {
-        self.run_up_to(line, false)
-            .map(|(_, stretch)| stretch.after)
+        self.run_up_to(line, false).map(|(_, run)| run.after)
     }
 
     /// The state after a line.
     pub(crate) fn machine_behind(&self, line: usize) -> Option<Machine> {
-        self.run_up_to(line, true).map(|(_, stretch)| stretch.after)
+        self.run_up_to(line, true).map(|(_, run)| run.after)
     }
 
     /// The cut in progress before a line.
@@ -168,37 +139,17 @@ impl Document {
         self.begun(self.run_up_to(line, true)?)
     }
 
-    fn begun(&self, (index, own): (usize, Stretch)) -> Option<BegunCut> {
-        // Only the last stretch with the start of a cut matters, and those after.
-        let before = &self.stretches[..index];
-        let from = before.iter().rposition(Stretch::bounds_cuts).unwrap_or(0);
-        let mut begun: Option<BegunCut> = None;
-        for stretch in before[from..].iter().chain([&own]) {
-            if stretch.ends_cut_before.is_some() {
-                begun = None;
-            }
-            for part in stretch.parts() {
-                begun = begun_by(begun.filter(|_| part.continues), &part);
-            }
-        }
-        begun
+    fn begun(&self, (cut, run): (usize, Run)) -> Option<BegunCut> {
+        let at = self.cuts.state_before(cut).at;
+        let sum = run.finished().0.sum()?.shifted(at);
+        let [first, _] = sum.first;
+        sum.open.then_some(BegunCut {
+            from: first.from,
+            to: first.to,
+            last: sum.last[1],
+            moves: sum.moves,
+        })
     }
-}
-
-/// The cut in progress after a part, which goes on with the one before.
-fn begun_by(before: Option<BegunCut>, part: &Part) -> Option<BegunCut> {
-    let last = part.last[1];
-    let first = before.unwrap_or(BegunCut {
-        from: part.first[0].from,
-        to: part.first[0].to,
-        last,
-        moves: 0,
-    });
-    part.open.then_some(BegunCut {
-        last,
-        moves: first.moves + part.moves,
-        ..first
-    })
 }
 
 impl Program for Document {
@@ -212,8 +163,7 @@ impl Program for Document {
 
     fn begin(&self) -> (Point, bool) {
         let mut begin = None;
-        let has_steps = |stretch: &Stretch| stretch.sum.moves + stretch.sum.stops > 0;
-        if let Some(first) = self.stretches.iter().position(has_steps) {
+        if let Some(first) = (0..self.cuts.len()).find(|cut| self.has_steps(*cut)) {
             self.run_lines(first, &mut |ran| {
                 if ran.step_count() > 0 && begin.is_none() {
                     let from = ran.moves().next().map_or(ran.machine.at, |made| made.from);
@@ -225,38 +175,54 @@ impl Program for Document {
     }
 
     fn unread_line(&self) -> Option<usize> {
-        let of_stretch = |placed: Placed<'_>| {
-            let mut faults = placed.stretch.faults.iter();
-            let fault = faults.find(|fault| {
+        self.cuts.iter().enumerate().find_map(|(index, cut)| {
+            let fault = cut.rare().faults.iter().find(|fault| {
                 fault.severity == Severity::Error
                     && matches!(fault.rule, Rule::Syntax | Rule::TooManyDigits)
             })?;
             let (start, _) = place_of(fault);
-            Some(self.text().line_of(placed.offset + start))
+            Some(self.text().line_of(self.cuts.byte(index) + start))
+        })
+    }
+
+    fn cut_count(&self) -> usize {
+        self.cuts.len()
+    }
+
+    fn cuts_at(&self, line: usize) -> Vec<usize> {
+        let mut cuts: Vec<usize> = match self.order() {
+            None => vec![self.cuts.first_at(line)],
+            Some(order) => order
+                .of_line(line)
+                .map(|nth| self.cuts.first_at(nth))
+                .collect(),
         };
-        self.placed().find_map(of_stretch)
+        cuts.retain(|cut| *cut < self.cuts.len());
+        cuts.dedup();
+        cuts
     }
 
-    fn chunk_count(&self) -> usize {
-        self.stretches.len()
+    fn first_behind(&self, line: usize) -> usize {
+        self.order().map_or_else(|| self.cuts.first_at(line), |_| 0)
     }
 
-    fn lines_of(&self, stretch: usize) -> Range<usize> {
-        self.placed_at(stretch).map_or(0..0, |placed| placed.lines)
+    fn first_line(&self, cut: usize) -> usize {
+        self.sequence().line(self.cuts.lines(cut).start)
     }
 
-    fn sum_of(&self, stretch: usize) -> Sum {
-        self.stretches
-            .get(stretch)
-            .map_or_else(Sum::default, |own| Sum {
-                contours: (own.pauses as usize).saturating_sub(self.contours.tabs_in(stretch)),
-                ..own.sum
-            })
+    fn contours_in(&self, cut: usize) -> usize {
+        let own = &self.cuts[cut];
+        let is_pause = matches!(own.stop, Some((Stop::Pause, _)));
+        own.pauses_before as usize + usize::from(is_pause && !self.contours.goes_on(cut))
     }
 
-    fn walk(&self, stretch: usize, contour: &mut usize, each: &mut dyn FnMut(Step)) {
-        let offset = self.placed_at(stretch).map_or(0, |placed| placed.offset);
-        self.run_lines(stretch, &mut |ran| {
+    fn has_steps(&self, cut: usize) -> bool {
+        let own = &self.cuts[cut];
+        own.steps > 0 || own.pauses_before > 0 || own.stop.is_some()
+    }
+
+    fn walk(&self, cut: usize, contour: &mut usize, each: &mut dyn FnMut(Step)) {
+        self.run_lines(cut, &mut |ran| {
             let mut said = |step| {
                 each(Step {
                     range: ran.words.clone(),
@@ -276,8 +242,11 @@ impl Program for Document {
                 Stop::Pause => Kind::Pause,
             };
             said(Step::stop(kind, micrometres(ran.machine.at)));
-            let is_tab = self.is_tab((stretch, ran.words.start.saturating_sub(offset)));
-            *contour += usize::from(stop == Stop::Pause && !is_tab);
+            let is_last = self.cuts[cut]
+                .stop
+                .is_some_and(|(_, byte)| self.cuts.byte(cut) + byte as usize == ran.words.start);
+            let goes_on = is_last && self.contours.goes_on(cut);
+            *contour += usize::from(stop == Stop::Pause && !goes_on);
         });
     }
 }

@@ -1,9 +1,10 @@
 //! The control's table of corrections, as far as a program gives it.
 
 use super::block::Offset;
-use super::document::{Document, Table};
+use super::cut::Definition;
+use super::document::Document;
+use super::limits::Table;
 use super::moves::{FARTHEST, Reading};
-use super::stretch::Definition;
 use super::word::Value;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -21,8 +22,7 @@ impl Document {
     /// The values that the program puts into the table.
     pub(super) fn stated_table(&self) -> Table {
         let mut table = Table::default();
-        let stretches = self.stretches.iter();
-        for definition in stretches.flat_map(|stretch| &stretch.definitions) {
+        for definition in self.cuts.iter().flat_map(|cut| &cut.rare().definitions) {
             match value(&table, definition, self.reading()) {
                 Ok(value) => _ = table.insert(definition.offset, value),
                 Err(_) => _ = table.remove(&definition.offset),
@@ -70,9 +70,9 @@ impl Document {
     /// `D` or `H`, as the program names places of the control's table.
     pub(crate) fn table_letter(&self) -> u8 {
         let defined = self
-            .stretches
+            .cuts
             .iter()
-            .flat_map(|stretch| &stretch.definitions)
+            .flat_map(|cut| &cut.rare().definitions)
             .map(|definition| definition.offset)
             .next();
         defined

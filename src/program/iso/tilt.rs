@@ -119,14 +119,14 @@ impl Document {
     /// The way of the wire's upper end; `None` where no word tilts the wire. The height of the workpiece replaces
     /// planes that the program does not give.
     pub(crate) fn taper(&self) -> Option<Taper> {
-        let mut foreign = self.stretches.iter().flat_map(|own| &own.foreign);
+        let mut foreign = self.cuts.iter().flat_map(|cut| &cut.rare().foreign);
         if !foreign.any(|word| word.code.tilts()) {
             return None;
         }
         let mut reader = Reader::new(self.reading(), self.limits.thickness);
         let mut moves: Vec<Leaning> = Vec::new();
-        for stretch in 0..self.stretches.len() {
-            self.run_lines(stretch, &mut |ran| {
+        for cut in 0..self.cuts.len() {
+            self.run_lines(cut, &mut |ran| {
                 let line = self.line_bytes(ran.line);
                 reader.read(ran.line, line, ran.machine);
                 for made in ran.moves() {

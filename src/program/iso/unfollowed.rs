@@ -31,8 +31,8 @@ pub(super) fn unfollowed(document: &Document) -> Vec<UnfollowedWord> {
     let (mut seen, mut zeros_seen) = (FxHashSet::default(), FxHashSet::default());
     let mut zeros = Zeros::default();
     let mut has_begun = false;
-    for stretch in 0..document.stretches.len() {
-        document.run_lines(stretch, &mut |ran| {
+    for cut in 0..document.cuts.len() {
+        document.run_lines(cut, &mut |ran| {
             let line = ran.line;
             let is_new = seen.insert(line);
             let moves = ran.moves().next().is_some();

@@ -103,21 +103,21 @@ pub(in crate::program) fn check(blocks: &[Numbered]) -> Vec<(usize, Fault, Optio
     sequence.found()
 }
 
-/// The sequence of a program's numbers, and its faults; `P` is a block's place.
-pub(in crate::program) struct Sequence<P> {
+/// The sequence of a program's numbers, and its faults.
+struct Sequence {
     step: u32,
     first: u32,
     before: Option<u32>,
     blocks: usize,
     numbered: usize,
     without: usize,
-    found: Vec<(P, Fault, Option<u32>)>,
+    found: Vec<(usize, Fault, Option<u32>)>,
 }
 
-impl<P> Sequence<P> {
+impl Sequence {
     /// `blocks` are up to [`FIRST`] of the first ones, `first` the first number of all; `None` where these give no
     /// step.
-    pub(crate) fn of(blocks: &[Numbered], first: Option<u32>) -> Option<Sequence<P>> {
+    fn of(blocks: &[Numbered], first: Option<u32>) -> Option<Sequence> {
         let numbers: Vec<Option<u32>> = blocks.iter().map(|block| block.number).collect();
         let step = usual_step(&numbers)?;
         Some(Sequence {
@@ -132,7 +132,7 @@ impl<P> Sequence<P> {
     }
 
     /// Takes the next block; `next` is the one after it.
-    pub(crate) fn push(&mut self, block: &Numbered, next: Option<&Numbered>, place: P) {
+    fn push(&mut self, block: &Numbered, next: Option<&Numbered>, place: usize) {
         let Sequence {
             step,
             first,
@@ -180,22 +180,7 @@ impl<P> Sequence<P> {
         }
     }
 
-    /// Takes `count` blocks at once that are numbered from `first` to `last` by `step`, if they are in their turn;
-    /// false otherwise.
-    pub(crate) fn skip(&mut self, first: u32, last: u32, step: u32, count: usize) -> bool {
-        let expected = self
-            .before
-            .map_or(self.first, |before| before.saturating_add(self.step));
-        let is_next = first == expected && (step == self.step || count == 1);
-        if is_next {
-            self.before = Some(last);
-            self.blocks += count;
-            self.numbered += count;
-        }
-        is_next
-    }
-
-    pub(crate) fn found(mut self) -> Vec<(P, Fault, Option<u32>)> {
+    fn found(mut self) -> Vec<(usize, Fault, Option<u32>)> {
         let out_of_turn = self
             .found
             .iter()

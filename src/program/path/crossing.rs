@@ -24,7 +24,7 @@ const MOST: usize = 50;
 
 /// The most pairs of pieces of one contour that are compared: where much lies on one place all of them are near each
 /// other.
-pub(in crate::program) const MOST_PAIRS: usize = 1_000;
+const MOST_PAIRS: usize = 1_000;
 
 /// The most pieces of one contour that are read to follow the way from its meeting places: where it coincides with
 /// itself for long, its branches never part.
@@ -48,7 +48,7 @@ const DOUBLINGS: usize = 10;
 
 /// The largest deviation of a way with this many arcs, µm: each arc adds up to 1 µm to either side, by chance. Counts
 /// that are nearly equal give the same, so that a block more or less does not matter.
-pub(in crate::program) fn margin(arcs: usize) -> f64 {
+pub(super) fn margin(arcs: usize) -> f64 {
     tolerance(arcs.next_power_of_two())
 }
 
@@ -61,9 +61,8 @@ pub(super) fn step_across(before: &Segment, step: &Segment) -> Option<f64> {
 }
 
 /// A way by its pieces, each of which begins where the one before ends.
-pub(in crate::program) struct Tangle<'a> {
-    pub(crate) piece: &'a dyn Fn(usize) -> Option<Segment>,
-    pub(crate) count: usize,
+pub(super) struct Tangle<'a> {
+    pub(crate) pieces: &'a [Segment],
     pub(crate) margin: f64,
     /// The piece after the last one, where that is of another pass.
     pub(crate) next: Option<Segment>,
@@ -84,8 +83,7 @@ pub(in crate::program) fn crossings(
     let way = Tangle {
         aside: 0.0,
         next: None,
-        piece: &|index| pieces.get(index).copied(),
-        count: pieces.len(),
+        pieces,
         margin: margin(arcs),
         steps: Cell::new(read_already),
     };
@@ -96,30 +94,26 @@ pub(in crate::program) fn crossings(
 
 /// The most boxes that are compared with each other among this many pieces. A way that does not coincide with itself
 /// takes a few for each.
-pub(super) fn most_looks(pieces: usize) -> usize {
+fn most_looks(pieces: usize) -> usize {
     500_000 + 32 * pieces
 }
 
 /// Pairs of pieces that come near each other, without neighbours, in the order of the later one: up
 /// to `most`, completed by those of one more piece; and whether these are all.
-pub(super) fn near_each_other(
-    pieces: impl Iterator<Item = Segment>,
-    most: usize,
-) -> (Vec<(usize, usize)>, bool) {
+fn near_each_other(pieces: &[Segment], most: usize) -> (Vec<(usize, usize)>, bool) {
     let (mut near, mut looks) = (Vec::new(), 0);
     let (mut boxes, mut before) = (Boxes::default(), Vec::new());
-    for (second, piece) in pieces.enumerate() {
+    for (second, piece) in pieces.iter().enumerate() {
         let own = piece.bounds();
         let mut look = |first: usize| {
-            let (other, bounds): &(Segment, Bounds) = &before[first];
-            if come_near(other, bounds, &piece, &own) {
+            if come_near(&pieces[first], &before[first], piece, &own) {
                 near.push((first, second));
             }
         };
         let end = second.saturating_sub(1);
         looks += boxes.touching(&own.grown(NEARLY_ON), end, &mut look);
         boxes.push(own);
-        before.push((piece, own));
+        before.push(own);
         if near.len() > most || looks > most_looks(second) {
             return (near, false);
         }
@@ -128,12 +122,7 @@ pub(super) fn near_each_other(
 }
 
 /// True where two pieces have a place in common, or nearly.
-pub(in crate::program) fn come_near(
-    a: &Segment,
-    box_of_a: &Bounds,
-    b: &Segment,
-    box_of_b: &Bounds,
-) -> bool {
+fn come_near(a: &Segment, box_of_a: &Bounds, b: &Segment, box_of_b: &Bounds) -> bool {
     let on = |piece: &Segment, other: &Segment| {
         [other.start(), other.end()]
             .iter()
@@ -146,7 +135,7 @@ pub(in crate::program) fn come_near(
 impl Tangle<'_> {
     fn at(&self, index: usize) -> Option<Segment> {
         self.steps.set(self.steps.get() + 1);
-        (self.piece)(index)
+        self.pieces.get(index).copied()
     }
 
     fn is_exhausted(&self) -> bool {
@@ -156,14 +145,13 @@ impl Tangle<'_> {
     /// The crossings of the way, and whether all of it was looked at. No more of it is read than is
     /// needed.
     pub(crate) fn all_crossings(&self) -> (Vec<Crossing>, bool) {
-        let pieces = (0..self.count).map_while(|index| (self.piece)(index));
-        let (near, is_all) = near_each_other(pieces, MOST_PAIRS);
+        let (near, is_all) = near_each_other(self.pieces, MOST_PAIRS);
         let (found, are_followed) = self.crossings(near);
         (found, is_all && are_followed)
     }
 
     /// The crossings among pairs of pieces that come near each other, in the order of the way; and whether all pairs were looked at.
-    pub(crate) fn crossings(&self, mut near: Vec<(usize, usize)>) -> (Vec<Crossing>, bool) {
+    fn crossings(&self, mut near: Vec<(usize, usize)>) -> (Vec<Crossing>, bool) {
         near.sort_unstable_by_key(|&(first, second)| (second, first));
         near.dedup();
         let is_all = near.len() <= MOST_PAIRS;
@@ -313,7 +301,7 @@ impl Tangle<'_> {
             }
             left -= rest;
             let next = if is_forward {
-                index.checked_add(1).filter(|next| *next < self.count)
+                index.checked_add(1)
             } else {
                 index.checked_sub(1)
             };

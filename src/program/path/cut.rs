@@ -2,7 +2,8 @@
 //! to the contour.
 
 use super::contour::closing;
-use super::trace::{CutSteps, Kind, Step, Trace};
+use super::trace::{Kind, Step, Trace};
+use super::way::Way;
 use std::ops::Range;
 
 /// A contour with its ways in and out, or the way between two contours.
@@ -62,62 +63,30 @@ pub(crate) fn cuts(trace: &Trace) -> Vec<Cut> {
 /// The division of some steps of a trace, all of which move except the pauses before tabs.
 pub(crate) fn cut_in(trace: &Trace, steps: Range<usize>) -> Cut {
     let own = trace.steps.get(steps.clone()).unwrap_or_default();
-    let places: Vec<usize> = own
-        .iter()
-        .enumerate()
-        .filter(|(_, step)| step.moves())
-        .map(|(index, _)| index)
-        .collect();
-    let held = if places.len() == own.len() {
-        CutSteps::of(own, trace.writing)
-    } else {
-        let stop = own.iter().position(|step| !step.moves());
-        CutSteps::of(
-            own.iter()
-                .filter(|step| step.moves())
-                .cloned()
-                .collect::<Vec<_>>(),
-            trace.writing,
-        )
-        .stopping(stop)
-    };
-    // With all its steps it lacks none.
-    let cut = cut_of(&held).unwrap_or_default();
-    // Pauses count as steps here.
-    let place = |nth: usize| places.get(nth).copied().unwrap_or(own.len());
-    let contour = cut.contour_steps();
-    let end = contour.end.checked_sub(1).map_or(0, |last| place(last) + 1);
-    Cut {
+    let first = own.iter().find(|step| step.moves());
+    let cut = Cut {
+        contour: first.map_or(0, |step| step.contour),
+        is_way: first.is_some_and(|step| step.kind == Kind::Rapid),
         steps,
-        lead_in: place(contour.start),
-        lead_out: own.len() - end.max(place(contour.start)),
+        ..Cut::default()
+    };
+    if cut.is_way {
+        return cut;
+    }
+    let moves = own.iter().filter(|step| step.moves());
+    let stop = own.iter().position(|step| !step.moves());
+    let closing = closing(&Way::of_steps(moves, trace.writing).stopping(stop));
+    // Pauses count as steps here.
+    let places = own.iter().enumerate().filter(|(_, step)| step.moves());
+    let places: Vec<usize> = places.map(|(place, _)| place).collect();
+    let place = |nth: usize| places.get(nth).copied().unwrap_or(own.len());
+    let end = places.len() - closing.lead_out;
+    let behind = end.checked_sub(1).map_or(0, |last| place(last) + 1);
+    let lead_in = place(closing.lead_in);
+    Cut {
+        lead_in,
+        lead_out: own.len() - behind.max(lead_in),
+        closed: closing.closed,
         ..cut
     }
-}
-
-/// The division of a cut, its steps counted from 0; `None` where it depends on steps that are not held.
-pub(crate) fn cut_of(held: &CutSteps<'_>) -> Option<Cut> {
-    let first = held.step(0);
-    let contour = first.map_or(0, |step| step.contour);
-    let all = Cut {
-        contour,
-        steps: 0..held.count(),
-        lead_in: 0,
-        lead_out: 0,
-        closed: false,
-        is_way: false,
-    };
-    if first.is_some_and(|step| step.kind == Kind::Rapid) {
-        return Some(Cut {
-            is_way: true,
-            ..all
-        });
-    }
-    let closing = closing(held)?;
-    Some(Cut {
-        lead_in: closing.lead_in,
-        lead_out: closing.lead_out,
-        closed: closing.closed,
-        ..all
-    })
 }

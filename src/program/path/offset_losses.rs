@@ -5,10 +5,9 @@
 //! first is looked at. Most contours are nowhere nearly as narrow as the wire needs: these are recognised before that.
 
 use super::contour::closing;
-use super::lay::mixed;
 use super::polyline::{is_halved, polyline};
 use super::tight::{ROUNDING, UM_IN_MM};
-use super::way::{HeldWay, Node, Way};
+use super::way::{Node, Way};
 use crate::analysis::Analysis;
 use crate::drawing::{Drawing, Entity, Unit};
 use crate::finding::{Detail, Finding, Place, Rule, Severity, Side};
@@ -32,11 +31,6 @@ pub(in crate::program) struct ControlOffset {
 }
 
 impl ControlOffset {
-    /// The mark of a way with this offset.
-    pub(super) fn mixed_into(self, mark: u64) -> u64 {
-        mixed(mixed(mark, self.side as u64), self.correction.to_bits())
-    }
-
     /// The correction of the check: programs are rounded to µm.
     fn checked(self) -> f64 {
         self.correction - ROUNDING
@@ -56,15 +50,12 @@ pub(in crate::program) struct Loss {
 }
 
 /// The losses of the first pass of a way, of `count` blocks; `None` where these are too many.
-pub(super) fn losses(way: &dyn Way, count: usize, offset: ControlOffset) -> Option<Vec<Loss>> {
+pub(super) fn losses(way: &Way, count: usize, offset: ControlOffset) -> Option<Vec<Loss>> {
     let is_nothing = offset.checked() <= 0.0;
     if is_nothing || count < 2 {
         return Some(Vec::new());
     }
-    if count > MOST_BLOCKS {
-        return None;
-    }
-    Some(contour_of(way, count).map_or_else(Vec::new, |contour| contour.losses(offset)))
+    (count <= MOST_BLOCKS).then(|| Contour::of(way, count).losses(offset))
 }
 
 /// A closed contour: its blocks that have a length, with their numbers in the way.
@@ -73,31 +64,22 @@ struct Contour {
     blocks: Vec<usize>,
 }
 
-/// The contour in the first blocks of a way.
-fn contour_of(way: &dyn Way, count: usize) -> Option<Contour> {
-    let pieces: Option<Vec<Segment>> = (0..count).map(|index| way.piece(index)).collect();
-    let pieces = pieces?;
-    let closing = match count == way.count() {
-        true => closing(way)?,
-        false => {
-            let begin = Node::at(pieces.first()?.start());
-            let mut pass = HeldWay::from(begin, way.totals().writing);
-            for piece in &pieces {
-                pass.push(*piece, piece.as_arc().is_some(), Node::at(piece.end()));
-            }
-            closing(&pass)?
-        }
-    };
-    let own = closing.lead_in..count.checked_sub(closing.lead_out)?;
-    let (blocks, pieces) = own
-        .clone()
-        .zip(pieces.get(own)?.iter().copied())
-        .filter(|(_, piece)| closing.closed && piece.length() > 0.0)
-        .unzip();
-    Some(Contour { pieces, blocks })
-}
-
 impl Contour {
+    /// The contour in the first blocks of a way.
+    fn of(way: &Way, count: usize) -> Contour {
+        let mut pass = Way::from(Node::at(way.node(0).ideal), way.writing());
+        for piece in &way.pieces()[..count] {
+            pass.push(*piece, piece.as_arc().is_some(), Node::at(piece.end()));
+        }
+        let closing = closing(if count == way.count() { way } else { &pass });
+        let own = closing.lead_in..count - closing.lead_out;
+        let (blocks, pieces) = own
+            .map(|block| (block, way.pieces()[block]))
+            .filter(|(_, piece)| closing.closed && piece.length() > 0.0)
+            .unzip();
+        Contour { pieces, blocks }
+    }
+
     /// Twice the area, µm², above 0 where it runs counter-clockwise.
     fn twice_area(&self) -> f64 {
         let origin = self.pieces.first().map_or(Point::origin(), Segment::start);

@@ -1,9 +1,8 @@
 //! Passes: one contour that is cut several times in one go, each time on the same way or a little beside it.
 
-use super::crossing::{BESIDE, Tangle, margin};
-use super::way::{HeldWay, Way};
+use super::crossing::BESIDE;
+use super::way::Way;
 use crate::geometry::{Bounds, Point, Segment};
-use std::cell::Cell;
 use std::ops::Range;
 
 /// The most blocks before the first pass, or from one to the next.
@@ -13,47 +12,24 @@ const BETWEEN: usize = 6;
 pub(super) const MOST_PASSES: usize = 64;
 
 /// The passes of a way, the ways in and out with the first and the last of them; empty for a way with a single round.
-#[derive(Default)]
-pub(crate) struct Passes {
-    pub(crate) all: Vec<Range<usize>>,
-    /// This many of the first and of the last were known.
-    pub(crate) known: [usize; 2],
+pub(crate) fn passes(way: &Way) -> Vec<Range<usize>> {
+    let found = may_have_passes(way).then(|| found(way));
+    found.filter(|passes| passes.len() > 1).unwrap_or_default()
 }
 
-/// The known passes of a similar way.
-pub(crate) struct Before<'a> {
-    pub(crate) passes: &'a [Range<usize>],
-    /// Of the whole way.
-    pub(crate) blocks: usize,
-    /// How many of its first and of its last blocks equal those of this one.
-    pub(crate) same: [usize; 2],
-}
-
-pub(crate) fn passes(way: &dyn Way, before: Option<Before<'_>>) -> Passes {
-    may_have_passes(way)
-        .map(|()| found(way, before))
-        .filter(|passes| passes.all.len() > 1)
-        .unwrap_or_default()
-}
-
-/// `None` where the way does not return to one of its first nodes long before it ends. Costs the blocks near these.
-fn may_have_passes(way: &dyn Way) -> Option<()> {
+/// False where the way does not return to one of its first nodes long before it ends.
+fn may_have_passes(way: &Way) -> bool {
     let (count, tolerance) = (way.count(), way.tolerance());
-    (0..=BETWEEN.min(count)).find_map(|index| {
-        let node = way.node(index)?.meant;
-        let mut comes_back = false;
-        way.pieces_about(node, tolerance, &mut |other, piece| {
-            let is_back =
-                other > index && other + 2 <= count && (piece.start() - node).norm() <= tolerance;
-            comes_back |= is_back && other > index + 1 && count - other >= 2;
-            comes_back
-        })?;
-        comes_back.then_some(())
+    let last = count.saturating_sub(2);
+    (0..=BETWEEN.min(count)).any(|index| {
+        let node = way.node(index).ideal;
+        let behind = way.pieces().get(index + 2..=last).unwrap_or_default();
+        let is_back = |piece: &Segment| (piece.start() - node).norm() <= tolerance;
+        behind.iter().any(is_back)
     })
 }
 
-fn found(way: &dyn Way, before: Option<Before<'_>>) -> Passes {
-    let mut known = [0, 0];
+fn found(way: &Way) -> Vec<Range<usize>> {
     let tolerance = way.tolerance();
     let mut passes: Vec<Range<usize>> = Vec::new();
     let mut first_box: Option<Bounds> = None;
@@ -63,91 +39,15 @@ fn found(way: &dyn Way, before: Option<Before<'_>>) -> Passes {
             break;
         };
         first_box.get_or_insert(bounds);
-        from = end;
         // The way between two passes belongs to the next.
         passes.push(passes.last().map_or(0, |before| before.end)..end);
-        let Some(before) = &before else { continue };
-        if passes.len() == 1 {
-            known[0] = before.at_the_begin(&passes);
-            passes.extend_from_slice(before.passes.get(1..known[0]).unwrap_or_default());
-            from = passes.last().map_or(0, |last| last.end);
-        }
-        // The other passes depend on the first, and on the rest of the way.
-        if known[0] > 0
-            && let Some(rest) = before.from(from, way.count(), passes.len())
-        {
-            let own = passes.len();
-            passes.extend(rest);
-            known[1] = passes.len() - own;
-            break;
-        }
+        from = end;
     }
     let is_all = passes.len() < MOST_PASSES;
     if let Some(last) = passes.last_mut().filter(|_| is_all) {
         last.end = way.count();
     }
-    Passes { all: passes, known }
-}
-
-impl Before<'_> {
-    /// How many of its passes lie in the common beginning of both ways, if its first is that of this one. The end of
-    /// the last round is unknown.
-    fn at_the_begin(&self, first: &[Range<usize>]) -> usize {
-        let whole = self.passes.split_last().map_or(&[][..], |(_, whole)| whole);
-        match whole.first() == first.first() {
-            true => whole.partition_point(|pass| pass.end <= self.same[0]),
-            false => 0,
-        }
-    }
-
-    /// Its passes from a block of this way on, after `known` ones, if one begins there, both ways go on alike, and as
-    /// many of them are looked at.
-    fn from(
-        &self,
-        from: usize,
-        count: usize,
-        known: usize,
-    ) -> Option<impl Iterator<Item = Range<usize>>> {
-        let behind = count
-            .checked_sub(from)
-            .filter(|behind| *behind <= self.same[1])?;
-        let its_from = self.blocks.checked_sub(behind)?;
-        let at = self
-            .passes
-            .binary_search_by_key(&its_from, |pass| pass.start);
-        let at = at.ok()?;
-        let rest = self.passes.get(at..)?;
-        let is_all = self.passes.len() < MOST_PASSES && known + rest.len() < MOST_PASSES;
-        let moved = move |at: usize| at - its_from + from;
-        let rest = rest.iter();
-        (is_all || at == known).then(|| rest.map(move |pass| moved(pass.start)..moved(pass.end)))
-    }
-}
-
-/// Whether a way that is a whole cut crosses itself, or too much lies on one place to tell.
-pub(super) fn crosses_itself(way: &HeldWay) -> bool {
-    let (pieces, passes) = (way.pieces(), passes(way, None).all);
-    let is_arc = |piece: &&Segment| piece.as_arc().is_some();
-    let crosses = |own: &[Segment], arcs: usize| {
-        let (found, is_all) = Tangle {
-            piece: &|index| own.get(index).copied(),
-            count: own.len(),
-            margin: margin(arcs),
-            aside: 0.0,
-            next: None,
-            steps: Cell::new(0),
-        }
-        .all_crossings();
-        !found.is_empty() || !is_all
-    };
-    if passes.is_empty() {
-        return crosses(pieces, way.totals().arcs);
-    }
-    passes.len() == MOST_PASSES
-        || passes.iter().any(|pass| {
-            let own = pieces.get(pass.clone()).unwrap_or_default();
-            crosses(own, own.iter().filter(is_arc).count())
-        })
+    passes
 }
 
 /// True where two closed ways may be passes of one contour by their boxes, µm.
@@ -167,15 +67,14 @@ struct Begun {
 /// start first, and its box, which is that of the first pass: the way in and out may return to
 /// their own start, after all passes.
 fn round_from(
-    way: &dyn Way,
+    way: &Way,
     from: usize,
     tolerance: f64,
     first_box: Option<&Bounds>,
 ) -> Option<(usize, Bounds)> {
     let around = first_box.map(|first| first.grown(BESIDE + 1.0));
     let mut begun: Vec<Begun> = Vec::with_capacity(BETWEEN + 1);
-    for index in from.. {
-        let piece = way.piece(index)?;
+    for (index, piece) in way.pieces().iter().copied().enumerate().skip(from) {
         if index <= from + BETWEEN {
             begun.push(Begun {
                 first: piece,

@@ -3,10 +3,9 @@
 //! Points are µm in the program's own frame, as `f64`: a counting machine is always on whole µm, an ISO program may
 //! have fractions. Nothing here knows how a language is written.
 
-use super::way::{Node, Totals, Way, Writing};
+use super::way::Writing;
 use crate::finding::Side;
 use crate::geometry::{Bounds, Point, Segment, Vector};
-use std::borrow::Cow;
 use std::ops::Range;
 
 /// The kind of a step.
@@ -183,131 +182,4 @@ impl Follower {
         self.stands = step.end;
         self.at
     }
-}
-
-/// Consecutive steps that move, between two stops; of many only the first and the last are held.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct CutSteps<'a> {
-    /// The first steps; all of them where `tail` is empty.
-    head: Cow<'a, [Step]>,
-    tail: Vec<Step>,
-    totals: Totals,
-    /// From the cut's beginning to that of each step of the head, and after the last, as the blocks mean it, µm.
-    to_head: Vec<Vector>,
-    /// The same for the steps of the tail.
-    to_tail: Vec<Vector>,
-}
-
-impl<'a> CutSteps<'a> {
-    /// The number of steps held at either end of a long cut.
-    pub(crate) const ENDS: usize = 24;
-
-    /// A cut that holds all its steps.
-    pub(crate) fn of(steps: impl Into<Cow<'a, [Step]>>, writing: Writing) -> CutSteps<'a> {
-        let head: Cow<'a, [Step]> = steps.into();
-        let arcs = head.iter().filter(|step| step.kind == Kind::Arc).count();
-        let totals = Totals {
-            count: head.len(),
-            arcs,
-            writing,
-            stop: None,
-        };
-        CutSteps {
-            totals,
-            to_head: sums(Vector::zeros(), &head),
-            to_tail: Vec::new(),
-            tail: Vec::new(),
-            head,
-        }
-    }
-
-    /// A cut by its first and last steps; together its blocks mean to lead by `meant`, µm.
-    pub(crate) fn by_ends(
-        head: Vec<Step>,
-        tail: Vec<Step>,
-        meant: Vector,
-        totals: Totals,
-    ) -> CutSteps<'static> {
-        let of_tail: Vector = tail.iter().map(Step::meant).sum();
-        let (to_head, to_tail) = (sums(Vector::zeros(), &head), sums(meant - of_tail, &tail));
-        CutSteps {
-            head: head.into(),
-            tail,
-            totals,
-            to_head,
-            to_tail,
-        }
-    }
-
-    /// The same with a stop after this many steps, before its tab.
-    pub(crate) fn stopping(mut self, stop: Option<usize>) -> CutSteps<'a> {
-        self.totals.stop = stop;
-        self
-    }
-
-    pub(crate) fn count(&self) -> usize {
-        self.totals.count
-    }
-
-    fn in_tail(&self, index: usize) -> Option<usize> {
-        (index + self.tail.len()).checked_sub(self.totals.count)
-    }
-
-    /// A step by its index, where it is held.
-    pub(crate) fn step(&self, index: usize) -> Option<&Step> {
-        let in_tail = || self.tail.get(self.in_tail(index)?);
-        self.head.get(index).or_else(in_tail)
-    }
-
-    /// Where the machine stands before a step, or after the last.
-    fn stands(&self, index: usize) -> Option<Point> {
-        if index == self.totals.count {
-            return self.step(index.checked_sub(1)?).map(|step| step.end);
-        }
-        self.step(index).map(|step| step.start)
-    }
-
-    /// The position without the drift of counting.
-    fn meant(&self, index: usize) -> Option<Point> {
-        let in_tail = || self.to_tail.get(self.in_tail(index)?);
-        Some(self.stands(0)? + self.to_head.get(index).or_else(in_tail)?)
-    }
-}
-
-impl Way for CutSteps<'_> {
-    fn totals(&self) -> Totals {
-        self.totals
-    }
-
-    fn node(&self, index: usize) -> Option<Node> {
-        Some(Node {
-            stands: self.stands(index)?,
-            meant: self.meant(index)?,
-        })
-    }
-
-    fn piece(&self, index: usize) -> Option<Segment> {
-        let (step, at) = (self.step(index)?, self.meant(index)?);
-        Some(
-            step.ideal
-                .as_ref()
-                .map_or(Segment::line(at, at + step.meant()), |ideal| {
-                    ideal.moved(at - step.start)
-                }),
-        )
-    }
-
-    fn is_held(&self) -> bool {
-        self.head.len() >= self.totals.count
-    }
-}
-
-/// From somewhere to the beginning of each step, and after the last.
-fn sums(from: Vector, steps: &[Step]) -> Vec<Vector> {
-    let mut sums = vec![from];
-    sums.extend(steps.iter().scan(from, |at, step| {
-        *at += step.meant();
-        Some(*at)
-    }));
-    sums
 }

@@ -1,6 +1,7 @@
 //! Ways: consecutive cutting blocks, and where they lead.
 
-use crate::geometry::{Point, Segment};
+use super::trace::{Kind, Step};
+use crate::geometry::{Point, Segment, Vector};
 
 /// The tolerance for the end of a way with this many arcs at a place, µm: rounding adds up as a random walk.
 pub(crate) fn tolerance(arcs: usize) -> f64 {
@@ -8,26 +9,26 @@ pub(crate) fn tolerance(arcs: usize) -> f64 {
 }
 
 /// The position on a way between two of its blocks, µm.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Node {
     /// Where the machine stands.
-    pub(crate) stands: Point,
+    pub(crate) machine: Point,
     /// The position without the drift of counting.
-    pub(crate) meant: Point,
+    pub(crate) ideal: Point,
 }
 
 impl Node {
     /// A node of a program that names its places.
     pub(crate) fn at(point: Point) -> Node {
         Node {
-            stands: point,
-            meant: point,
+            machine: point,
+            ideal: point,
         }
     }
 
     pub(crate) fn is_near(&self, other: &Node, tolerance: f64) -> bool {
-        (self.stands - other.stands).norm() <= tolerance
-            || (self.meant - other.meant).norm() <= tolerance
+        (self.machine - other.machine).norm() <= tolerance
+            || (self.ideal - other.ideal).norm() <= tolerance
     }
 }
 
@@ -40,106 +41,120 @@ pub(crate) struct Writing {
     pub(crate) slack: f64,
 }
 
-/// What is known of a way without its blocks.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Totals {
-    pub(crate) count: usize,
-    pub(crate) arcs: usize,
-    pub(crate) writing: Writing,
-    /// Blocks before its first stop, if it holds one: the tab is after.
-    pub(crate) stop: Option<usize>,
-}
-
-/// Consecutive cutting blocks. `None` stands for one that is not held.
-pub(crate) trait Way {
-    fn totals(&self) -> Totals;
-
-    fn count(&self) -> usize {
-        self.totals().count
-    }
-
-    fn stop(&self) -> Option<usize> {
-        self.totals().stop
-    }
-
-    /// The position before a block, or after the last.
-    fn node(&self, index: usize) -> Option<Node>;
-    /// The curve of a block at its intended start; a line without length where it leads nowhere.
-    fn piece(&self, index: usize) -> Option<Segment>;
-    /// True where all its blocks are held.
-    fn is_held(&self) -> bool {
-        true
-    }
-
-    /// Hands out all pieces within `reach` µm of a place, and perhaps others, in their order, until `each` stops it. `None` where not all
-    /// are held.
-    fn pieces_about(
-        &self,
-        _at: Point,
-        _reach: f64,
-        each: &mut dyn FnMut(usize, &Segment) -> bool,
-    ) -> Option<()> {
-        if !self.is_held() {
-            return None;
-        }
-        for index in 0..self.count() {
-            if each(index, &self.piece(index)?) {
-                break;
-            }
-        }
-        Some(())
-    }
-
-    /// The tolerance for its end at a place, µm.
-    fn tolerance(&self) -> f64 {
-        let Totals { arcs, writing, .. } = self.totals();
-        tolerance(arcs).max(writing.slack)
-    }
-}
-
-/// A way of which everything is held.
+/// Consecutive cutting blocks: their curves, µm, each from the intended end of the one before.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct HeldWay {
+pub(crate) struct Way {
+    /// Before each block, and after the last.
     nodes: Vec<Node>,
+    /// A line without length for a block that leads nowhere.
     pieces: Vec<Segment>,
-    totals: Totals,
+    arcs: usize,
+    writing: Writing,
+    /// Blocks before its first stop, if it holds one: the tab is after.
+    stop: Option<usize>,
 }
 
-impl HeldWay {
-    pub(crate) fn from(start: Node, writing: Writing) -> HeldWay {
-        HeldWay {
+impl Way {
+    pub(crate) fn from(start: Node, writing: Writing) -> Way {
+        Way {
             nodes: vec![start],
-            totals: Totals {
-                writing,
-                ..Totals::default()
-            },
-            pieces: Vec::new(),
+            writing,
+            ..Way::default()
         }
+    }
+
+    /// The way of steps that move.
+    pub(crate) fn of_steps<'a>(steps: impl IntoIterator<Item = &'a Step>, writing: Writing) -> Way {
+        let mut steps = steps.into_iter().peekable();
+        let start = steps.peek().map_or(Point::origin(), |first| first.start);
+        let mut way = Way::from(Node::at(start), writing);
+        for step in steps {
+            let from = way.end().ideal;
+            let by = from - step.start;
+            let piece = match &step.ideal {
+                Some(ideal) => ideal.moved(by),
+                None => Segment::line(from, from + step.meant()),
+            };
+            let end = Node {
+                machine: step.end,
+                ideal: from + step.meant(),
+            };
+            way.push(piece, step.kind == Kind::Arc, end);
+        }
+        way
+    }
+
+    /// The same with a stop after this many blocks, before its tab.
+    pub(crate) fn stopping(mut self, stop: Option<usize>) -> Way {
+        self.stop = stop;
+        self
+    }
+
+    /// Adds a block: its curve from the intended position, and the position after it.
+    pub(crate) fn push(&mut self, piece: Segment, is_arc: bool, end: Node) {
+        self.pieces.push(piece);
+        self.nodes.push(end);
+        self.arcs += usize::from(is_arc);
+    }
+
+    /// This way, and after a stop another one, which begins at the place where it begins itself.
+    pub(crate) fn append(&mut self, behind: &Way) {
+        let (end, begin) = (self.end(), behind.node(0));
+        let (machine, ideal) = (end.machine - begin.machine, end.ideal - begin.ideal);
+        self.stop = self.stop.or(Some(self.count()));
+        let pieces = behind.pieces.iter().map(|piece| piece.moved(ideal));
+        self.pieces.extend(pieces);
+        let nodes = behind.nodes.iter().skip(1).map(|node| Node {
+            machine: node.machine + machine,
+            ideal: node.ideal + ideal,
+        });
+        self.nodes.extend(nodes);
+        self.arcs += behind.arcs;
+    }
+
+    pub(crate) fn count(&self) -> usize {
+        self.pieces.len()
+    }
+
+    pub(crate) fn arcs(&self) -> usize {
+        self.arcs
+    }
+
+    pub(crate) fn writing(&self) -> Writing {
+        self.writing
+    }
+
+    pub(crate) fn stop(&self) -> Option<usize> {
+        self.stop
     }
 
     pub(crate) fn pieces(&self) -> &[Segment] {
         &self.pieces
     }
 
-    /// Adds a block: its curve from the intended position, and the machine's position after it.
-    pub(crate) fn push(&mut self, piece: Segment, is_arc: bool, end: Node) {
-        self.pieces.push(piece);
-        self.nodes.push(end);
-        self.totals.count += 1;
-        self.totals.arcs += usize::from(is_arc);
+    /// The position before a block, or after the last.
+    pub(crate) fn node(&self, index: usize) -> Node {
+        let last = || self.nodes.last().copied().unwrap_or_default();
+        self.nodes.get(index).copied().unwrap_or_else(last)
+    }
+
+    pub(crate) fn end(&self) -> Node {
+        self.node(usize::MAX)
+    }
+
+    /// From before a block to the end of another one, as the blocks mean it, µm.
+    pub(crate) fn ideal_between(&self, from: usize, to: usize) -> Vector {
+        self.node(to).ideal - self.node(from).ideal
+    }
+
+    /// The tolerance for its end at a place, µm.
+    pub(crate) fn tolerance(&self) -> f64 {
+        tolerance(self.arcs).max(self.writing.slack)
     }
 }
 
-impl Way for HeldWay {
-    fn totals(&self) -> Totals {
-        self.totals
-    }
-
-    fn node(&self, index: usize) -> Option<Node> {
-        self.nodes.get(index).copied()
-    }
-
-    fn piece(&self, index: usize) -> Option<Segment> {
-        self.pieces.get(index).copied()
+impl AsRef<[Segment]> for Way {
+    fn as_ref(&self) -> &[Segment] {
+        &self.pieces
     }
 }

@@ -2,7 +2,7 @@
 
 use super::gap::{SMOOTH, is_one_line};
 use crate::geometry::{Point, Segment, Vector, turn};
-use crate::program::path::{HeldWay, Node, Writing, closing};
+use crate::program::path::{Node, Way, Writing, closing};
 
 /// A block of a cut, or a line of one that moves the wire.
 #[derive(Clone, Copy, Debug, Default)]
@@ -234,16 +234,16 @@ impl Pieces {
 
     pub(crate) fn is_closed(&self, pieces: &[Piece]) -> bool {
         let mut node = Node::at(Point::origin());
-        let mut way = HeldWay::from(node, self.writing);
+        let mut way = Way::from(node, self.writing);
         for piece in pieces {
-            let start = node.meant - Point::origin();
+            let start = node.ideal - Point::origin();
             let curve = piece.curve.map(|curve| curve.moved(start));
-            let curve = curve.unwrap_or(Segment::line(node.meant, node.meant));
-            node.meant += piece.by;
-            node.stands += piece.machine;
+            let curve = curve.unwrap_or(Segment::line(node.ideal, node.ideal));
+            node.ideal += piece.by;
+            node.machine += piece.machine;
             way.push(curve, piece.is_arc(), node);
         }
-        closing(&way).is_none_or(|closing| closing.closed)
+        closing(&way).closed
     }
 
     /// From its end, or from that of its last piece but one, to the places where it may close.

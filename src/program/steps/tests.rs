@@ -1,7 +1,7 @@
 //! Answers about a part of a program equal those of the whole trace, for programs of both languages under edits.
 
-use super::{cut_at, cut_before};
-use crate::program::path::{Cut, CutSteps, Kind, Step, Trace, cuts};
+use super::way_before;
+use crate::program::path::{Cut, Kind, Step, Trace, Way, cuts};
 use crate::program::whereabouts::Stand;
 use crate::program::{Document, Language};
 use crate::settings::Effective;
@@ -70,9 +70,8 @@ fn assert_parts_are_of_the_whole(document: &Document) -> Result<(), TestCaseErro
         for line in 0..=unread.unwrap_or(text.line_count() - 1) {
             let range = text.line_range(line);
             let program = document.program();
-            let mut chunks = 0..program.chunk_count();
-            let runs = chunks.any(|chunk| program.lines_of(chunk).contains(&line));
-            if !runs || trace.steps.iter().any(|step| step.line == line) {
+            if program.cuts_at(line).is_empty() || trace.steps.iter().any(|step| step.line == line)
+            {
                 continue;
             }
             let before = trace.steps.partition_point(|step| step.line < line);
@@ -106,26 +105,11 @@ fn assert_parts_are_of_the_whole(document: &Document) -> Result<(), TestCaseErro
             stop.map(|step| step.range.clone())
         );
         let whole = cut_by_trace(&trace, offset);
-        let found = cut_at(document.program(), offset, usize::MAX);
-        prop_assert_eq!(
-            &found,
-            &whole
-                .clone()
-                .map(|(steps, nth, stop)| { (CutSteps::of(steps, writing).stopping(stop), nth) })
-        );
-        let by_ends = cut_at(document.program(), offset, CutSteps::ENDS);
-        prop_assert_eq!(by_ends.is_some(), whole.is_some());
-        if let (Some((held, nth)), Some((steps, index, _))) = (by_ends, whole) {
-            prop_assert_eq!((held.count(), nth), (steps.len(), index));
-            for (index, step) in steps.iter().enumerate() {
-                prop_assert!(held.step(index).is_none_or(|held| held == step));
-            }
-            for index in (0..steps.len())
-                .filter(|index| index.min(&(steps.len() - 1 - index)) < &CutSteps::ENDS)
-            {
-                prop_assert!(held.step(index).is_some());
-            }
-            let cut = document.cut_at(offset).map(|(_, cut, _)| cut);
+        let found = document.cut_at(offset);
+        let whole = whole.map(|(steps, nth, _)| (steps, nth));
+        let own = found.as_ref().map(|found| (found.steps.clone(), found.nth));
+        prop_assert_eq!(own, whole.clone());
+        if let (Some(found), Some((steps, index))) = (found, whole) {
             let touched = trace
                 .steps
                 .iter()
@@ -134,10 +118,8 @@ fn assert_parts_are_of_the_whole(document: &Document) -> Result<(), TestCaseErro
                 .iter()
                 .find(|cut| touched.is_some_and(|at| cut.steps.contains(&at)));
             let moves = |steps: Range<usize>| {
-                trace.steps[steps]
-                    .iter()
-                    .filter(|step| step.moves())
-                    .count()
+                let own = trace.steps[steps].iter();
+                own.filter(|step| step.moves()).count()
             };
             let whole = whole.map(|whole| {
                 let (steps, own) = (whole.steps.clone(), whole.contour_steps());
@@ -148,17 +130,18 @@ fn assert_parts_are_of_the_whole(document: &Document) -> Result<(), TestCaseErro
                     ..whole.clone()
                 }
             });
-            prop_assert_eq!(cut, whole);
+            prop_assert_eq!(Some(found.cut), whole);
         }
         let last = trace.steps.iter().rfind(|step| step.range.end <= offset);
-        let before = last
-            .filter(|step| step.moves())
-            .and_then(|step| cut_by_trace(&trace, step.range.start));
-        let held = cut_before(document.program(), offset);
-        prop_assert_eq!(
-            held.map(|held| held.count()),
-            before.map(|(_, nth, _)| nth + 1)
-        );
+        let last = last.filter(|step| step.moves());
+        let before = last.and_then(|step| cut_by_trace(&trace, step.range.start));
+        let own = before.map(|(steps, nth, stop)| match stop {
+            Some(stop) if stop <= nth => steps[stop..=nth].to_vec(),
+            _ => steps[..=nth].to_vec(),
+        });
+        let way = Way::of_steps(&own.unwrap_or_default(), writing);
+        let held = way_before(document.program(), offset);
+        prop_assert_eq!(held.pieces(), way.pieces());
     }
     Ok(())
 }

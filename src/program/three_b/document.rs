@@ -1,37 +1,32 @@
 //! 3B text as an open document: its lines, the machine's way, and its findings.
 //!
-//! The text is cut into stretches of lines. Lines are independent, so an edit rereads the stretches that it touched;
-//! everything about the whole program (contours, numbers, the end) comes from a few sums of each stretch.
+//! The text is read as cuts, from one stop to the next. Lines are independent, so an edit rereads the cuts that it touched;
+//! everything about the whole program (contours, numbers, the end) comes from what is known of each cut.
 
 mod asked;
 mod contours;
-mod cuts;
 mod fixes;
-mod joints;
 mod judge;
 mod repairs;
 mod report;
 mod sequence;
 mod told;
 mod walk;
-mod way;
 
+use super::cut::{self, Cut};
 use super::entry::Entry;
 use super::rules::Limits;
-use super::stretch::Stretch;
-use super::sum::Sum;
 use super::words::Words;
 use crate::finding::Finding;
 use crate::geometry::{Point, Vector};
-use crate::program::chunks::{ChunkReader, Chunks, Reread};
-use crate::program::contours::{Contours, PartAt, Touched};
-use crate::program::path::Known;
+use crate::program::contours::Contours;
+use crate::program::cuts::{Cuts, Reader};
 use crate::settings::Effective;
 use crate::text::SourceText;
 use asked::Asked;
 use sequence::Numbers;
 use std::ops::Range;
-use told::Told;
+use told::Blamed;
 
 /// A 3B or 4B program as text, and its reading.
 #[derive(Clone, Debug)]
@@ -39,10 +34,10 @@ pub struct Document {
     text: SourceText,
     words: OwnWords,
     limits: Limits,
-    stretches: Chunks<Stretch>,
+    cuts: Cuts<Cut, ()>,
+    /// How many cuts have been read: each gets a number of its own.
+    read: u64,
     view: Box<View>,
-    /// The results of the search for crossings.
-    known: Box<Known>,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -67,45 +62,29 @@ impl OwnWords {
     }
 }
 
-/// An entry by its stretch and its index in there.
+/// An entry by its cut and its index in there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct At {
-    stretch: usize,
+    cut: usize,
     entry: usize,
 }
 
-/// Blocks between two words, put together from the parts of the stretches that they run through.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct JoinedCut {
-    /// First and last part.
-    parts: [PartAt; 2],
-    sum: Sum,
-    /// The way between two contours, without the wire.
-    is_jump: bool,
-    /// Blocks before its first stop, where it goes on after that.
-    stop: Option<usize>,
-}
-
 /// The properties of the program as a whole.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default)]
 struct View {
-    /// The machine's position before each stretch, µm.
+    /// The machine's position before each cut, µm.
     begins: Vec<Point>,
     /// Where by the coordinates the wire was moved by hand at a stop: the first block after it, and how far, µm.
     taken: Vec<(At, Vector)>,
-    /// The cuts that extend over the end of a stretch, or begin or end the text, in order. The others are parts of one stretch.
-    outer: Vec<JoinedCut>,
-    /// The contours that are open and not continued after a stop, and those that cross themselves.
-    contours: Contours<JoinedCut>,
-    /// The parts with an odd joint about the end of a stretch that is reported.
-    odd: Vec<PartAt>,
+    contours: Contours,
     /// The word that ends the program.
     end: Option<At>,
     last_block: Option<At>,
     numbers: Numbers,
-    /// The findings about single contours, and all others; the latter in no order, at bytes of the text.
-    told: Told,
+    /// The findings about contours and the whole, in no order, at bytes of the text.
     findings: Vec<Finding>,
+    /// What the searches for blocks to blame have found.
+    blamed: Blamed,
     asked: Asked,
 }
 
@@ -119,20 +98,20 @@ impl Document {
     pub fn read_with(bytes: Vec<u8>, settings: &Effective) -> Document {
         let text = SourceText::new(bytes);
         let (words, limits) = (OwnWords::of(settings), Limits::of(settings));
-        let reader = Reader {
+        let mut reader = Lines {
             words: words.words(),
             limits: &limits,
         };
-        let stretches = Chunks::read(&reader, &text, 0..text.line_count());
+        let cuts = Cuts::read(&mut reader, &text, ());
         let mut document = Document {
             text,
             words,
             limits,
-            stretches,
+            cuts,
+            read: 0,
             view: Box::default(),
-            known: Box::default(),
         };
-        document.judge_again(None);
+        document.judge_again();
         document
     }
 
@@ -157,128 +136,88 @@ impl Document {
         }
     }
 
-    /// Replaces a range of bytes and rereads what it touched. Returns the first stretch in which the machine may
-    /// stand elsewhere than before.
+    /// Replaces a range of bytes and rereads what it touched. Returns the first cut in which the machine may stand
+    /// elsewhere than before.
     pub fn edit(&mut self, range: Range<usize>, replacement: &str) -> usize {
-        let reader = Reader {
+        let mut reader = Lines {
             words: self.words.words(),
             limits: &self.limits,
         };
-        let reread = self
-            .stretches
-            .edit(&reader, &mut self.text, (range, replacement), |_| {});
-        self.judge_again(Some(reread))
+        let edit = (range, replacement);
+        let first = self.cuts.edit(&mut reader, &mut self.text, edit);
+        let taken = std::mem::take(&mut self.view.taken);
+        let begin = self.view.begins.first().copied();
+        self.judge_again();
+        match self.view.begins.first().copied() == begin {
+            true => first.min(self.first_taken_elsewhere(&taken)),
+            false => 0,
+        }
     }
 
     fn entry(&self, at: At) -> Option<&Entry> {
-        self.stretches.get(at.stretch)?.entries.get(at.entry)
+        self.cuts.get(at.cut)?.entries.get(at.entry)
     }
 
     /// Bytes of an entry in the text.
     fn range_of(&self, at: At) -> Range<usize> {
-        let byte = self.stretches.byte(at.stretch);
+        let byte = self.cuts.byte(at.cut);
         self.entry(at).map_or(0..0, |entry| {
             byte + entry.range().start..byte + entry.range().end
         })
     }
 
-    /// Judges the program again; findings in lines that an edit has not `reread` are kept where
-    /// they depend on nothing else. Returns the first stretch in which the machine may stand elsewhere than before.
-    fn judge_again(&mut self, reread: Option<Reread>) -> usize {
+    /// Judges the program as a whole; what is known of cuts that were not read again is used again.
+    fn judge_again(&mut self) {
+        for cut in self.cuts.iter_mut().filter(|cut| cut.id == 0) {
+            self.read += 1;
+            cut.id = self.read;
+        }
         let before = std::mem::take(&mut *self.view);
         self.view.end = self.end_word();
-        // An end word that was read again bears on what was read with it, which is judged again.
-        let same_end = |reread: &Reread| match (before.end, self.view.end) {
-            (Some(before), Some(now)) => match reread.moved(before.stretch) {
-                Some(stretch) => At { stretch, ..before } == now,
-                None => reread.chunks.contains(&now.stretch),
-            },
-            (before, now) => before == now,
-        };
-        let reread = reread.filter(same_end);
-        let mut before = reread.as_ref().map_or_else(View::default, |_| before);
-        let reread = reread.unwrap_or_else(|| Reread::all(&self.stretches));
-        let mut outer = std::mem::take(&mut before.outer);
-        let mut contours = std::mem::take(&mut before.contours);
-        let [from, to] = self.find_outer(&mut outer, &reread);
-        self.view.outer = outer;
         self.view.last_block = self.last_block(self.view.end);
         let off = self.off_positions();
         self.view.taken = self.taken(&off);
         self.view.numbers = self.numbers();
         self.view.begins = self.begins(&self.view.taken);
-        let first_moved = self.first_moved(&before, &reread);
-        let touched = Touched {
-            reread: &reread,
-            from,
-            to,
+        let contours = match before.end == self.view.end {
+            true => before.contours,
+            false => Contours::default(),
         };
-        // The contours within one stretch that are now known not to cross themselves.
-        let mut clean: Vec<PartAt> = Vec::new();
-        let mut known = std::mem::take(&mut self.known);
-        let looked_at = contours.look(self, touched, &mut known, |cut, crosses| {
-            let is_inner = cut.parts[0] == cut.parts[1];
-            clean.extend((is_inner && crosses == Some(false)).then_some(cut.parts[0]));
-        });
-        self.known = known;
-        self.view.contours = contours;
-        let mut findings = Vec::new();
-        self.view.odd = self.judge_joints(&mut findings);
-        self.judge_contours(before, looked_at);
-        self.judge(off, findings);
-        // The findings of a contour within one stretch depend on nothing else: it is not checked again.
-        for of_stretch in clean.chunk_by(|a, b| a.0 == b.0) {
-            let stretch = of_stretch
-                .first()
-                .and_then(|(stretch, _)| self.stretches.get_mut(*stretch));
-            let is_clean = |part: &usize| {
-                of_stretch
-                    .binary_search_by_key(part, |(_, part)| *part)
-                    .is_ok()
-            };
-            if let Some(stretch) = stretch {
-                stretch.may_cross.retain(|part| !is_clean(part));
-                stretch.let_go();
-            }
-        }
-        first_moved
+        self.view.contours = Contours::of(self, contours);
+        let mut findings = self.judge(&off);
+        self.judge_contours(before.blamed, &mut findings);
+        self.view.findings = findings;
     }
 }
 
 /// How 3B text is read: lines are independent.
-struct Reader<'a> {
+struct Lines<'a> {
     words: Words<'a>,
     limits: &'a Limits,
 }
 
-impl ChunkReader for Reader<'_> {
+impl Reader for Lines<'_> {
     type State = ();
-    type Begun = Range<usize>;
-    type Chunk = Stretch;
+    type Begun = Vec<(Range<usize>, Cut)>;
+    type Cut = Cut;
 
-    // Unit tests have short texts.
-    const LINES: usize = if cfg!(test) { 24 } else { 128 };
-
-    fn begin(&self) {}
-
-    fn run(&self, _: &SourceText, lines: Range<usize>, (): ()) -> (Range<usize>, ()) {
-        (lines, ())
+    fn line_count(&self, text: &SourceText) -> usize {
+        text.line_count()
     }
 
-    fn finish(&self, text: &SourceText, lines: Range<usize>, old: &[Stretch]) -> Stretch {
-        Stretch::read(
-            text.bytes(),
-            text.line_start(lines.start),
-            lines.map(|line| text.line_range(line)),
-            &self.words,
-            self.limits,
-            old,
-        )
+    fn base(&self, text: &SourceText, line: usize) -> usize {
+        text.line_start(line)
     }
 
-    fn before(_: &Stretch) {}
+    fn run(&mut self, text: &SourceText, first: usize, (): &()) -> (Self::Begun, usize, ()) {
+        let (cuts, behind) = cut::read(text, first, &self.words, self.limits);
+        (cuts, behind, ())
+    }
 
-    fn after(_: &Stretch) {}
+    fn finish(&self, _: &SourceText, begun: Self::Begun) -> Vec<(Range<usize>, Cut)> {
+        let finished = |(lines, cut): (Range<usize>, Cut)| (lines, cut.finished(self.limits));
+        begun.into_iter().map(finished).collect()
+    }
 }
 
 #[cfg(test)]
@@ -286,7 +225,7 @@ mod tests {
     use super::*;
     use crate::finding::Rule;
     use crate::program::numbering::Renumbering;
-    use crate::program::path::{Cut, Step, cuts};
+    use crate::program::path::Step;
     use proptest::prelude::*;
 
     /// Findings in one order, whatever stretches the lines lie in.
@@ -444,38 +383,6 @@ mod tests {
             let touches = |step: &Step| step.range.start <= range.end && range.start <= step.range.end;
             let whole: Vec<Step> = document.trace().steps.into_iter().filter(touches).collect();
             prop_assert_eq!(document.steps_in(range.clone()), whole);
-        }
-
-        #[test]
-        fn what_a_cut_tells_by_its_ends_is_what_all_its_steps_tell(
-            text in PROGRAM,
-            (leads, rounds) in (0_usize..4, 0_usize..100),
-        ) {
-            // A contour of more blocks than a cut holds, with ways in and out.
-            let way = 100 * rounds;
-            let long = format!(
-                "{}{}B0B50B50GYL4\nB{way}B0B{way}GXL3\nB0B50B50GYL2\n{}",
-                "B100B0B100GXL1\n".repeat(leads),
-                "B50B0B50GXL1\nB0B50B50GYL2\nB50B0B50GXL1\nB0B50B50GYL4\n".repeat(rounds),
-                "B100B0B100GXL3\n".repeat(leads),
-            );
-            let document = crate::program::Document::ThreeB(Document::read(format!("{text}{long}D\n{text}").into_bytes()));
-            let trace = document.trace();
-            let all = cuts(&trace);
-            for (index, step) in trace.steps.iter().enumerate().filter(|(index, step)| step.moves() && index % 13 == 0) {
-                let whole = all.iter().find(|cut| cut.steps.contains(&index)).cloned();
-                let Some(whole) = whole else { return Err(TestCaseError::fail("no cut")) };
-                let Some((held, cut, nth)) = document.cut_at(step.range.start) else {
-                    return Err(TestCaseError::fail("no cut"));
-                };
-                // A pause before a tab is a step of the trace and none of the cut.
-                let moves = |steps: std::ops::Range<usize>| trace.steps[steps].iter().filter(|step| step.moves()).count();
-                prop_assert_eq!(nth, moves(whole.steps.start..index));
-                prop_assert_eq!(held.step(nth).is_none_or(|held| held == step), true);
-                let (steps, own) = (whole.steps.clone(), whole.contour_steps());
-                let (lead_in, lead_out) = (moves(steps.start..own.start), moves(own.end..steps.end));
-                prop_assert_eq!(cut, Cut { steps: 0..moves(steps), lead_in, lead_out, ..whole });
-            }
         }
 
         #[test]

@@ -27,15 +27,6 @@ impl Move {
         }
     }
 
-    pub(crate) fn minus(self, other: Move) -> Move {
-        let difference =
-            |a: [i64; 2], b: [i64; 2]| [a[0].saturating_sub(b[0]), a[1].saturating_sub(b[1])];
-        Move {
-            machine: difference(self.machine, other.machine),
-            meant: difference(self.meant, other.meant),
-        }
-    }
-
     /// True where machine or meaning return within `tolerance` µm.
     pub(crate) fn is_within(&self, tolerance: f64) -> bool {
         let near =
@@ -47,8 +38,8 @@ impl Move {
     pub(crate) fn node(&self) -> Node {
         let ([x, y], [a, b]) = (self.meant_um(), self.machine);
         Node {
-            stands: Point::new(a as f64, b as f64),
-            meant: Point::new(x, y),
+            machine: Point::new(a as f64, b as f64),
+            ideal: Point::new(x, y),
         }
     }
 
@@ -184,7 +175,7 @@ pub(super) struct Entry {
 pub(super) const NO_NUMBER: u32 = u32::MAX;
 
 impl Entry {
-    /// Bytes from the stretch's first byte.
+    /// Bytes from that from which the cut's places count.
     pub(crate) fn range(&self) -> Range<usize> {
         self.start as usize..(self.start + self.length) as usize
     }

@@ -4,6 +4,7 @@
 
 mod around;
 pub(crate) mod block;
+mod cut;
 pub mod decode;
 mod document;
 pub(crate) mod encode;
@@ -22,8 +23,6 @@ pub(in crate::program) mod refactor;
 mod repair;
 mod rules;
 mod scan;
-mod stretch;
-mod sum;
 #[cfg(test)]
 mod tests;
 mod tokens;

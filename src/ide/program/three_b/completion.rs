@@ -3,7 +3,7 @@
 use crate::geometry::{Arc, Point, Segment};
 use crate::ide::amounts::{mm, point, turn};
 use crate::ide::{Completion, CompletionKind};
-use crate::program::path::cut_of;
+use crate::program::path::closing;
 use crate::program::steps::{self, Program};
 use crate::program::three_b::Document;
 use crate::program::three_b::block::{Block, CountingAxis, Motion, Node, Quadrant};
@@ -240,13 +240,13 @@ fn beginnings(document: &Document, start: usize, offset: usize) -> Vec<Completio
     let word = |text: &str, about| Completion::new(text, about, &range, CompletionKind::Word);
     let mut found = Vec::new();
     let mut targets: Vec<(&'static str, Point)> = Vec::new();
-    if let Some(held) = steps::cut_before(document, start)
-        && let Some(first) = held.step(0)
-    {
-        targets.push((say!(line_back_to_the_start_of_the_contour), first.start));
+    let way = steps::way_before(document, start);
+    if way.count() > 0 {
+        let [begin, lead_in] = [0, 1].map(|index| way.node(index).machine);
+        targets.push((say!(line_back_to_the_start_of_the_contour), begin));
         // Where the contour is closed, only the way out is left.
-        if held.count() == 1 || !cut_of(&held).is_some_and(|cut| cut.closed) {
-            targets.push((say!(line_to_the_end_of_the_lead_in), first.end));
+        if way.count() == 1 || !closing(&way).closed {
+            targets.push((say!(line_to_the_end_of_the_lead_in), lead_in));
         }
     }
     let from = snap(stand(document, start));

@@ -2,76 +2,39 @@
 
 use crate::finding::{Detail, Fault, Finding, Rule, Severity};
 use crate::program::iso::document::Document;
-use crate::program::work::{self, Work};
 use std::ops::Range;
 
-/// The first bytes of these findings, in the order of the text. Of very many only those are looked up that are asked for.
+/// The first bytes of these findings, in the order of the text.
 pub(crate) struct Troubles<'a> {
     document: &'a Document,
-    known: Vec<usize>,
-    /// How many were handed out.
+    all: Vec<usize>,
+    /// How many of them were handed out.
     handed: usize,
-    rest: Box<dyn Iterator<Item = usize> + 'a>,
 }
 
 impl<'a> Troubles<'a> {
-    /// Those among some findings, and among what is kept of cuts.
+    /// Those of all findings, in the order of the text.
     pub(crate) fn of(document: &'a Document, findings: &[Finding]) -> Troubles<'a> {
-        let findings = findings.iter().filter(|one| is_trouble(one));
-        let findings = findings.filter_map(|one| Some(one.place.in_text()?.start));
-        let mut findings: Vec<usize> = findings.collect();
-        findings.sort_unstable();
-        // Cuts follow each other, and what is found of one stands in it.
-        let of_chunk = move |chunk: usize| {
-            let all = document.told.of(chunk).iter();
-            let own = all.filter(|one| may_be_slip(one.rule, one.severity, &one.detail));
-            let mut own: Vec<usize> = own
-                .map(|one| one.range(|chunk| document.byte_of(chunk)).start)
-                .collect();
-            own.sort_unstable();
-            own
-        };
-        let told = (0..document.told.len()).flat_map(of_chunk);
-        let (mut findings, mut told) = (findings.into_iter().peekable(), told.peekable());
-        let next = move || {
-            work::add(Work::Troubles, 1);
-            match (findings.peek(), told.peek()) {
-                (Some(finding), Some(told_at)) if told_at < finding => told.next(),
-                (Some(_), _) => findings.next(),
-                (None, _) => told.next(),
-            }
-        };
+        let findings = findings.iter().filter(|finding| is_trouble(finding));
+        let places = findings.filter_map(|finding| finding.place.in_text());
         Troubles {
             document,
-            known: Vec::new(),
+            all: places.map(|range| range.start).collect(),
             handed: 0,
-            rest: Box::new(std::iter::from_fn(next)),
         }
     }
 
     pub(super) fn next(&mut self) -> Option<usize> {
-        if self.handed == self.known.len() {
-            self.known.push(self.rest.next()?);
-        }
         self.handed += 1;
-        self.known.get(self.handed - 1).copied()
+        self.all.get(self.handed - 1).copied()
     }
 
     /// Those in some lines.
-    pub(crate) fn within(&mut self, lines: &Range<usize>) -> &[usize] {
+    pub(crate) fn within(&self, lines: &Range<usize>) -> &[usize] {
         let text = self.document.text();
-        let is_before = |at: usize, line: usize| text.line_of(at) < line;
-        while self
-            .known
-            .last()
-            .is_none_or(|last| is_before(*last, lines.end))
-            && let Some(next) = self.rest.next()
-        {
-            self.known.push(next);
-        }
         let [first, behind] = [lines.start, lines.end]
-            .map(|line| self.known.partition_point(|known| is_before(*known, line)));
-        self.known.get(first..behind).unwrap_or_default()
+            .map(|line| self.all.partition_point(|at| text.line_of(*at) < line));
+        self.all.get(first..behind).unwrap_or_default()
     }
 }
 

@@ -1,9 +1,9 @@
 //! Arcs that the wire cannot follow at its distance, upright or leaning.
 
 use super::super::block::Motion;
-use super::super::cut::JoinedCut;
+use super::super::contours::Contour;
 use super::super::moves::Course;
-use super::super::part::Tight;
+use super::super::summary::Tight;
 use super::super::tilt::{Doubtful, STEEPEST, TiltedArc, Unknown};
 use super::Report;
 use crate::drawing::wire_side;
@@ -13,39 +13,31 @@ use crate::settings::Compensation;
 use std::ops::Range;
 
 impl Report<'_> {
-    /// The arcs of a cut that may be too tight, with their places in the text.
-    pub(super) fn tight_of(&self, cut: &JoinedCut) -> Vec<(Tight, Range<usize>)> {
-        let mut found = Vec::new();
-        for &(index, part) in &cut.parts {
-            let Some(stretch) = self.document.stretches.get(index) else {
-                continue;
-            };
-            // Most programs have no arc as tight as any correction.
-            let is_offset_only = self.limits.compensation == Compensation::Path;
-            let tightest = stretch.tightest.offset.min(if is_offset_only {
-                f64::INFINITY
-            } else {
-                stretch.tightest.plain
-            });
-            let may_be_tight = |tight: &Tight| {
-                is_tight(tight.radius, self.largest_correction)
-                    && (tight.arc.side.is_some() || !is_offset_only)
-            };
-            let tight = is_tight(tightest, self.largest_correction)
-                .then(|| stretch.tight_of(part).filter(may_be_tight));
-            found.extend(
-                tight
-                    .into_iter()
-                    .flatten()
-                    .map(|tight| (tight, self.document.bytes_of((index, tight.range)))),
-            );
-        }
-        found
+    /// The arcs of a contour that may be too tight, with their places in the text.
+    fn tight_of(&self, contour: &Contour<'_>) -> Vec<(Tight, Range<usize>)> {
+        let is_offset_only = self.limits.compensation == Compensation::Path;
+        let may_be_tight = |tight: &&Tight| {
+            is_tight(tight.radius, self.largest_correction)
+                && (tight.arc.side.is_some() || !is_offset_only)
+        };
+        let of_cut = |cut: usize| {
+            let at = self.document.cuts.state_before(cut).at;
+            let moves = self.document.cuts[cut].moves.as_ref();
+            let all = moves.into_iter().flat_map(|moves| &moves.tight);
+            all.filter(may_be_tight).map(move |tight| {
+                let arc = tight.arc.shifted(at);
+                (
+                    Tight { arc, ..*tight },
+                    self.document.bytes_in(cut, tight.range),
+                )
+            })
+        };
+        contour.cuts.clone().flat_map(of_cut).collect()
     }
 
     /// Arcs that the wire cannot follow at its distance: those of a part's contour, whether the control offsets it or
     /// nobody does.
-    pub(super) fn tight_arcs(&mut self, cut: &JoinedCut, orientation: i128) {
+    pub(super) fn tight_arcs(&mut self, cut: &Contour<'_>, orientation: i128) {
         for (
             Tight {
                 arc: step, radius, ..

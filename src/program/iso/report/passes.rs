@@ -3,15 +3,13 @@
 //! A pass is what is cut under one G41 or G42: its way in switches the correction on, and a block with G40 off again. Passes of one contour
 //! follow each other within a cut, or with a stop after each.
 
-use super::super::cut::JoinedCut;
+use super::super::contours::Contour;
 use super::super::moves::{Move, Place as Spot, apart, meet, micrometres};
-use super::super::part::WireSide;
 use super::super::plain::word_at;
+use super::super::summary::WireSide;
 use super::Report;
 use crate::finding::{Fault, Side};
 use crate::geometry::Point;
-use crate::program::followed::Followed;
-use crate::program::path::HasCuts;
 use crate::settings::SideSetting;
 use std::ops::Range;
 
@@ -97,12 +95,12 @@ impl Pass {
 
 impl Report<'_> {
     /// What is wrong with the passes of a cut that switches the correction on several times; false where it has none.
-    pub(super) fn passes(&mut self, cut: &JoinedCut) -> bool {
+    pub(super) fn passes(&mut self, cut: &Contour<'_>) -> bool {
         let passes = match cut.sum.switched_on {
             0 | 1 => return false,
             _ => self.passes_of(cut),
         };
-        let tolerance = self.document.tolerance(&cut.sum);
+        let tolerance = cut.tolerance();
         for range in passes.iter().filter_map(|pass| pass.ends_early(tolerance)) {
             self.add(range.clone(), Fault::SwitchedOffEarly);
         }
@@ -116,10 +114,15 @@ impl Report<'_> {
 
     /// The same of passes with a stop after each: their sides, alone, are judged with their cuts.
     pub(super) fn passes_between_stops(&mut self) {
-        let end = (self.document.stretches.len(), 0);
-        let (mut at, mut passes) = ((0, 0), Vec::new());
-        while let Some(cut) = self.document.next_cut(at, end) {
-            at = self.document.behind(&cut);
+        let mut passes = Vec::new();
+        let document = self.document;
+        let may_have_side = |cut: &usize| {
+            let sum = document.cuts[*cut].sum();
+            let has_none = sum.is_none_or(|sum| sum.side == WireSide::None);
+            !has_none || document.contours.of_cut(*cut).is_some()
+        };
+        let cuts = (0..document.cuts.len()).filter(may_have_side);
+        for cut in cuts.filter_map(|cut| document.contour(cut)) {
             let WireSide::One(_) = cut.sum.side else {
                 continue;
             };
@@ -188,16 +191,11 @@ impl Report<'_> {
         }
     }
 
-    fn passes_of(&self, cut: &JoinedCut) -> Vec<Pass> {
+    fn passes_of(&self, cut: &Contour<'_>) -> Vec<Pass> {
         let mut passes: Vec<Pass> = Vec::new();
         let mut is_on = false;
-        for place in &cut.parts {
-            let mut heard = Vec::new();
-            let offset = self
-                .document
-                .hear(*place, &mut |own, range| heard.push((*own, range)));
-            for (own, (start, end)) in heard {
-                let line = start as usize + offset..end as usize + offset;
+        for cut in cut.cuts.clone() {
+            for (own, line) in self.document.moves_of(cut) {
                 match (own.switches, own.side, passes.last_mut()) {
                     (Some(true), Some(side), _) => {
                         is_on = true;
@@ -227,7 +225,7 @@ impl Report<'_> {
     }
 
     /// A cut that is one pass, as far as its ends show it.
-    fn pass_of(&self, cut: &JoinedCut) -> Option<Pass> {
+    fn pass_of(&self, cut: &Contour<'_>) -> Option<Pass> {
         let [[first, second], last] = [cut.sum.first, cut.sum.last];
         let is_one = cut.sum.switched_on == 1 && first.switches == Some(true) && cut.sum.whole;
         let is_off = |step: &Move| step.switches == Some(false);
@@ -240,22 +238,22 @@ impl Report<'_> {
             side: first.side.filter(|_| is_one)?,
             correction: self.document.stated_correction(first.offset),
             nodes: [vec![first.to, second.to], ends].concat(),
-            twice_area: self.document.twice_area(cut),
-            from: self.document.bytes_of(cut.first_line).start,
+            twice_area: cut.sum.twice_area as f64 / 1e6,
+            from: cut.first_line.start,
             off: None,
         })
     }
 
     /// The correction of a cut that switches it on once ends with the last side of its contour, not behind it.
-    pub(super) fn off_too_early(&mut self, cut: &JoinedCut) {
-        let (first, tolerance) = (&cut.sum.first[0], self.document.tolerance(&cut.sum));
+    pub(super) fn off_too_early(&mut self, cut: &Contour<'_>) {
+        let (first, tolerance) = (&cut.sum.first[0], cut.tolerance());
         let is_last = |step: &&Move| {
             let is_off = step.switches == Some(false) && meet(step.to, first.to, tolerance);
             is_off && !meet(step.from, step.to, tolerance)
         };
         let is_pass = cut.sum.switched_on == 1 && first.switches == Some(true);
         if is_pass && cut.sum.moves > 3 && cut.sum.last.iter().any(|step| is_last(&step)) {
-            let range = self.code_before(self.document.bytes_of(cut.last_line), &[40]);
+            let range = self.code_before(cut.last_line.clone(), &[40]);
             self.add(range, Fault::SwitchedOffEarly);
         }
     }

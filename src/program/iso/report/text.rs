@@ -1,20 +1,19 @@
 //! Findings about the words and numbers of a program as a whole.
 
-use super::super::block::Stop;
-use super::super::document::{Document, Table};
+use super::super::block::{Note, Stop, read_under};
 use super::super::evidence::FEW_BARE;
+use super::super::limits::Table;
 use super::super::moves::{FARTHEST_MM, micrometres};
 use super::super::numbers::number_word;
 use super::super::order::MOST_CALLS;
 use super::super::plain::{word_at, words_at};
-use super::super::stretch::Placed;
 use super::super::table::{NoValue, value};
+use super::Report;
 use super::passes::SWITCH_REACH;
-use super::{Report, at};
 use crate::finding::{Detail, Fault, NotJudged, Rule, Severity};
 use crate::program::path::{absurd_size, size_of};
 use crate::text::shown;
-use rustc_hash::FxHashMap;
+use rustc_hash::FxHashSet;
 use std::ops::Range;
 
 /// A smaller part is not plausible in mm, mm.
@@ -28,16 +27,6 @@ const LARGE_PART: f64 = 40.0;
 
 /// The correction of the thinnest wire there is, with its spark gap, is larger, nm.
 const THINNEST: i64 = 14_000;
-
-/// Subprograms stand where they stand, not where they are called, and once.
-fn in_order_of_the_text(document: &Document) -> Vec<Placed<'_>> {
-    let mut all: Vec<Placed<'_>> = document.placed().collect();
-    if document.order().is_some() {
-        all.sort_by_key(|placed| placed.offset);
-        all.dedup_by_key(|placed| placed.offset);
-    }
-    all
-}
 
 impl Report<'_> {
     pub(super) fn foreign_words(&mut self) {
@@ -64,23 +53,24 @@ impl Report<'_> {
 
     /// Repeated block numbers, and missing ones of a sequence.
     pub(super) fn block_numbers(&mut self) {
-        let (mut blocks, mut numbers) = (0_usize, 0_usize);
-        let mut last = None;
-        let mut rising = true;
-        for placed in in_order_of_the_text(self.document) {
-            blocks += placed.stretch.blocks as usize;
-            numbers += placed.stretch.numbers.len();
-            let ends = (
-                placed.stretch.numbers.first(),
-                placed.stretch.numbers.last(),
-            );
-            if let (Some((first, _)), Some((end, _))) = ends {
-                rising &= placed.stretch.numbers_rise && last.is_none_or(|last| *first > last);
-                last = Some(*end);
+        let cuts = &self.document.cuts;
+        let blocks: usize = cuts.iter().map(|cut| cut.blocks as usize).sum();
+        let (mut numbers, mut last, mut rising) = (0, None, true);
+        for cut in cuts.iter() {
+            let own = || cut.numbers.iter().filter_map(|(number, _)| *number);
+            if let (Some(first), Some(end)) = (own().next(), own().next_back()) {
+                rising &= cut.rise() && last.is_none_or(|last| first > last);
+                last = Some(end);
+                numbers += own().count();
             }
         }
         if numbers < blocks && numbers * 4 >= blocks * 3 {
-            self.lacking_numbers();
+            for cut in 0..cuts.len() {
+                for (line, expected) in self.document.lacking_numbers(cut) {
+                    let words = self.document.words_of(line);
+                    self.add(words, Fault::Unnumbered { expected });
+                }
+            }
         }
         // Those of a text in rising order are unique.
         if !rising {
@@ -88,39 +78,31 @@ impl Report<'_> {
         }
     }
 
-    fn lacking_numbers(&mut self) {
-        for placed in in_order_of_the_text(self.document) {
-            if (placed.stretch.numbers.len() as u32) < placed.stretch.blocks {
-                for (line, expected) in self.document.lacking_numbers(&placed) {
-                    let words = self.document.words_of(line);
-                    self.add(words, Fault::Unnumbered { expected });
-                }
-            }
-        }
-    }
-
+    /// Subprograms have their numbers where they stand, not where they are called, and once.
     fn doubled_numbers(&mut self) {
-        let mut seen: FxHashMap<u32, usize> = FxHashMap::default();
-        for placed in in_order_of_the_text(self.document) {
-            let mut programs = placed.stretch.programs.iter().peekable();
-            for (index, &(number, place)) in placed.stretch.numbers.iter().enumerate() {
+        let cuts = self.document.cuts.iter().enumerate();
+        let placed = cuts.flat_map(|(index, cut)| {
+            let byte = self.document.cuts.byte(index);
+            let own = cut.numbers.iter();
+            own.map(move |(number, place)| (byte + *place as usize, *number))
+        });
+        let mut all: Vec<(usize, Option<u32>)> = placed.collect();
+        if self.document.order().is_some() {
+            all.sort_unstable();
+            all.dedup();
+        }
+        let mut seen: FxHashSet<u32> = FxHashSet::default();
+        for (start, number) in all {
+            let Some(number) = number else {
                 // Another program has its own numbers.
-                while programs
-                    .next_if(|before| **before as usize <= index)
-                    .is_some()
-                {
-                    seen.clear();
-                }
-                let start = placed.offset + place as usize;
-                if *seen.entry(number).or_insert(start) != start {
-                    let line = self.text.line_of(start);
-                    let word =
-                        number_word(self.text, line).unwrap_or_else(|| self.text.line_range(line));
-                    self.add(word, Fault::DoubledNumber { number });
-                }
-            }
-            if programs.next().is_some() {
                 seen.clear();
+                continue;
+            };
+            if !seen.insert(number) {
+                let line = self.text.line_of(start);
+                let word = number_word(self.text, line);
+                let word = word.unwrap_or_else(|| self.text.line_range(line));
+                self.add(word, Fault::DoubledNumber { number });
             }
         }
     }
@@ -165,13 +147,13 @@ impl Report<'_> {
     /// Values for the table that depend on places which the program does not fill, or are beyond any machine.
     pub(super) fn definitions(&mut self) {
         let mut table = Table::default();
-        for placed in self.document.placed() {
-            for definition in &placed.stretch.definitions {
+        for (index, cut) in self.document.cuts.iter().enumerate() {
+            for definition in &cut.rare().definitions {
                 match value(&table, definition, self.reading) {
                     Ok(value) => _ = table.insert(definition.offset, value),
                     Err(why) => {
                         table.remove(&definition.offset);
-                        let range = at(placed.offset, definition.range);
+                        let range = self.document.bytes_in(index, definition.range);
                         let word = self.shown(&range);
                         let fault = match why {
                             NoValue::Unfilled => Fault::UnknownValue { word },
@@ -200,14 +182,8 @@ impl Report<'_> {
             return;
         }
         let is_few = usual.is_some();
-        let odd = usize::from(usual == Some(false));
-        let places = self.document.placed().flat_map(|placed| {
-            let own = placed.stretch.lengths[odd].clone();
-            own.into_iter().map(move |range| at(placed.offset, range))
-        });
-        let places: Vec<Range<usize>> = places
-            .take(if is_few { FEW_BARE as usize } else { 1 })
-            .collect();
+        let most = if is_few { FEW_BARE as usize } else { 1 };
+        let places = self.odd_lengths(usual == Some(false), most);
         for range in places {
             let word = self.shown(&range);
             let fault = match usual {
@@ -227,6 +203,36 @@ impl Report<'_> {
         }
     }
 
+    /// The first lengths with a decimal point, or without one.
+    fn odd_lengths(&self, pointed: bool, most: usize) -> Vec<Range<usize>> {
+        let (document, mut found) = (self.document, Vec::new());
+        for (index, cut) in document.cuts.iter().enumerate() {
+            let has_some = if pointed {
+                cut.has_pointed
+            } else {
+                cut.has_bare
+            };
+            if has_some && found.len() < most {
+                document.run_lines(index, &mut |ran| {
+                    let mut variables = ran.variables;
+                    let (bytes, start) = (
+                        document.line_bytes(ran.line),
+                        self.text.line_start(ran.line),
+                    );
+                    read_under(&mut variables, bytes, start, |note| match note {
+                        Note::Length {
+                            pointed: own,
+                            range,
+                        } if own == pointed => found.push(range),
+                        _ => {}
+                    });
+                });
+            }
+        }
+        found.truncate(most);
+        found
+    }
+
     /// The one or two numbers that have other decimals than all the others.
     pub(super) fn odd_places(&mut self) {
         let Some(decimals) = self.document.usual_decimals().filter(|it| it.others > 0) else {
@@ -234,12 +240,12 @@ impl Report<'_> {
         };
         let usual = decimals.usual;
         let mut found = Vec::new();
-        for placed in self.document.placed() {
-            let own = &placed.stretch.evidence.places;
-            if own.iter().sum::<u32>() == own[usize::from(usual)] {
+        for (index, cut) in self.document.cuts.iter().enumerate() {
+            if cut.places & !(1 << usual) == 0 {
                 continue;
             }
-            for line in placed.lines {
+            for nth in self.document.cuts.lines(index) {
+                let line = self.document.sequence().line(nth);
                 // Of a word that is repeated the last one counts, as in the evidence.
                 let mut lengths: [Option<Range<usize>>; 5] = Default::default();
                 words_at(self.text, line, |letter, number, word| {
@@ -261,9 +267,10 @@ impl Report<'_> {
 
     /// A program without a stated unit whose size or numbers suggest inches; else a size that no wire cuts.
     pub(super) fn unit(&mut self) {
-        let placed = self.document.stretches.iter().filter_map(|stretch| {
-            let by = micrometres(stretch.moved).coords;
-            Some(stretch.bounds?.moved(by))
+        let cuts = self.document.cuts.iter().enumerate();
+        let placed = cuts.filter_map(|(index, cut)| {
+            let at = micrometres(self.document.cuts.state_before(index).at).coords;
+            Some(cut.bounds?.moved(at))
         });
         let Some(bounds) = placed.reduce(|one, other| one.merged(&other)) else {
             return;
@@ -277,7 +284,7 @@ impl Report<'_> {
         let fault = if self.speaks_for_inches(size) {
             Some(Fault::LooksLikeInches { size })
         } else if self.is_whole() && !is_endless() {
-            absurd_size(&bounds, self.moves as usize)
+            absurd_size(&bounds, self.steps as usize)
         } else {
             None
         };
@@ -342,10 +349,15 @@ impl Report<'_> {
 
     /// The centre of the first arc that could have told how I and J are meant.
     pub(super) fn first_center(&self) -> Option<Range<usize>> {
-        let mut arcs = self.document.placed().filter_map(|placed| {
-            let (first, _) = placed.stretch.first_center?;
-            Some(placed.offset + first as usize)
-        });
+        let mut arcs = self
+            .document
+            .cuts
+            .iter()
+            .enumerate()
+            .filter_map(|(index, cut)| {
+                let (first, _) = cut.rare().first_center?;
+                Some(self.document.cuts.byte(index) + first as usize)
+            });
         let line = self.text.line_of(arcs.next()?);
         let word = word_at(self.text, line, |letter, _| matches!(letter, b'I' | b'J'));
         // Of a variable only the line is known.

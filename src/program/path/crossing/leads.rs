@@ -28,9 +28,9 @@ impl Tangle<'_> {
                 (end - at).norm() <= 2.0 * self.margin || self.run_beside(first, second, at, end)
             })
         };
-        let back = |count: usize| self.count.checked_sub(count).and_then(piece);
+        let back = |count: usize| self.pieces.len().checked_sub(count).and_then(piece);
         first <= 2
-            && second + 3 >= self.count
+            && second + 3 >= self.pieces.len()
             && [0, 1]
                 .into_iter()
                 .any(|index| near(piece(index).map(|piece| piece.end())))
@@ -56,7 +56,7 @@ impl Tangle<'_> {
     /// The way out, from the start of a tab, crosses the way in: both run through scrap. Each is a line, or a line and
     /// an arc tangent to it and to the contour, and the wire turns back at the thread hole.
     fn are_ways_in_and_out(&self, first: usize, second: usize) -> bool {
-        let Some(last) = self.count.checked_sub(1).filter(|last| *last > 4) else {
+        let Some(last) = self.pieces.len().checked_sub(1).filter(|last| *last > 4) else {
             return false;
         };
         let is_smooth = |one: usize, other: usize| {
@@ -83,7 +83,7 @@ impl Tangle<'_> {
                 return false;
             };
             let before = index.checked_sub(1).and_then(|before| self.at(before));
-            let behind = match index + 1 == self.count {
+            let behind = match index + 1 == self.pieces.len() {
                 true => self.next,
                 false => self.at(index + 1),
             };
@@ -95,16 +95,16 @@ impl Tangle<'_> {
                 && step.length() <= BESIDE
                 && [before, behind].into_iter().flatten().any(goes_back)
         };
-        first <= 1 && is_step(second) || second + 2 >= self.count && is_step(first)
+        first <= 1 && is_step(second) || second + 2 >= self.pieces.len() && is_step(first)
     }
 
     /// The pass back lies beside the one that the way in leads to: the way out begins beside the end of the way in, and
     /// crosses it or the pass at its begin. What it would cut off is the strip between the two passes.
     fn is_between_passes_to_and_fro(&self, first: usize, second: usize, at: Point) -> bool {
-        if first > 2 || second + 3 < self.count {
+        if first > 2 || second + 3 < self.pieces.len() {
             return false;
         }
-        let middle = self.count / 2;
+        let middle = self.pieces.len() / 2;
         let between =
             (middle.saturating_sub(2)..=middle + 2).filter_map(|index| self.step_back(index));
         let Some(width) = between.reduce(f64::max) else {
@@ -113,7 +113,7 @@ impl Tangle<'_> {
         let is_near = |point: Point| (point - at).norm() <= 2.0 * width + self.margin;
         let ends = [0, 1].map(|index| self.at(index).map(|piece| piece.end()));
         let begins = [1, 2].map(|back| {
-            let index = self.count.checked_sub(back)?;
+            let index = self.pieces.len().checked_sub(back)?;
             self.at(index).map(|piece| piece.start())
         });
         let any_near = |points: [Option<Point>; 2]| points.into_iter().flatten().any(is_near);
@@ -153,7 +153,7 @@ impl Tangle<'_> {
 
     fn overlaps(&self, [one, other]: [usize; 2], at: Point, is_turned: bool) -> bool {
         let most = MOST_BEYOND + 2;
-        let turned = |index: usize| self.count.checked_sub(index + 1);
+        let turned = |index: usize| self.pieces.len().checked_sub(index + 1);
         let piece = |index: usize| match is_turned {
             true => turned(index)
                 .and_then(|index| self.at(index))
@@ -164,7 +164,7 @@ impl Tangle<'_> {
             (true, Some(first), Some(second)) => (first, second),
             _ => (one, other),
         };
-        if first > most || second + most + 1 < self.count {
+        if first > most || second + most + 1 < self.pieces.len() {
             return false;
         }
         let leads = [(1, 1), (2, 2), (1, 2), (2, 1)];
@@ -172,7 +172,7 @@ impl Tangle<'_> {
             .into_iter()
             .flat_map(|leads| (1..=MOST_BEYOND).map(move |beyond| (leads, beyond)));
         all.into_iter().any(|((way_in, way_out), beyond)| {
-            let Some(closes) = self.count.checked_sub(way_out + beyond) else {
+            let Some(closes) = self.pieces.len().checked_sub(way_out + beyond) else {
                 return false;
             };
             if closes < way_in + beyond || first > way_in + beyond || second + 1 < closes {

@@ -3,9 +3,9 @@ use crate::program::path::Writing;
 use proptest::prelude::*;
 
 /// A closed way through some points, mm.
-fn way(points: &[[f64; 2]]) -> HeldWay {
+fn way(points: &[[f64; 2]]) -> Way {
     let at = |[x, y]: [f64; 2]| Point::new(x * UM_IN_MM, y * UM_IN_MM);
-    let mut way = HeldWay::from(Node::at(at(points[0])), Writing::default());
+    let mut way = Way::from(Node::at(at(points[0])), Writing::default());
     let ends = points.iter().skip(1).chain([&points[0]]);
     for (from, to) in points.iter().zip(ends) {
         way.push(Segment::line(at(*from), at(*to)), false, Node::at(at(*to)));

@@ -2,36 +2,42 @@
 
 use super::super::repair::Scope;
 use super::super::rules::TextFix;
-use super::{At, JoinedCut};
-use crate::program::contours::PartAt;
-use crate::program::work::{self, Work};
+use super::At;
+use super::contours::OneContour;
 use std::collections::BTreeMap;
 use std::sync::{Mutex, OnceLock, PoisonError};
 
-/// The repairs of cuts, by their first and last part, whether each leads to another contour, and its stop.
-type OfCuts = BTreeMap<([PartAt; 2], bool, Option<usize>, Scope), Vec<TextFix>>;
+/// The repairs of contours, by their first cut and the one behind them.
+type OfContours = BTreeMap<([usize; 2], Scope), Vec<TextFix>>;
+
+#[cfg(test)]
+thread_local! {
+    /// How many contours this thread has searched for repairs.
+    static SEARCHED: std::cell::Cell<usize> = const { std::cell::Cell::new(0) };
+}
 
 /// Answers that depend on the program alone.
 #[derive(Debug, Default)]
 pub(super) struct Asked {
-    fixes: Mutex<OfCuts>,
+    fixes: Mutex<OfContours>,
     faulty_numbers: OnceLock<BTreeMap<At, Option<u32>>>,
 }
 
 impl Asked {
-    /// The repairs of a cut. While they are `found`, others may ask.
+    /// The repairs of a contour. While they are `found`, others may ask.
     pub(super) fn fixes_of(
         &self,
-        cut: &JoinedCut,
+        cuts: &OneContour,
         scope: Scope,
         found: impl FnOnce() -> Vec<TextFix>,
     ) -> Vec<TextFix> {
-        let key = (cut.parts, cut.is_jump, cut.stop, scope);
+        let key = ([cuts.start, cuts.end], scope);
         let held = || self.fixes.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(known) = held().get(&key) {
             return known.clone();
         }
-        work::add(Work::Repairs, 1);
+        #[cfg(test)]
+        SEARCHED.set(SEARCHED.get() + 1);
         let found = found();
         held().insert(key, found.clone());
         found
@@ -64,7 +70,6 @@ impl PartialEq for Asked {
 mod tests {
     use crate::program::numbering::Renumbering;
     use crate::program::three_b::Document;
-    use crate::program::work::{self, Work};
 
     #[test]
     fn a_cut_is_searched_once_for_all_its_findings() {
@@ -80,12 +85,12 @@ mod tests {
             fixes.collect::<Vec<_>>()
         };
         let before = asked(&document);
-        assert_eq!(work::take(Work::Repairs), 1);
+        assert_eq!(super::SEARCHED.take(), 1);
         assert_eq!(asked(&document), before);
-        assert_eq!(work::take(Work::Repairs), 0);
+        assert_eq!(super::SEARCHED.take(), 0);
         // What was known of the text before an edit does not count after it.
         document.edit(0..0, "\n");
         asked(&document);
-        assert_eq!(work::take(Work::Repairs), 1);
+        assert_eq!(super::SEARCHED.take(), 1);
     }
 }

@@ -1,157 +1,238 @@
-//! The contours of a program: its open cuts, each with what goes on after its stops.
+//! The contours of a program: its cuts, and those that belong together.
 
-use super::super::sum::{Sum, is_jump};
-use super::{At, Document, JoinedCut};
-use crate::program::by_chunk::Begun;
-use crate::program::contours::PartAt;
-use crate::program::followed::Followed;
-use crate::program::path::HasCuts;
+use super::super::cut::Cut;
+use super::super::entry::{BlockEntry, Entry, What};
+use super::super::words::Word;
+use super::{At, Document};
+use crate::geometry::cross;
+use crate::program::contours::Divided;
+use crate::program::path::{ControlOffset, Ends, Verdict, Way};
+use crate::program::steps::Program;
+use std::borrow::Cow;
+use std::ops::Range;
 
-impl Followed for Document {
+/// Cuts that are one contour, or the way between two.
+pub(super) type OneContour = Range<usize>;
+
+impl Divided for Document {
     const PIECES_ARE_ONE: bool = true;
 
-    /// Of the cuts within one stretch only those that may be open or cross themselves.
-    fn next_cut(&self, from: PartAt, before: PartAt) -> Option<JoinedCut> {
-        let outer = &self.view.outer;
-        let outer = outer.get(outer.partition_point(|cut| cut.parts[0] < from));
-        let last = self.last_part();
-        for stretch in from.0..self.stretches.len().min(before.0 + 1) {
-            let of = self.stretches.get(stretch)?;
-            let first = if stretch == from.0 { from.1 } else { 0 };
-            let from_first = |parts: &[usize]| {
-                let next = parts.partition_point(|part| *part < first);
-                parts.get(next).copied()
-            };
-            let here = |(own, part): PartAt| (own == stretch && part >= first).then_some(part);
-            let places = [
-                from_first(&of.open),
-                from_first(&of.may_cross),
-                outer.and_then(|cut| here(cut.parts[0])),
-                last.and_then(here),
-            ];
-            if let Some(part) = places.into_iter().flatten().min() {
-                let at = (stretch, part);
-                let known = outer.filter(|cut| cut.parts[0] == at).cloned();
-                return known.or_else(|| self.cut_from(at)).filter(|_| at < before);
-            }
-        }
-        None
+    fn id(&self, cut: usize) -> u64 {
+        self.cuts[cut].id
     }
 
-    fn behind(&self, cut: &JoinedCut) -> PartAt {
-        self.part_behind(cut.parts[1])
+    fn verdict(&self, cut: usize) -> Cow<'_, Verdict> {
+        Cow::Borrowed(&self.cuts[cut].verdict)
     }
 
-    /// The blocks from a part on, up to the next word; `None` after the end of the program.
-    fn cut_from(&self, start: PartAt) -> Option<JoinedCut> {
-        let end = self.view.end;
-        let mut cut: Option<JoinedCut> = None;
-        let (mut stretch, mut index) = start;
-        while let Some(of) = self.stretches.get(stretch) {
-            let at = |entry: usize| At { stretch, entry };
-            for (nth, part) in of.parts.iter().enumerate().skip(index) {
-                if end.is_some_and(|end| end < at(part.entries().start)) {
-                    return cut;
-                }
-                let own = cut.get_or_insert(JoinedCut {
-                    parts: [(stretch, nth); 2],
-                    sum: Sum::default(),
-                    is_jump: false,
-                    stop: None,
-                });
-                own.parts[1] = (stretch, nth);
-                own.sum = own.sum.then(&of.sum(part));
-                if part.word.is_some() {
-                    let is_end = end == Some(at(part.entries().end));
-                    own.is_jump = start != (0, 0)
-                        && self.is_behind_word(start)
-                        && !is_end
-                        && is_jump(&own.sum)
-                        && !self.stops_again((stretch, nth));
-                    return cut;
-                }
-            }
-            (stretch, index) = (stretch + 1, 0);
-        }
-        cut
+    fn way(&self, cut: usize) -> Way {
+        self.cuts[cut].way()
     }
 
-    fn may_go_on(&self, cut: &JoinedCut) -> bool {
-        let is_empty = cut.sum.blocks + cut.sum.unread == 0;
-        !(cut.is_jump
-            || is_empty
-            || !self.may_be_open(cut)
-            || self.goes_round(cut)
-            || self.ends_open(cut))
+    fn may_go_on(&self, cut: usize) -> bool {
+        let own = &self.cuts[cut];
+        own.has_blocks()
+            && !own.verdict.goes_round
+            && !self.is_jump(cut)
+            && !(own.stop.is_some() && self.stops_again(cut))
     }
 
-    fn stop_between(&self, _: &JoinedCut, behind: &JoinedCut) -> (usize, usize) {
-        behind.begin()
+    fn behind_stop(&self, cut: usize) -> Option<usize> {
+        Some(cut + 1).filter(|next| *next < self.cut_count())
     }
 
-    fn joined(&self, cut: JoinedCut, behind: &JoinedCut) -> JoinedCut {
-        JoinedCut {
-            parts: [cut.parts[0], behind.parts[1]],
-            sum: cut.sum.then(&behind.sum),
-            is_jump: false,
-            stop: cut.stop.or(Some(cut.sum.blocks)),
-        }
+    fn stands_alone(&self, cut: usize) -> bool {
+        let own = &self.cuts[cut];
+        own.verdict.ends.blocks > 0 && (self.is_jump(cut) || own.verdict.closes())
     }
 
-    fn stands_alone(&self, cut: &JoinedCut) -> bool {
-        cut.sum.blocks > 0 && (cut.is_jump || self.is_closed(cut))
+    fn is_doubtful(&self, cuts: &Range<usize>) -> bool {
+        self.errors(cuts) > 0
     }
 
-    /// To and fro on one way it closes.
-    fn stays_open(&self, cut: &JoinedCut) -> bool {
-        !self.is_closed(cut)
+    fn control_offset(&self, cuts: &Range<usize>) -> Option<ControlOffset> {
+        let blocks = self.cuts[cuts.clone()].iter().flat_map(Cut::blocks);
+        self.limits.control_offset(blocks, self.twice_area(cuts))
     }
-}
-
-impl Begun for JoinedCut {
-    type Sum = ();
-
-    fn begin(&self) -> PartAt {
-        self.parts[0]
-    }
-
-    fn renumber(&mut self, moved: &dyn Fn(usize) -> usize) {
-        self.parts = self.parts.map(|(stretch, part)| (moved(stretch), part));
-    }
-
-    fn sum(_: &[JoinedCut]) {}
 }
 
 impl Document {
-    /// The part that the word at the end of the program ends.
-    fn last_part(&self) -> Option<PartAt> {
-        let At { stretch, entry } = self.view.end?;
-        let parts = &self.stretches.get(stretch)?.parts;
-        let part = parts.binary_search_by_key(&entry, |part| part.entries().end);
-        Some((stretch, part.ok().filter(|part| *part > 0)?))
-    }
-
-    /// Between two pauses what looks like a way to the next contour is one; before the end it is not.
-    fn may_be_open(&self, cut: &JoinedCut) -> bool {
-        let (stretch, part) = cut.parts[0];
-        let is_named = |of: &super::Stretch| {
-            let is_inner = part > 0 && part + 1 < of.parts.len();
-            !is_inner || of.open.binary_search(&part).is_ok()
+    /// The word that ends the program: the first of the controller's own, else the last that ends programs elsewhere,
+    /// else a stop with no block after it.
+    pub(super) fn end_word(&self) -> Option<At> {
+        let stops = || self.cuts.iter().enumerate();
+        let ends = |is_own: bool| {
+            let is_end = move |stop: &(Word, bool)| stop.0 == Word::End && (stop.1 || !is_own);
+            move |(_, cut): &(usize, &Cut)| cut.stop.as_ref().is_some_and(is_end)
         };
-        self.stretches.get(stretch).is_some_and(is_named)
-            || self.last_part() == Some((stretch, part))
+        let own = stops().find(ends(true));
+        let foreign = || stops().rfind(ends(false));
+        let stop = || {
+            let (last, cut) = stops().rfind(|(_, cut)| cut.stop.is_some())?;
+            let is_last = self.cuts[last + 1..]
+                .iter()
+                .all(|cut| cut.verdict.ends.blocks == 0);
+            let has_blocks = || self.last_block(None).is_some();
+            (is_last && has_blocks()).then_some((last, cut))
+        };
+        let (cut, own) = own.or_else(foreign).or_else(stop)?;
+        Some(At {
+            cut,
+            entry: own.stop_entry()?,
+        })
     }
 
-    /// Whether the machine stops twice where a cut ends.
-    fn ends_open(&self, cut: &JoinedCut) -> bool {
-        let last = cut.parts[1];
-        let word = self.stretches.get(last.0).and_then(|of| {
-            let part = of.parts.get(last.1)?;
-            part.word.map(|_| At {
-                stretch: last.0,
-                entry: part.entries().end,
-            })
-        });
-        word.is_some() && word != self.view.end && self.stops_again(last)
+    /// The content of a cut.
+    pub(super) fn entries_in(&self, cut: usize) -> &[Entry] {
+        self.cuts.get(cut).map_or(&[], |cut| &cut.entries)
+    }
+
+    /// The content of some cuts, in order.
+    pub(super) fn entries(
+        &self,
+        cuts: Range<usize>,
+    ) -> impl DoubleEndedIterator<Item = (At, &Entry)> {
+        cuts.flat_map(move |cut| {
+            let entries = self.entries_in(cut).iter().enumerate();
+            entries.map(move |(entry, what)| (At { cut, entry }, what))
+        })
+    }
+
+    /// That of the whole program.
+    pub(super) fn all_entries(&self) -> impl DoubleEndedIterator<Item = (At, &Entry)> {
+        self.entries(0..self.cuts.len())
+    }
+
+    /// The entries from one on.
+    pub(super) fn from(&self, at: At) -> impl Iterator<Item = (At, &Entry)> {
+        let all = self.entries(at.cut..self.cuts.len());
+        all.skip_while(move |(own, _)| *own < at)
+    }
+
+    /// The entries before one, the nearest first.
+    pub(super) fn before(&self, at: At) -> impl Iterator<Item = (At, &Entry)> {
+        let all = self.entries(0..at.cut + 1).rev();
+        all.skip_while(move |(own, _)| *own >= at)
+    }
+
+    /// The entry that a range lies in or before.
+    pub(super) fn entry_at(&self, range: &Range<usize>) -> Option<At> {
+        let first = self.cuts.first_at(self.text.line_of(range.start));
+        let from = self.entries(first..self.cuts.len());
+        let mut behind = from.filter(|(at, _)| self.range_of(*at).end > range.start);
+        behind.next().map(|(at, _)| at)
+    }
+
+    /// The block that a range lies in or before.
+    pub(super) fn block_at(&self, range: &Range<usize>) -> Option<(At, &BlockEntry)> {
+        let at = self.entry_at(range)?;
+        Some((at, self.entry(at)?.block()?))
+    }
+
+    pub(super) fn last_block(&self, end: Option<At>) -> Option<At> {
+        let cuts = 0..end.map_or(self.cuts.len(), |end| end.cut + 1);
+        let mut all = self.entries(cuts).rev();
+        let last = all.find(|(at, what)| what.block().is_some() && end.is_none_or(|end| *at < end));
+        last.map(|(at, _)| at)
+    }
+
+    /// Whether another stop follows the one after a cut, with no block between: an open contour before them is meant to
+    /// end there. The word that ends the program does not count: a tab may be left standing.
+    pub(super) fn stops_again(&self, cut: usize) -> bool {
+        let next = self.cuts.get(cut + 1);
+        let stops = next.is_some_and(|next| !next.has_blocks() && next.stop.is_some());
+        !self.is_end(cut) && stops && !self.is_end(cut + 1)
+    }
+
+    /// Whether the stop after a cut ends the program.
+    fn is_end(&self, cut: usize) -> bool {
+        self.view.end.is_some_and(|end| end.cut == cut)
+    }
+
+    /// The way between two contours, without the wire.
+    pub(super) fn is_jump(&self, cut: usize) -> bool {
+        let own = &self.cuts[cut];
+        own.may_be_jump
+            && cut > 0
+            && own.stop.is_some()
+            && !self.is_end(cut)
+            && !self.stops_again(cut)
+            && self.view.contours.of_cut(cut).is_none()
+    }
+
+    /// The contour that an entry lies in, or the way between two; `None` after the end.
+    pub(super) fn contour_at(&self, at: At) -> Option<OneContour> {
+        (at.cut < self.cut_count()).then(|| self.view.contours.cuts_of(at.cut))
+    }
+
+    /// An open contour, and those before and after its stops that are open too, as one: the fault may be in any of them.
+    /// `None` where it is the only one.
+    pub(super) fn with_open_beside(&self, cuts: &OneContour) -> Option<OneContour> {
+        let is_open = |cut: &usize| self.is_open(*cut);
+        if !self.is_open(cuts.start) {
+            return None;
+        }
+        let before = cuts.start.checked_sub(1).filter(is_open);
+        let behind = Some(cuts.end).filter(|cut| *cut < self.cut_count() && is_open(cut));
+        let all = before.unwrap_or(cuts.start)..behind.map_or(cuts.end, |cut| cut + 1);
+        (all != *cuts).then_some(all)
+    }
+
+    /// Whether a cut is a contour that does not close, and with which no other goes on.
+    pub(super) fn is_open(&self, cut: usize) -> bool {
+        let closes = self.cuts[cut].verdict.closes();
+        !closes && self.view.contours.of_cut(cut).is_none() && self.may_go_on(cut)
+    }
+
+    pub(super) fn closes(&self, cuts: &OneContour) -> bool {
+        !self.is_open(cuts.start)
+    }
+
+    /// The entries of a contour in their order, without its last stop.
+    pub(super) fn entries_of(&self, cuts: &OneContour) -> impl DoubleEndedIterator<Item = At> + '_ {
+        let last = cuts.end.saturating_sub(1);
+        let stop = self.cuts.get(last).and_then(Cut::stop_entry);
+        let is_own = move |at: &At| at.cut < last || stop.is_none_or(|stop| at.entry < stop);
+        self.entries(cuts.clone()).map(|(at, _)| at).filter(is_own)
+    }
+
+    /// The blocks of a contour in their order.
+    pub(super) fn blocks_of(&self, cuts: &OneContour) -> impl DoubleEndedIterator<Item = At> + '_ {
+        let all = self.entries(cuts.clone());
+        all.filter(|(_, entry)| entry.block().is_some())
+            .map(|(at, _)| at)
+    }
+
+    pub(super) fn ends_of(&self, cuts: &OneContour) -> Ends {
+        let mut all = self.cuts[cuts.clone()].iter().map(|cut| cut.verdict.ends);
+        let first = all.next().unwrap_or_default();
+        all.fold(first, |before, next| before.then(&next))
+    }
+
+    /// Twice the area between a contour and its chord, µm²; above 0 where it runs to the left.
+    pub(super) fn twice_area(&self, cuts: &OneContour) -> f64 {
+        let (mut area, mut at) = (0.0, crate::geometry::Vector::zeros());
+        for Cut { verdict, .. } in &self.cuts[cuts.clone()] {
+            let by = verdict.ends.travel().ideal.coords;
+            area += verdict.twice_area + cross(at, by);
+            at += by;
+        }
+        area
+    }
+
+    pub(super) fn errors(&self, cuts: &OneContour) -> usize {
+        self.cuts[cuts.clone()].iter().map(|cut| cut.errors).sum()
+    }
+
+    pub(super) fn unread(&self, cuts: &OneContour) -> usize {
+        self.cuts[cuts.clone()].iter().map(|cut| cut.unread).sum()
+    }
+
+    /// Whether a stop follows the last stop before an entry: nothing is cut between.
+    pub(super) fn is_behind_stop(&self, at: At) -> bool {
+        let mut before = self.before(at).map(|(_, entry)| &entry.what);
+        let is_stop =
+            |what: &&What| matches!(what, What::Block(_) | What::Word { .. } | What::Unread);
+        matches!(before.find(is_stop), Some(What::Word { .. }))
     }
 }

@@ -2,21 +2,21 @@
 
 use super::super::around::StatedPoint;
 use super::super::block::{Block, Node};
+use super::super::cut::way_of;
 use super::super::encode::line_block;
-use super::super::entry::{BlockEntry, Move, What, travel_of};
+use super::super::entry::{BlockEntry, What};
 use super::super::fields::fields_of;
 use super::super::layout::{layout_in, push_fields};
 use super::super::pieces::{Field, Piece, pieces};
 use super::super::rules::position_mismatch::Mismatched;
 use super::super::rules::{self, Site, TextFix, missing_end, position_mismatch, text_after_end};
-use super::super::sum::Sum;
 use super::sequence::place_before;
 use super::{At, Document};
 use crate::finding::{Detail, Fault, Finding, FixKind, Rule};
 use crate::program::lookalikes::alike;
 use crate::program::numbering::{self, Renumbering};
-use crate::program::path::{HasCuts, not_closed};
-use crate::program::repair::merged;
+use crate::program::path::{Ends, tolerance};
+use crate::program::repair::{merged, without_spur};
 use crate::text::TextEdit;
 use std::ops::Range;
 
@@ -30,9 +30,10 @@ impl Document {
     ) -> Vec<TextFix> {
         let mut own = self.fixes_of(finding, renumbering).unwrap_or_default();
         let of_contour = self.contour_fixes(finding);
-        let cut = || self.cut_of(self.entry_at(finding.place.in_text()?)?);
+        let cuts = || self.contour_at(self.entry_at(finding.place.in_text()?)?);
         let is_searched = of_contour.is_some() && is_about_numbers(finding.rule);
-        if is_searched && cut().is_some_and(|cut| cut.sum.blocks >= FEWEST_THAT_CLOSE) {
+        if is_searched && cuts().is_some_and(|cuts| self.ends_of(&cuts).blocks >= FEWEST_THAT_CLOSE)
+        {
             // Which of them is wrong is for the search to say.
             let is_way = |fix: &&mut TextFix| !matches!(fix.kind, FixKind::SetCoordinates { .. });
             own.iter_mut()
@@ -53,7 +54,7 @@ impl Document {
             Fault::MissingEnd { word } => {
                 // Of a contour that is not whole the rest is missing, not the end.
                 let (at, _) = self.block_at(range)?;
-                let is_whole = self.closes(&self.cut_of(at)?);
+                let is_whole = self.closes(&self.contour_at(at)?);
                 is_whole.then(|| missing_end::fixes(&self.text, range.end, word))
             }
             Fault::TextAfterEnd { .. } => {
@@ -77,7 +78,7 @@ impl Document {
         let before = self.stated_before(at)?;
         let next = self
             .next_block(at)
-            .and_then(|next| Some((next.stated_end()?, next.travel())));
+            .and_then(|(_, next)| Some((next.stated_end()?, next.travel())));
         let goes_on =
             next.map(|(end, travel)| position_mismatch::mismatch(&stated, &travel, &end).is_none());
         let line = self.text.line_range(self.text.line_of(own.start));
@@ -89,7 +90,7 @@ impl Document {
             .iter()
             .find(is_behind)
             .map(|piece| line.start + piece.range.start..line.start + piece.range.end)?;
-        let cut = self.cut_of(at)?;
+        let cuts = self.contour_at(at)?;
         Some(position_mismatch::fixes(&Mismatched {
             text: self.text.bytes(),
             block: entry.block(),
@@ -98,8 +99,8 @@ impl Document {
             before,
             stated,
             goes_on,
-            closes: self.closes(&cut),
-            closes_with: &|blocks| self.closes_with(at, entry, blocks),
+            closes: self.closes(&cuts),
+            closes_with: &|blocks| self.closes_with(at, blocks),
         }))
     }
 
@@ -126,9 +127,9 @@ impl Document {
         })?
     }
 
-    fn next_block(&self, at: At) -> Option<&BlockEntry> {
+    pub(super) fn next_block(&self, at: At) -> Option<(At, &BlockEntry)> {
         let mut behind = self.from(at).skip(1);
-        behind.find_map(|(_, entry)| entry.block())
+        behind.find_map(|(at, entry)| Some((at, entry.block()?)))
     }
 
     fn block_fixes(&self, range: &Range<usize>, fault: &Fault) -> Option<Vec<TextFix>> {
@@ -153,38 +154,51 @@ impl Document {
             fields,
             block: entry.block(),
             largest: self.limits.largest(),
-            closes_with: &|blocks| self.closes_with(at, entry, blocks),
+            closes_with: &|blocks| self.closes_with(at, blocks),
         };
         Some(rules::fixes(&site, fault))
     }
 
     /// Whether the contour of a block closes with other blocks in its place.
-    fn closes_with(&self, at: At, entry: &BlockEntry, blocks: &[Block]) -> bool {
-        let Some(cut) = self.cut_of(at) else {
+    fn closes_with(&self, at: At, blocks: &[Block]) -> bool {
+        let Some(cuts) = self.contour_at(at) else {
             return false;
         };
-        let new = blocks
-            .iter()
-            .map(travel_of)
-            .fold(Move::default(), Move::plus);
-        let mut sum = Sum {
-            travel: cut.sum.travel.minus(entry.travel()).plus(new),
-            ..cut.sum
+        let all: Vec<At> = self.blocks_of(&cuts).collect();
+        let own = |own: &At| Some(self.entry(*own)?.block()?.block());
+        let made = all.iter().flat_map(|other| match *other == at {
+            true => blocks.to_vec(),
+            false => own(other).into_iter().collect(),
+        });
+        all.len() >= 3 && Ends::of(&way_of(made)).close()
+    }
+
+    /// A way out and back goes, where it returns to its start.
+    fn spur_fixes(&self, range: &Range<usize>) -> Option<Vec<TextFix>> {
+        let (back, own) = self.block_at(range)?;
+        let mut before = self.before(back);
+        let (out, before) = before.find_map(|(at, entry)| Some((at, entry.block()?)))?;
+        let both = before.travel().plus(own.travel());
+        let line_of = |at: At| self.text.line_of(self.range_of(at).start);
+        for at in [out, back] {
+            let entries = self.entries_in(at.cut).iter();
+            let line = self.entry(at)?.line;
+            if entries.filter(|entry| entry.line == line).count() > 1 {
+                return None;
+            }
+        }
+        let shown = |at: At| {
+            let own = self.text.bytes().get(self.range_of(at)).unwrap_or_default();
+            (line_of(at), String::from_utf8_lossy(own).into_owned())
         };
-        if self.blocks_of(&cut).next() == Some(at) {
-            sum.first = blocks.first().map(travel_of).or(sum.first);
-        }
-        if self.last_block_of(&cut) == Some(at) {
-            sum.last = blocks.last().map(travel_of).or(sum.last);
-        }
-        cut.sum.blocks >= 3 && sum.ends().close()
+        both.is_within(tolerance(0))
+            .then(|| vec![without_spur(&self.text, [out, back].map(shown))])
     }
 
     /// A straight block that closes the contour.
     fn closing_fixes(&self, range: &Range<usize>) -> Option<Vec<TextFix>> {
         let (at, _) = self.block_at(range)?;
-        let cut = self.cut_of(at)?;
-        let Fault::NotClosed { x, y } = not_closed(&self.way(&cut))? else {
+        let Fault::NotClosed { x, y } = self.ends_of(&self.contour_at(at)?).not_closed() else {
             return None;
         };
         let [x, y] = [-x, -y].map(|um| um.round() as i64);

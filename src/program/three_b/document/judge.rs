@@ -7,60 +7,56 @@ use super::Document;
 use super::sequence::OffPosition;
 use crate::finding::{Detail, Fault, Finding, Rule, Severity};
 use crate::geometry::{Bounds, Vector};
-use crate::program::followed::Followed;
-use crate::program::path::{HasCuts, absurd_size};
+use crate::program::path::absurd_size;
+use crate::program::steps::Program;
 use std::ops::Range;
 
 impl Document {
-    /// Adds the findings about the program as a whole to those that were found already.
-    pub(super) fn judge(&mut self, off: Vec<OffPosition>, mut findings: Vec<Finding>) {
+    /// The findings about the program as a whole.
+    pub(super) fn judge(&self, off: &[OffPosition]) -> Vec<Finding> {
+        let mut findings = Vec::new();
         self.judge_end(&mut findings);
         self.judge_texts(&mut findings);
         self.judge_numbers(&mut findings);
         self.judge_positions(&mut findings, off);
         self.judge_size(&mut findings);
         self.judge_ways(&mut findings);
-        self.view.findings = findings;
+        findings
     }
 
     /// `units`: a whole program of a size that no wire cuts.
     fn judge_size(&self, findings: &mut Vec<Finding>) {
-        // Stretches are laid end to end as their parts are, by their blocks' meaning: it does not matter where a
-        // stretch ends.
+        // Cuts are laid end to end by what their blocks mean.
         let (mut bounds, mut blocks, mut before) = (Bounds::EMPTY, 0, Move::default());
-        for of in self.stretches.iter() {
-            if let Some(own) = of.bounds {
-                let [x, y] = before.meant_um();
-                bounds.merge(&own.moved(Vector::new(x, y)));
-            }
-            blocks += of.blocks;
-            before = before.plus(of.travel);
+        for cut in self.cuts.iter().filter(|cut| cut.verdict.ends.blocks > 0) {
+            let [x, y] = before.meant_um();
+            bounds.merge(&cut.verdict.bounds.moved(Vector::new(x, y)));
+            blocks += cut.verdict.ends.blocks;
+            before = before.plus(cut.travel);
         }
         let first = || {
-            let mut all = self.entries(0..self.stretches.len());
-            let (at, _) = all.find(|(_, entry)| entry.block().is_some())?;
-            Some(self.range_of(at))
+            self.all_entries()
+                .find(|(_, entry)| entry.block().is_some())
         };
         if self.view.end.is_some()
             && let Some(fault) = absurd_size(&bounds, blocks)
-            && let Some(range) = first()
+            && let Some((at, _)) = first()
         {
-            findings.push(Finding::of(fault, range));
+            findings.push(Finding::of(fault, self.range_of(at)));
         }
     }
 
     /// `not-closed`, of a cut that leads on from the start hole to the next contour, without the stop before that.
     fn judge_ways(&self, findings: &mut Vec<Finding>) {
-        let mut at = (0, 0);
-        while let Some(cut) = self.cut_from(at) {
-            at = self.behind(&cut);
-            let Some(length) = self.leads_on(&cut) else {
-                continue;
-            };
+        for cut in 0..self.cut_count() {
             // The last one may well end elsewhere.
-            let goes_on = self.cut_from(at).is_some_and(|next| next.sum.blocks > 0);
-            if let (true, Some(last)) = (goes_on, HasCuts::last_block(self, &cut)) {
-                findings.push(Finding::of(Fault::LeadsOn { length }, last));
+            let goes_on =
+                |next: usize| next < self.cut_count() && self.cuts[next].verdict.ends.blocks > 0;
+            if let Some(length) = self.cuts[cut].verdict.ends.lead_on()
+                && goes_on(cut + 1)
+                && let Some(last) = self.blocks_of(&(cut..cut + 1)).next_back()
+            {
+                findings.push(Finding::of(Fault::LeadsOn { length }, self.range_of(last)));
             }
         }
     }
@@ -71,7 +67,7 @@ impl Document {
             return;
         };
         let Some(end) = self.view.end else {
-            let blocks: usize = self.stretches.iter().map(|stretch| stretch.blocks).sum();
+            let blocks: usize = self.cuts.iter().map(|cut| cut.verdict.ends.blocks).sum();
             let fault = Fault::MissingEnd {
                 word: self.words.end.clone(),
             };
@@ -90,7 +86,7 @@ impl Document {
             What::CommentedBlock { .. } => false,
             _ => true,
         };
-        let behind = self.entries(end.stretch..self.stretches.len());
+        let behind = self.entries(end.cut..self.cuts.len());
         let mut texts = behind.filter(|(at, entry)| *at > end && is_text(&entry.what));
         if let Some((first, _)) = texts.next() {
             let word = self.range_of(end);
@@ -103,23 +99,20 @@ impl Document {
 
     /// Text that is no block is a heading before the first block, and a fault between blocks.
     fn judge_texts(&self, findings: &mut Vec<Finding>) {
-        let mut blocks = self.entries(0..self.stretches.len());
-        let first_block = blocks.find(|(_, entry)| entry.block().is_some());
+        let first_block = self
+            .all_entries()
+            .find(|(_, entry)| entry.block().is_some());
         let first_block = first_block.map(|(at, _)| at);
         let known = findings.len();
-        let has_texts = |stretch: &usize| self.stretches[*stretch].texts > 0;
-        let stretches = (0..self.stretches.len()).filter(has_texts);
-        let texts = stretches
-            .flat_map(|stretch| self.entries(stretch..stretch + 1))
+        let with_texts = (0..self.cuts.len()).filter(|cut| self.cuts[*cut].texts > 0);
+        let texts = with_texts
+            .flat_map(|cut| self.entries(cut..cut + 1))
             .filter_map(|(at, entry)| match entry.what {
                 What::Text { column } => Some((at, column, false)),
                 What::CommentedBlock { column } => Some((at, column, true)),
                 _ => None,
             });
-        let has_fault = self
-            .stretches
-            .iter()
-            .any(|stretch| !stretch.faults.is_empty());
+        let has_fault = self.cuts.iter().any(|cut| !cut.faults.is_empty());
         let mut is_said = false;
         for (at, column, is_comment) in texts {
             let range = self.range_of(at);

@@ -7,17 +7,16 @@ use super::super::layout::{
     layout_in, number_edit, push_end_point, push_fields, push_to_comment_column,
 };
 use super::super::repair::{
-    BLOCKS, Change, Loose, Number, Path, Repair, Scope, Slip, Written, loose, names, repairs,
+    BLOCKS, Change, Loose, Number, Path, Repair, Scope, Slip, Written, loose, repairs,
 };
 use super::super::rules::TextFix;
-use super::{At, Document, JoinedCut};
+use super::contours::OneContour;
+use super::{At, Document};
 use crate::finding::{Fault, Finding, FixKind, Rule};
 use crate::program::grid::Node;
 use crate::program::repair::offered;
 use crate::program::three_b::block::{Block, Motion};
 use crate::text::TextEdit;
-use rustc_hash::FxHasher;
-use std::hash::{Hash, Hasher};
 use std::ops::Range;
 
 impl Document {
@@ -46,13 +45,13 @@ impl Document {
             | Rule::TooManyDigits => Scope::Blocks,
             _ => return None,
         };
-        let cut = self.cut_of(self.entry_at(range)?)?;
-        // Every finding of a cut asks for the same.
+        let cut = self.contour_at(self.entry_at(range)?)?;
+        // Every finding of a contour asks for the same.
         let found = || self.fixes_of_cut(&cut, scope);
         Some(self.view.asked.fixes_of(&cut, scope, found))
     }
 
-    fn fixes_of_cut(&self, cut: &JoinedCut, scope: Scope) -> Vec<TextFix> {
+    fn fixes_of_cut(&self, cut: &OneContour, scope: Scope) -> Vec<TextFix> {
         let Some(whole) = self.with_open_beside(cut) else {
             return self.searched(cut, scope, |_| true);
         };
@@ -70,19 +69,20 @@ impl Document {
     /// The repairs of a cut that are `wanted`.
     fn searched(
         &self,
-        cut: &JoinedCut,
+        cut: &OneContour,
         scope: Scope,
         wanted: impl FnMut(&mut Repair) -> bool,
     ) -> Vec<TextFix> {
         let Some((places, pieces)) = self.pieces_of(cut) else {
             return Vec::new();
         };
-        let is_closed = self.closes(cut) && cut.sum.unread == 0;
+        let is_closed = self.closes(cut) && self.unread(cut) == 0;
         let path = self.path_of(cut, &places, &pieces, is_closed);
         let mut found = repairs(&path, scope);
         found.retain_mut(wanted);
         let fixes = found.iter().map(|repair| {
-            let (kind, mut edit) = self.edit_of(&repair.change, &places, &pieces, cut.is_jump)?;
+            let (kind, mut edit) =
+                self.edit_of(&repair.change, &places, &pieces, self.is_jump(cut.start))?;
             edit.sort_by_key(|edit| edit.range.start);
             Some((kind, edit, repair.is_sure))
         });
@@ -91,47 +91,18 @@ impl Document {
 
     /// The block that keeps a contour open, by its number in the cut, where no other repair is as
     /// likely. It is searched for in `whole`, the cut together with the open ones beside it.
-    pub(super) fn blamed(&self, cut: &JoinedCut, whole: &JoinedCut) -> Option<(usize, Fault)> {
+    pub(super) fn blamed(&self, cut: &OneContour, whole: &OneContour) -> Option<(usize, Fault)> {
         let (places, pieces) = self.pieces_of(whole)?;
         let first = self.blocks_of(cut).next()?;
         let before = places.iter().position(|at| *at == first)?;
         let (index, fault) = self.blamed_of(whole, &places, &pieces)?;
         let own = index.checked_sub(before)?;
-        (own < cut.sum.blocks).then_some((own, fault))
-    }
-
-    /// A mark of everything that this search looks at; `None` where there are no blocks.
-    pub(super) fn mark_of_search(&self, cut: &JoinedCut, whole: &JoinedCut) -> Option<u64> {
-        let is_piece = |at: &At| {
-            let what = self.entry(*at).map(|entry| &entry.what);
-            matches!(what, Some(What::Block(_) | What::Unread))
-        };
-        let first = self.entries_of(whole).find(is_piece)?;
-        let last = self.entries_of(whole).rfind(is_piece)?;
-        let own = self.range_of(self.blocks_of(cut).next()?);
-        let [begin, end] = [first, last].map(|at| self.range_of(at));
-        let from = self.text.line_start(self.text.line_of(begin.start));
-        let to = self
-            .text
-            .line_range(self.text.line_of(end.start))
-            .end
-            .max(end.end);
-        let mut hasher = FxHasher::default();
-        self.text.bytes().get(from..to)?.hash(&mut hasher);
-        let places = [begin.start, end.end, own.start].map(|byte| byte - from);
-        (places, cut.sum.blocks, whole.is_jump).hash(&mut hasher);
-        (self.number_before(first), self.view.numbers.step).hash(&mut hasher);
-        let stated = |stated: StatedPoint| (stated.at.map(f64::to_bits), stated.decimals);
-        self.stated_begin(first).map(stated).hash(&mut hasher);
-        let beside = self.beside(&[first, last]);
-        let beside = beside.iter().map(|blocks| names(blocks));
-        beside.collect::<Vec<_>>().hash(&mut hasher);
-        Some(hasher.finish())
+        (own < self.ends_of(cut).blocks).then_some((own, fault))
     }
 
     fn blamed_of(
         &self,
-        cut: &JoinedCut,
+        cut: &OneContour,
         places: &[At],
         pieces: &[Written],
     ) -> Option<(usize, Fault)> {
@@ -194,7 +165,7 @@ impl Document {
 
     fn path_of<'a>(
         &'a self,
-        cut: &JoinedCut,
+        cut: &OneContour,
         places: &[At],
         pieces: &'a [Written],
         is_closed: bool,
@@ -206,7 +177,7 @@ impl Document {
             number: first.and_then(|first| self.number_before(first)),
             step: self.view.numbers.step,
             limits: &self.limits,
-            is_jump: cut.is_jump,
+            is_jump: self.is_jump(cut.start),
             is_closed,
             beside: self.beside(places),
         }
@@ -224,8 +195,8 @@ impl Document {
     }
 
     /// The blocks of a contour, including unreadable ones; `None` where there are too few or too many.
-    fn pieces_of(&self, cut: &JoinedCut) -> Option<(Vec<At>, Vec<Written>)> {
-        if !BLOCKS.contains(&(cut.sum.blocks + cut.sum.unread)) {
+    fn pieces_of(&self, cut: &OneContour) -> Option<(Vec<At>, Vec<Written>)> {
+        if !BLOCKS.contains(&(self.ends_of(cut).blocks + self.unread(cut))) {
             return None;
         }
         let (mut places, mut pieces) = (Vec::new(), Vec::new());

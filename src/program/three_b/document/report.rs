@@ -1,75 +1,95 @@
-//! The findings of a program: those of its blocks, where they count, and those of the whole.
+//! The findings of a program: those of its blocks, where they count, those of contours that cross themselves, and those of
+//! the whole.
 
+use super::super::cut::Local;
+use super::super::entry::What;
 use super::super::fields::fields_of;
 use super::super::rules::{self, Counts};
-use super::super::stretch::Local;
-use super::{Document, JoinedCut};
-use crate::finding::{Detail, Finding, Severity};
-use crate::program::by_chunk::ByChunk;
-use crate::program::of_cut::{Counted, OfCut};
+use super::contours::OneContour;
+use super::{At, Document};
+use crate::finding::{Detail, Fault, Finding, Severity};
+use crate::program::contours::Divided;
+use crate::program::path;
 use crate::program::repair::gate::Tried;
-use crate::program::report::{Found, Report, Source, place_of};
+use crate::program::report::{Found, Report, place_of};
+use crate::program::steps::Program;
 use crate::settings::SideSetting;
 use std::ops::Range;
 
-/// The place where a finding is stored.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::program) enum Stored {
-    InBlock { stretch: usize, index: usize },
-    OnWhole { index: usize },
+/// What a finding is worded from.
+#[derive(Clone, Debug)]
+pub(in crate::program) enum Source {
+    /// A fault of a block, by its cut.
+    InBlock {
+        cut: usize,
+        index: usize,
+    },
+    /// Where a contour crosses itself, or what an offset loses of it.
+    InContour {
+        cuts: OneContour,
+        index: usize,
+    },
+    OnWhole {
+        index: usize,
+    },
 }
 
 impl Report for Document {
-    type Own = Stored;
+    type Source = Source;
 
-    fn byte_of(&self, chunk: usize) -> usize {
-        self.stretches.byte(chunk)
-    }
-
-    fn of_cuts(&self) -> &ByChunk<OfCut> {
-        &self.view.told.found
-    }
-
-    /// The faults of each stretch, and those of the whole.
-    fn own_groups(&self) -> usize {
-        self.stretches.len() + 1
-    }
-
-    fn own_tally(&self, group: usize) -> Option<(usize, &[Counted])> {
-        let tally = self.stretches.get(group)?.tally.as_deref()?;
-        Some((self.stretches.byte(group), tally))
-    }
-
-    fn own_in(&self, stretch: usize) -> impl Iterator<Item = Found<Source<Stored>>> {
-        let of = self.stretches.get(stretch);
-        let faults = of.map_or(&[][..], |of| &of.faults).iter().enumerate();
-        let counting = faults.filter(move |(_, local)| self.counts(stretch, local));
-        let in_blocks = counting.map(move |(index, local)| {
-            let base = self.stretches.byte(stretch);
-            Found {
-                rule: local.rule,
-                severity: self.own_severity(stretch, local),
-                place: (base + local.range.start, base + local.range.end),
-                source: Source::Own(Stored::InBlock { stretch, index }),
-            }
+    fn found(&self) -> impl Iterator<Item = Found<Source>> {
+        let in_blocks = (0..self.cuts.len()).flat_map(move |cut| {
+            let faults = self.cuts[cut].faults.iter().enumerate();
+            let counting = faults.filter(move |(_, local)| self.counts(cut, local));
+            counting.map(move |(index, local)| {
+                let base = self.cuts.byte(cut);
+                Found {
+                    rule: local.rule,
+                    severity: self.own_severity(cut, local),
+                    place: (base + local.range.start, base + local.range.end),
+                    source: Source::InBlock { cut, index },
+                }
+            })
         });
-        let of_whole = self.view.findings.iter().enumerate();
-        let of_whole = of_whole.filter(move |_| of.is_none());
-        in_blocks.chain(of_whole.map(|(index, finding)| Found {
+        let in_contours = self.crossing().flat_map(move |(cuts, found)| {
+            let blocks: Vec<At> = self.blocks_of(&cuts).collect();
+            let all = found.all().into_iter().enumerate();
+            all.map(move |(index, (rule, severity, block))| {
+                let at = blocks.get(block).or(blocks.last());
+                let range = at.map_or(0..0, |at| self.range_of(*at));
+                let cuts = cuts.clone();
+                Found {
+                    rule,
+                    severity,
+                    place: (range.start, range.end),
+                    source: Source::InContour { cuts, index },
+                }
+            })
+        });
+        let on_whole = self.view.findings.iter().enumerate();
+        let on_whole = on_whole.map(|(index, finding)| Found {
             rule: finding.rule,
             severity: finding.severity,
             place: place_of(finding),
-            source: Source::Own(Stored::OnWhole { index }),
-        }))
+            source: Source::OnWhole { index },
+        });
+        in_blocks.chain(in_contours).chain(on_whole)
     }
 
-    fn own_worded(&self, own: Stored) -> Option<Finding> {
-        match own {
-            Stored::InBlock { stretch, index } => {
-                let local = self.stretches.get(stretch)?.faults.get(index)?;
-                Some(self.materialized(stretch, local))
+    fn worded(&self, source: Source) -> Option<Finding> {
+        match source {
+            Source::InBlock { cut, index } => {
+                let local = self.cuts.get(cut)?.faults.get(index)?;
+                Some(self.materialized(cut, local))
             }
-            Stored::OnWhole { index } => self.view.findings.get(index).cloned(),
+            Source::InContour { cuts, index } => {
+                let ranges = self.blocks_of(&cuts).map(|at| self.range_of(at));
+                let ranges: Vec<Range<usize>> = ranges.collect();
+                let way = self.way_of(&cuts);
+                self.found_of(&cuts)?
+                    .worded(index, &way, &ranges, &self.text)
+            }
+            Source::OnWhole { index } => self.view.findings.get(index).cloned(),
         }
     }
 }
@@ -81,9 +101,9 @@ impl Tried for Document {
 
     fn cut_lines(&self, line: usize) -> Range<usize> {
         let own = || {
-            let cut = self.cut_of(self.entry_at(&self.text.line_range(line))?)?;
+            let cuts = self.contour_at(self.entry_at(&self.text.line_range(line))?)?;
             let line_of = |at| self.text.line_of(self.range_of(at).start);
-            let mut entries = self.entries_of(&cut);
+            let mut entries = self.entries_of(&cuts);
             let first = line_of(entries.next()?);
             let last = entries.next_back().map_or(first, line_of);
             Some(first.min(line)..last.max(line) + 1)
@@ -98,37 +118,92 @@ impl Document {
         self.all()
     }
 
-    fn cut_of_local(&self, stretch: usize, local: &Local) -> Option<JoinedCut> {
-        self.cut_of_part((stretch, local.part))
+    /// The contours that cross themselves, or of which an offset loses something, where that is to be said: no block of them
+    /// has a fault, and no joint is odd.
+    fn crossing(&self) -> impl Iterator<Item = (OneContour, &path::Found)> {
+        let with_tabs = self.view.contours.iter();
+        let with_tabs = with_tabs.filter(|contour| contour.ends_with_tab);
+        let with_tabs = with_tabs.map(|contour| (contour.cuts.clone(), contour.found()));
+        let is_whole = |cut: &usize| {
+            let contour = self.view.contours.of_cut(*cut);
+            contour.is_none_or(|contour| !contour.ends_with_tab)
+        };
+        let cuts = (0..self.cut_count()).filter(move |cut| is_whole(cut));
+        let cuts = cuts.filter_map(|cut| Some((cut..cut + 1, self.cuts[cut].found.as_deref()?)));
+        let all = with_tabs.chain(cuts);
+        all.filter(|(cuts, found)| {
+            !found.is_clean()
+                && self.errors(cuts) == 0
+                && !self.is_jump(cuts.start)
+                && !self.is_odd(cuts)
+        })
     }
 
-    fn is_unusual_only(&self, stretch: usize, local: &Local) -> bool {
-        local.counts == Counts::MildIfClosed
-            && self
-                .cut_of_local(stretch, local)
-                .is_none_or(|cut| self.closes(&cut))
+    fn found_of(&self, cuts: &OneContour) -> Option<&path::Found> {
+        match self.view.contours.of_cut(cuts.start) {
+            Some(contour) if contour.cuts == *cuts => Some(contour.found()),
+            _ => self.cuts.get(cuts.start)?.found.as_deref(),
+        }
     }
 
-    fn own_severity(&self, stretch: usize, local: &Local) -> Severity {
-        if self.is_unusual_only(stretch, local) {
+    /// Whether an odd joint of a contour is reported.
+    fn is_odd(&self, cuts: &OneContour) -> bool {
+        cuts.clone().any(|cut| {
+            let mut faults = self.cuts[cut].faults.iter();
+            faults.any(|local| local.counts == Counts::IfAlone && self.counts(cut, local))
+        })
+    }
+
+    /// Whether an odd joint is reported: the contour has no other fault, and a spur is no way out and in again between two
+    /// passes.
+    fn is_odd_joint(&self, cut: usize, local: &Local) -> bool {
+        let Detail::Program(fault) = &local.detail else {
+            return false;
+        };
+        let cuts = self.view.contours.cuts_of(cut);
+        let is_lead = || {
+            let entries = self.cuts[cut].entries.iter();
+            let before = entries.take_while(|entry| entry.range().start < local.range.start);
+            let before = before
+                .filter(|entry| matches!(entry.what, What::Block(_)))
+                .count();
+            let earlier = self.ends_of(&(cuts.start..cut)).blocks;
+            let tip = self.way_of(&cuts).node(earlier + before);
+            let tolerance = path::tolerance(self.ends_of(&cuts).arcs);
+            tip.machine.coords.norm() <= tolerance
+        };
+        self.errors(&cuts) == 0 && !(matches!(**fault, Fault::Spur { .. }) && is_lead())
+    }
+
+    fn is_unusual_only(&self, cut: usize, local: &Local) -> bool {
+        local.counts == Counts::MildIfClosed && self.closes_at(cut)
+    }
+
+    /// Whether the contour of a cut closes; what stands after the end closes, too.
+    fn closes_at(&self, cut: usize) -> bool {
+        cut >= self.cut_count() || self.closes(&self.view.contours.cuts_of(cut))
+    }
+
+    fn own_severity(&self, cut: usize, local: &Local) -> Severity {
+        if self.is_unusual_only(cut, local) {
             Severity::Information
         } else {
             local.rule.default_severity()
         }
     }
 
-    fn counts(&self, stretch: usize, local: &Local) -> bool {
-        let cut = || self.cut_of_local(stretch, local);
+    fn counts(&self, cut: usize, local: &Local) -> bool {
+        let is_in_program = cut < self.cut_count();
         match local.counts {
             Counts::Always | Counts::MildIfClosed => true,
-            Counts::IfAlone => self.is_local_told(stretch, local),
+            Counts::IfAlone => is_in_program && self.is_odd_joint(cut, local),
             // What is no cut, a way between contours, closes nothing.
-            Counts::IfOpen => cut().is_none_or(|cut| cut.is_jump || !self.closes(&cut)),
-            Counts::IfInside { turns_left } => cut().is_some_and(|cut| {
-                let runs_left = cut.sum.twice_area > 0.0;
+            Counts::IfOpen => !is_in_program || self.is_jump(cut) || !self.closes_at(cut),
+            Counts::IfInside { turns_left } => {
+                let runs_left = || self.twice_area(&self.view.contours.cuts_of(cut)) > 0.0;
                 let wire_is_inside = self.limits.side == SideSetting::Opening;
-                (runs_left == wire_is_inside) == turns_left
-            }),
+                is_in_program && (runs_left() == wire_is_inside) == turns_left
+            }
         }
     }
 
@@ -141,16 +216,16 @@ impl Document {
         fields.map_or(block.clone(), |fields| spot.range(&fields, block))
     }
 
-    fn materialized(&self, stretch: usize, local: &Local) -> Finding {
-        let base = self.stretches.byte(stretch);
+    fn materialized(&self, cut: usize, local: &Local) -> Finding {
+        let base = self.cuts.byte(cut);
         let block = local.range.start + base..local.range.end + base;
         let range = self.spot_range(local.spot, block);
         let detail = match &local.detail {
-            Detail::Program(fault) if self.is_unusual_only(stretch, local) => {
+            Detail::Program(fault) if self.is_unusual_only(cut, local) => {
                 Detail::Program(Box::new(fault.as_unusual()))
             }
             detail => detail.clone(),
         };
-        Finding::in_text(local.rule, range, detail).with(self.own_severity(stretch, local))
+        Finding::in_text(local.rule, range, detail).with(self.own_severity(cut, local))
     }
 }

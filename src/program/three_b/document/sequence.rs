@@ -1,16 +1,17 @@
 //! The sequence of blocks: their numbers, and their stated places.
 
 use super::super::around::StatedPoint;
+use super::super::cut::Cut;
 use super::super::entry::{Entry, Move, What};
 use super::super::rules::position_mismatch;
 use super::{At, Document};
 use crate::finding::{Fault, Finding};
 use crate::geometry::Vector;
-use crate::program::chunks::Reread;
-use crate::program::numbering::{self, Numbered, Numbering, Sequence};
+use crate::program::numbering::{self, Numbered, Numbering};
+use crate::program::steps::Program;
 
-/// A block by its number in the program and its place, and by how much its end point is off, µm.
-pub(super) type OffPosition = (usize, At, [f64; 2]);
+/// A block, and by how much its end point is off, µm.
+pub(super) type OffPosition = (At, [f64; 2]);
 
 /// How far coordinates may miss the place that they come back to, mm.
 const RETURNS: f64 = 0.01;
@@ -32,30 +33,19 @@ pub(super) fn place_before(stated: &StatedPoint, travel: &Move) -> StatedPoint {
 pub(super) struct Numbers {
     /// The usual step of the program's numbers, by the first of them.
     pub(super) step: Option<u32>,
-    /// The last number before each stretch.
-    before: Vec<Option<u32>>,
-}
-
-impl Numbers {
-    /// The stretches that were not read again but now have another number before them.
-    pub(super) fn others(&self, now: &Numbers, reread: &Reread) -> impl Iterator<Item = usize> {
-        let moved = self.before.iter().enumerate();
-        let moved = moved.filter_map(|(stretch, number)| Some((reread.moved(stretch)?, number)));
-        let is_other =
-            |(stretch, number): &(usize, &Option<u32>)| now.before.get(*stretch) != Some(*number);
-        moved.filter(is_other).map(|(stretch, _)| stretch)
-    }
+    /// The last number before each cut.
+    pub(super) before: Vec<Option<u32>>,
 }
 
 impl Document {
     pub(super) fn numbers(&self) -> Numbers {
-        let blocks = self.entries(0..self.stretches.len());
-        let first = blocks
+        let first = self
+            .all_entries()
             .filter(|(_, entry)| entry.block().is_some())
             .map(|(_, entry)| entry.number())
             .take(numbering::FIRST);
         let mut last = None;
-        let before = self.stretches.iter().map(|of| {
+        let before = self.cuts.iter().map(|of| {
             let own = || of.entries.iter().rev().find_map(Entry::number);
             let next = if of.numbered > 0 {
                 own().or(last)
@@ -72,129 +62,58 @@ impl Document {
 
     /// The last number before a block.
     pub(super) fn number_before(&self, at: At) -> Option<u32> {
-        let own = self.entries_in(at.stretch).get(..at.entry)?;
+        let own = self.entries_in(at.cut).get(..at.entry)?;
         let own = own.iter().rev().find_map(Entry::number);
-        own.or_else(|| *self.view.numbers.before.get(at.stretch)?)
+        own.or_else(|| *self.view.numbers.before.get(at.cut)?)
     }
 
     pub(super) fn judge_numbers(&self, findings: &mut Vec<Finding>) {
-        let numbering = self
-            .stretches
-            .iter()
-            .fold(Numbering::Empty, |before, stretch| {
-                before.then(stretch.numbering)
-            });
-        if numbering != Numbering::Irregular
-            || self.stretches.iter().all(|stretch| stretch.numbered == 0)
-        {
+        let all = self.cuts.iter().map(|cut| cut.numbering);
+        let numbering = all.fold(Numbering::Empty, Numbering::then);
+        if numbering != Numbering::Irregular || self.cuts.iter().all(|cut| cut.numbered == 0) {
             return;
         }
-        let end = self.view.end;
-        let stretches = || 0..end.map_or(self.stretches.len(), |end| end.stretch + 1);
-        let from = |stretch: usize| {
-            (stretch..stretches().end).flat_map(|stretch| self.numbered_in(stretch, end))
-        };
-        let head: Vec<Numbered> = from(0)
-            .map(|(_, block)| block)
-            .take(numbering::FIRST)
-            .collect();
-        let first = stretches()
-            .filter(|stretch| self.stretches[*stretch].numbered > 0)
-            .flat_map(|stretch| self.numbered_in(stretch, end));
-        let first = first.into_iter().find_map(|(_, block)| block.number);
-        let Some(mut sequence) = Sequence::of(&head, first) else {
-            return;
-        };
-        for stretch in stretches() {
-            // A stretch in which the numbers continue regularly is not read.
-            let regular = match self.stretches[stretch].numbering {
-                Numbering::Regular { first, last, step }
-                    if end.is_none_or(|end| stretch < end.stretch) =>
-                {
-                    Some((first, last, step))
-                }
-                _ => None,
-            };
-            let count = self.stretches[stretch].numbered;
-            if regular.is_some_and(|(first, last, step)| sequence.skip(first, last, step, count)) {
-                continue;
-            }
-            let mut blocks = self.numbered_in(stretch, end).peekable();
-            let mut is_first = true;
-            while let Some((at, block)) = blocks.next() {
-                let next = blocks.peek().copied().or_else(|| from(stretch + 1).next());
-                sequence.push(&block, next.map(|(_, next)| next).as_ref(), at);
-                let rest = regular.filter(|_| std::mem::take(&mut is_first) && count > 1);
-                if rest.is_some_and(|(first, last, step)| {
-                    sequence.skip(first + step, last, step, count - 1)
-                }) {
-                    break;
-                }
-            }
-        }
-        for (at, fault, _) in sequence.found() {
-            findings.push(Finding::of(fault, self.range_of(at)));
+        let (places, blocks) = self.numbered(self.view.end);
+        for (index, fault, _) in numbering::check(&blocks) {
+            findings.push(Finding::of(fault, self.range_of(places[index])));
         }
     }
 
     /// Blocks and numbered words up to the end, with their numbers.
     pub(super) fn numbered(&self, end: Option<At>) -> (Vec<At>, Vec<Numbered>) {
-        (0..self.stretches.len())
-            .flat_map(|stretch| self.numbered_in(stretch, end))
-            .unzip()
-    }
-
-    /// Those of one stretch.
-    fn numbered_in(
-        &self,
-        stretch: usize,
-        end: Option<At>,
-    ) -> impl Iterator<Item = (At, Numbered)> + '_ {
-        let entries = self.entries_in(stretch);
-        let is_word = |entry: &Entry| matches!(entry.what, What::Word { .. });
-        let mut is_after_pause = None;
-        entries.iter().enumerate().filter_map(move |(entry, what)| {
-            let follows_word = is_after_pause.unwrap_or_else(|| {
-                let before = self.stretches[..stretch]
-                    .iter()
-                    .rev()
-                    .find_map(|of| of.entries.last());
-                before.is_some_and(is_word)
-            });
-            is_after_pause = Some(is_word(what));
-            let at = At { stretch, entry };
-            let (number, is_unread) = (what.number(), what.what == What::Unread);
-            let counts = what.block().is_some() || is_unread || (is_word(what) && number.is_some());
+        let mut is_after_pause = false;
+        let numbered = |(at, entry): (At, &Entry)| {
+            let is_word = matches!(entry.what, What::Word { .. });
+            let is_after_pause = std::mem::replace(&mut is_after_pause, is_word);
+            let (number, is_unread) = (entry.number(), entry.what == What::Unread);
+            let counts = entry.block().is_some() || is_unread || (is_word && number.is_some());
             let is_in_program = end.is_none_or(|end| at <= end);
-            (counts && is_in_program).then_some((
-                at,
-                Numbered {
-                    number,
-                    is_after_pause: follows_word,
-                    is_unread,
-                },
-            ))
-        })
+            let block = Numbered {
+                number,
+                is_after_pause,
+                is_unread,
+            };
+            (counts && is_in_program).then_some((at, block))
+        };
+        self.all_entries().filter_map(numbered).unzip()
     }
 
-    /// The end points that are not where their blocks lead from those before, with the number of their block, by how
-    /// much, µm; empty where so many are off that the numbers mean something else.
+    /// The end points that are not where their blocks lead from those before, by how much, µm; empty where so many are off
+    /// that the numbers mean something else.
     pub(super) fn off_positions(&self) -> Vec<OffPosition> {
-        let mut anchor = None;
-        let (mut compared, mut ordinal) = (0, 0);
+        let (mut before, mut compared) = (None, 0);
         let mut off: Vec<OffPosition> = Vec::new();
-        for (stretch, of) in self.stretches.iter().enumerate() {
-            let (positions, at) = (&of.positions, |entry: usize| At { stretch, entry });
-            if let (Some(before), Some((entry, stated, travel))) = (&anchor, &positions.first) {
+        for (cut, Cut { positions, .. }) in self.cuts.iter().enumerate() {
+            if let (Some(before), Some(first)) = (&before, &positions.first) {
                 compared += 1;
+                let (entry, stated, travel) = &**first;
                 let by = position_mismatch::mismatch(before, travel, stated);
-                off.extend(by.map(|by| (ordinal, at(*entry), by)));
+                off.extend(by.map(|by| (At { cut, entry: *entry }, by)));
             }
             compared += positions.compared;
             let own = positions.off.iter();
-            off.extend(own.map(|(nth, entry, by)| (ordinal + nth, at(*entry), *by)));
-            ordinal += of.blocks;
-            anchor = positions.anchor.unwrap_or(anchor);
+            off.extend(own.map(|(entry, by)| (At { cut, entry: *entry }, *by)));
+            before = positions.last.unwrap_or(before);
         }
         if off.len() > 2 && off.len() as f64 > position_mismatch::FOREIGN * compared as f64 {
             off.clear();
@@ -204,19 +123,12 @@ impl Document {
 
     /// Where the wire was taken by hand, after a stop without a way: the first block there, and how far, µm.
     pub(super) fn taken(&self, off: &[OffPosition]) -> Vec<(At, Vector)> {
-        let behind_stops = off.iter().filter(|(_, at, _)| {
-            let mut before = self.before(*at).map(|(_, entry)| &entry.what);
-            let is_stop =
-                |what: &&What| matches!(what, What::Block(_) | What::Word { .. } | What::Unread);
-            matches!(before.find(is_stop), Some(What::Word { .. }))
-        });
-        let taken = behind_stops.filter_map(|&(_, at, by)| {
-            let own = self.cut_of_part((at.stretch, self.part_of(at)))?;
-            let (stretch, part) = own.parts[0];
-            let before = part.checked_sub(1).map(|part| (stretch, part));
-            let before = before.and_then(|before| self.cut_of_part(before));
-            let is_behind_way = before.is_some_and(|cut| cut.is_jump);
-            (!is_behind_way && self.returns_beside(at)).then_some((at, Vector::from(by)))
+        let behind_stops = off.iter().filter(|(at, _)| self.is_behind_stop(*at));
+        let taken = behind_stops.filter_map(|&(at, by)| {
+            let is_behind_way = at.cut > 0 && self.is_jump(at.cut - 1);
+            let is_in_program = at.cut < self.cut_count();
+            let is_it = is_in_program && !is_behind_way && self.returns_beside(at);
+            is_it.then_some((at, Vector::from(by)))
         });
         taken.collect()
     }
@@ -269,22 +181,18 @@ impl Document {
         goes_on != Some(false) && !is_at(&last, &before) && is_at(&last, &begin)
     }
 
-    pub(super) fn judge_positions(&self, findings: &mut Vec<Finding>, off: Vec<OffPosition>) {
-        let mut before: Option<(usize, [f64; 2])> = None;
-        for (ordinal, at, [x, y]) in off {
-            if self
-                .view
-                .taken
-                .binary_search_by_key(&at, |(at, _)| *at)
-                .is_ok()
-            {
+    pub(super) fn judge_positions(&self, findings: &mut Vec<Finding>, off: &[OffPosition]) {
+        let mut before: Option<OffPosition> = None;
+        for &(at, [x, y]) in off {
+            if self.taken_before(at).is_some() {
                 continue;
             }
             // One wrong end point is off once on the way there and once on the way back.
             let goes_back = before.is_some_and(|(last, [a, b])| {
-                last + 1 == ordinal && (a + x).abs() <= 4.0 && (b + y).abs() <= 4.0
+                let is_back = (a + x).abs() <= 4.0 && (b + y).abs() <= 4.0;
+                is_back && self.next_block(last).is_some_and(|(next, _)| next == at)
             });
-            before = (!goes_back).then_some((ordinal, [x, y]));
+            before = (!goes_back).then_some((at, [x, y]));
             if !goes_back {
                 let fault = Fault::PositionMismatch { x, y };
                 findings.push(Finding::of(fault, self.range_of(at)));

@@ -4,13 +4,11 @@ use super::super::around::StatedPoint;
 use super::super::decode::meant;
 use super::super::entry::{Entry, What};
 use super::super::pieces::{Field, pieces};
-use super::super::sum::is_jump;
-use super::{At, Document, View};
+use super::{At, Document};
 use crate::finding::Side;
 use crate::geometry::{Point, Vector};
-use crate::program::chunks::Reread;
 use crate::program::path::{Kind, Step, Trace, Writing};
-use crate::program::steps::{self, Program, Sum};
+use crate::program::steps::{self, Program};
 use crate::text::{SourceText, says_anything};
 use rustc_hash::FxHashMap;
 use std::ops::Range;
@@ -29,14 +27,14 @@ impl Document {
     /// The line of the first block of 4B, from 0.
     pub(crate) fn first_four_b_line(&self) -> Option<usize> {
         let is_of_part = |entry: &Entry| entry.block().is_some_and(|block| block.part().is_some());
-        let mut all = self.entries(0..self.stretches.len());
+        let mut all = self.all_entries();
         let (at, entry) = all.find(|(_, entry)| is_of_part(entry))?;
-        Some(self.stretches.place(at.stretch).lines.start + entry.line as usize)
+        Some(self.line_of(at, entry))
     }
 
     /// On which side of the arcs of the part the wire runs in 4B, by the byte at which their blocks begin.
     pub(in crate::program) fn part_sides(&self) -> FxHashMap<usize, Side> {
-        let all = self.entries(0..self.stretches.len());
+        let all = self.all_entries();
         let of_part = all.filter_map(|(at, entry)| Some((at, entry.block()?.side_of_wire()?)));
         of_part
             .map(|(at, side)| (self.range_of(at).start, side))
@@ -58,7 +56,7 @@ impl Document {
 
     /// The heading with the start, before the first block, and the start in mm.
     fn heading(&self) -> Option<(At, [f64; 2])> {
-        let entries = self.entries(0..self.stretches.len());
+        let entries = self.all_entries();
         let mut before = entries.take_while(|(_, entry)| entry.block().is_none());
         before.find_map(|(at, entry)| match entry.what {
             What::StartPoint(start) => Some((at, start)),
@@ -73,19 +71,25 @@ impl Document {
 
     /// The end points after blocks, each with the byte at which its block begins.
     pub(in crate::program) fn stated_ends(&self) -> impl Iterator<Item = (usize, StatedPoint)> {
-        let all = self.entries(0..self.stretches.len());
+        let all = self.all_entries();
         all.filter_map(|(at, entry)| Some((self.range_of(at).start, entry.block()?.stated_end()?)))
     }
 
-    /// The machine's position before each stretch, µm.
+    /// The line of an entry, from 0.
+    fn line_of(&self, at: At, entry: &Entry) -> usize {
+        let first = self.text.line_of(self.cuts.byte(at.cut));
+        first + entry.line as usize
+    }
+
+    /// The machine's position before each cut, µm.
     pub(super) fn begins(&self, taken: &[(At, Vector)]) -> Vec<Point> {
         let (mut at, _) = self.begin();
         let mut taken = taken.iter().peekable();
-        let begins = self.stretches.iter().enumerate().map(|(index, stretch)| {
+        let begins = self.cuts.iter().enumerate().map(|(index, cut)| {
             let before = at;
-            let [x, y] = stretch.travel.machine;
+            let [x, y] = cut.travel.machine;
             at += Vector::new(x as f64, y as f64);
-            while let Some((_, by)) = taken.next_if(|(at, _)| at.stretch == index) {
+            while let Some((_, by)) = taken.next_if(|(of, _)| of.cut == index) {
                 at += by;
             }
             before
@@ -93,15 +97,16 @@ impl Document {
         begins.collect()
     }
 
-    /// The first stretch that was read again, or in which the machine does not stand as it stood `before`.
-    pub(super) fn first_moved(&self, before: &View, reread: &Reread) -> usize {
-        if self.view.begins.first() != before.begins.first() {
-            return 0;
-        }
-        let elsewhere = self.taken_elsewhere(&before.taken, reread);
-        elsewhere
-            .min()
-            .map_or(reread.chunks.start, |first| first.min(reread.chunks.start))
+    /// The first cut in which the wire is taken elsewhere by hand than it was `before`.
+    pub(super) fn first_taken_elsewhere(&self, before: &[(At, Vector)]) -> usize {
+        let now = &self.view.taken;
+        let same = before
+            .iter()
+            .zip(now)
+            .take_while(|(before, now)| before == now);
+        let same = same.count();
+        let others = [before.get(same), now.get(same)].into_iter().flatten();
+        others.map(|(at, _)| at.cut).min().unwrap_or(usize::MAX)
     }
 
     /// How far the wire was taken before a block, µm.
@@ -128,53 +133,46 @@ impl Program for Document {
     }
 
     fn unread_line(&self) -> Option<usize> {
-        let stretch = self.stretches.iter().position(|of| of.unread > 0)?;
-        let entries = &self.stretches.get(stretch)?.entries;
-        let entry = entries.iter().find(|entry| entry.what == What::Unread)?;
-        Some(self.stretches.place(stretch).lines.start + entry.line as usize)
+        let cut = self.cuts.iter().position(|cut| cut.unread > 0)?;
+        let mut entries = self.entries(cut..cut + 1);
+        let (at, entry) = entries.find(|(_, entry)| entry.what == What::Unread)?;
+        Some(self.line_of(at, entry))
     }
 
-    fn chunk_count(&self) -> usize {
-        self.stretches.len()
+    /// Those up to the word that ends the program.
+    fn cut_count(&self) -> usize {
+        self.view.end.map_or(self.cuts.len(), |end| end.cut + 1)
     }
 
-    fn lines_of(&self, stretch: usize) -> Range<usize> {
-        self.stretches.place(stretch).lines
+    fn cuts_at(&self, line: usize) -> Vec<usize> {
+        let from = self.cuts.first_at(line);
+        let holds = |cut: &usize| self.cuts.lines(*cut).contains(&line);
+        (from..self.cut_count()).take_while(holds).collect()
     }
 
-    fn sum_of(&self, stretch: usize) -> Sum {
-        let is_behind_end = self.view.end.is_some_and(|end| end.stretch < stretch);
-        let Some(of) = self.stretches.get(stretch).filter(|_| !is_behind_end) else {
-            return Sum::default();
-        };
-        let own_tabs = match of.words {
-            0 => 0,
-            _ => self.view.contours.tabs_in(stretch),
-        };
-        let may_be_jump =
-            of.words == 0 && of.parts.first().is_some_and(|part| is_jump(&of.sum(part)));
-        let is_rapid = may_be_jump && self.is_jump((stretch, 0));
-        Sum {
-            moves: of.blocks,
-            arcs: of.arcs,
-            rapids: if is_rapid { of.blocks } else { 0 },
-            stops: of.words,
-            contours: of.words.saturating_sub(own_tabs),
-            travel: of.travel.meant,
-        }
+    fn first_behind(&self, line: usize) -> usize {
+        self.cuts.first_at(line)
     }
 
-    fn walk(&self, stretch: usize, contour: &mut usize, each: &mut dyn FnMut(Step)) {
-        let (Some(of), Some(&begin)) = (self.stretches.get(stretch), self.view.begins.get(stretch))
-        else {
+    fn first_line(&self, cut: usize) -> usize {
+        self.cuts.lines(cut).start
+    }
+
+    fn contours_in(&self, cut: usize) -> usize {
+        usize::from(self.cuts[cut].stop.is_some() && !self.view.contours.goes_on(cut))
+    }
+
+    fn has_steps(&self, cut: usize) -> bool {
+        self.cuts[cut].stop.is_some() || self.cuts[cut].verdict.ends.blocks > 0
+    }
+
+    fn walk(&self, cut: usize, contour: &mut usize, each: &mut dyn FnMut(Step)) {
+        let Some(&begin) = self.view.begins.get(cut) else {
             return;
         };
-        let first_line = self.stretches.place(stretch).lines.start;
         let mut start = begin;
-        let mut part = 0;
-        let mut is_jump = self.is_jump((stretch, 0));
-        for (entry, what) in of.entries.iter().enumerate() {
-            let own = At { stretch, entry };
+        let is_jump = self.is_jump(cut);
+        for (own, what) in self.entries(cut..cut + 1) {
             if self.view.end.is_some_and(|end| own > end) {
                 return;
             }
@@ -199,7 +197,7 @@ impl Program for Document {
             };
             each(Step {
                 range: self.range_of(own),
-                line: first_line + what.line as usize,
+                line: self.line_of(own, what),
                 number: what.number(),
                 end,
                 ideal,
@@ -209,9 +207,7 @@ impl Program for Document {
             });
             start = end;
             if let What::Word { .. } = what.what {
-                part += 1;
-                *contour += usize::from(!self.is_tab((stretch, part)));
-                is_jump = self.is_jump((stretch, part));
+                *contour += usize::from(!self.view.contours.goes_on(cut));
             }
         }
     }

@@ -10,7 +10,7 @@ use slips::is_odd_ratio;
 pub(super) use slips::{Slip, is_sound};
 
 use super::around::StatedPoint;
-use super::block::{Block, Motion, PartArc};
+use super::block::{Block, PartArc};
 use super::decode::meant as decode;
 use super::encode::encode;
 use super::entry::travel_of;
@@ -377,11 +377,4 @@ impl<'a> Suspect<'a> {
             keys,
         }
     }
-}
-
-/// Motions of a contour's blocks are told apart by their names.
-pub(super) fn names(blocks: &[Block]) -> Vec<(&'static str, Option<bool>)> {
-    let leads = has_mirrored_leads(blocks);
-    let name = |block: &Block| (Motion::name(block.motion), leads);
-    blocks.iter().map(name).collect()
 }

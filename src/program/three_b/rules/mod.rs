@@ -1,7 +1,7 @@
 //! The rules on 3B programs: one file each, with its check and its fixes.
 //!
 //! A rule on a single block sees that block alone ([`Outlook`]) and runs when its line is read; a rule on the whole
-//! program sees the stretches that have been read. Fixes are made on demand, from the present text ([`Site`]).
+//! program sees the cuts that have been read. Fixes are made on demand, from the present text ([`Site`]).
 
 mod arc_off_radius;
 mod arc_without_radius;
@@ -24,9 +24,12 @@ pub(super) mod text_after_end;
 
 use super::block::{Block, Motion, PartArc};
 use super::decode::J_TOLERANCE;
+use super::entry::BlockEntry;
 use super::fault::{Flaw, SyntaxFault};
 use super::fields::Fields;
+use crate::drawing::wire_side;
 use crate::finding::{Detail, Fault, Fix, FixKind, Rule};
+use crate::program::path::{ControlOffset, MOST_BLOCKS, UM_IN_MM};
 use crate::settings::{Compensation, Effective, SideSetting};
 use crate::text::TextEdit;
 use std::ops::Range;
@@ -69,6 +72,26 @@ impl Limits {
 
     pub(crate) fn largest(&self) -> i64 {
         self.largest
+    }
+
+    /// The offset that the control makes of some blocks: in 4B their first arc says on which side the wire runs, in 3B that
+    /// holds the part's contour the settings do.
+    pub(crate) fn control_offset<'a>(
+        &self,
+        blocks: impl Iterator<Item = &'a BlockEntry>,
+        twice_area: f64,
+    ) -> Option<ControlOffset> {
+        let mut sides = blocks
+            .take(MOST_BLOCKS)
+            .filter_map(BlockEntry::side_of_wire);
+        let by_settings = || {
+            let role = self.side.role().filter(|_| self.holds_part)?;
+            wire_side(role, true, twice_area)
+        };
+        Some(ControlOffset {
+            side: sides.next().or_else(by_settings)?,
+            correction: self.correction * UM_IN_MM,
+        })
     }
 }
 

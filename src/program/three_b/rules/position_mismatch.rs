@@ -39,33 +39,45 @@ pub(in super::super) fn mismatch(
     (is_far(meant) && is_far(machine)).then_some(meant)
 }
 
-/// The end points that stand after the blocks of a stretch.
+/// The end points that stand after the blocks of a cut.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(in super::super) struct Positions {
-    /// Pairs of end points in the stretch that were compared.
-    pub compared: usize,
-    /// The wrong ones, by the number of the block in the stretch, its entry, and the displacement in µm.
-    pub off: Vec<(usize, usize, [f64; 2])>,
-    /// Entry, end point and displacement of the first block, if it has an end point and nothing in the stretch before
-    /// it decides what that is compared with.
-    pub first: Option<(usize, StatedPoint, Move)>,
-    /// The place for comparing the next stretch's first end point; `None` where this stretch does not decide it.
-    pub anchor: Option<Option<StatedPoint>>,
+    /// Pairs of end points in the cut that were compared.
+    pub(crate) compared: usize,
+    /// The wrong ones, by the entry, and the displacement in µm.
+    pub(crate) off: Vec<(usize, [f64; 2])>,
+    /// Entry, end point and displacement of the first block, if it has an end point and nothing in the cut before it
+    /// decides what that is compared with.
+    pub(crate) first: Option<Box<(usize, StatedPoint, Move)>>,
+    /// The place with which the next end point is compared, where that is decided: that of a block or of the start, or none.
+    pub(crate) last: Option<Option<StatedPoint>>,
 }
 
 impl Positions {
-    pub(crate) fn block(&mut self, nth: usize, entry: usize, block: &BlockEntry) {
+    pub(crate) fn block(&mut self, entry: usize, block: &BlockEntry) {
         let stated = block.stated_end();
-        match (self.anchor, stated) {
+        match (self.last, stated) {
             (Some(Some(before)), Some(stated)) => {
                 self.compared += 1;
-                self.off
-                    .extend(mismatch(&before, &block.travel(), &stated).map(|by| (nth, entry, by)));
+                let by = mismatch(&before, &block.travel(), &stated);
+                self.off.extend(by.map(|by| (entry, by)));
             }
-            (None, Some(stated)) => self.first = Some((entry, stated, block.travel())),
+            (None, Some(stated)) => {
+                self.first = Some(Box::new((entry, stated, block.travel())));
+            }
             _ => {}
         }
-        self.anchor = Some(stated);
+        self.last = Some(stated);
+    }
+
+    /// The program says where it starts, mm.
+    pub(crate) fn start(&mut self, at: [f64; 2]) {
+        self.last = Some(Some(StatedPoint { at, decimals: 3 }));
+    }
+
+    /// Nothing says where the wire stands.
+    pub(crate) fn lost(&mut self) {
+        self.last = Some(None);
     }
 }
 

@@ -1,0 +1,154 @@
+//! The moves of a cut, summed up, and its arcs that may be too tight.
+
+use super::moves::{Move, Place, added, apart};
+use crate::geometry::Side;
+
+/// Consecutive moves that cut, without a rapid or a stop between.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Summary {
+    /// The first two and the last two moves with a length; they may coincide.
+    pub(crate) first: [Move; 2],
+    pub(crate) last: [Move; 2],
+    pub(crate) moves: u32,
+    /// Twice the signed area in nm², relative to the start.
+    pub(crate) twice_area: i128,
+    /// The line that begins it, bytes from the start of the cut.
+    pub(crate) range: (u32, u32),
+    /// The line that ends it.
+    pub(crate) last_range: (u32, u32),
+    /// No line of it was unreadable.
+    pub(crate) whole: bool,
+    /// One of its lines, or of those between, has a fault.
+    pub(crate) faulty: bool,
+    /// Nothing has ended it.
+    pub(crate) open: bool,
+    /// The side on which the control let the wire run, where it is the same from the second move to the one before the
+    /// last.
+    pub(crate) side: WireSide,
+    /// Moves that switch the correction on.
+    pub(crate) switched_on: u32,
+    /// Where the wire was first sent to the other side, and the line that did so.
+    pub(crate) flip: Option<(Place, (u32, u32))>,
+}
+
+/// On which side of a cut the wire was sent.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum WireSide {
+    None,
+    One(Side),
+    Both,
+}
+
+impl Summary {
+    pub(crate) fn begin(first: Move, cap: f64, range: (u32, u32), whole: bool) -> Summary {
+        Summary {
+            first: [first; 2],
+            last: [first; 2],
+            moves: 1,
+            twice_area: cap as i128,
+            range,
+            last_range: range,
+            whole,
+            faulty: false,
+            open: true,
+            side: first.side.map_or(WireSide::None, WireSide::One),
+            switched_on: u32::from(first.switches == Some(true)),
+            flip: None,
+        }
+    }
+
+    pub(crate) fn start(&self) -> Place {
+        self.first[0].from
+    }
+
+    pub(crate) fn push(&mut self, step: Move, cap: f64, range: (u32, u32)) {
+        let [from, to] = [step.from, step.to].map(|place| apart(place, self.start()));
+        let term = cross(from, to).wrapping_add(cap as i128);
+        self.twice_area = self.twice_area.wrapping_add(term);
+        if self.moves == 1 {
+            self.first[1] = step;
+        }
+        if changes_side(&self.last[1], &step) {
+            self.flip.get_or_insert((step.from, range));
+        }
+        self.last = [self.last[1], step];
+        self.moves += 1;
+        self.switched_on += u32::from(step.switches == Some(true));
+        self.last_range = range;
+        self.side = joined(self.side, step.side.map_or(WireSide::None, WireSide::One));
+    }
+
+    /// Appends the moves behind a stop; the ranges stay those of the beginning.
+    pub(crate) fn append(&mut self, next: &Summary) {
+        // The area of the continuation was relative to its own beginning.
+        let (origin, its) = (self.start(), next.start());
+        let between = cross(apart(its, origin), apart(next.last[1].to, its));
+        self.twice_area = self
+            .twice_area
+            .wrapping_add(next.twice_area)
+            .wrapping_add(between);
+        if self.moves == 1 {
+            self.first[1] = next.first[0];
+        }
+        self.last = if next.moves == 1 {
+            [self.last[1], next.last[1]]
+        } else {
+            next.last
+        };
+        self.moves += next.moves;
+        self.switched_on += next.switched_on;
+        self.whole &= next.whole;
+        self.faulty |= next.faulty;
+        self.open = next.open;
+        self.side = joined(self.side, next.side);
+    }
+
+    /// The same elsewhere.
+    pub(crate) fn shifted(mut self, by: Place) -> Summary {
+        for step in self.first.iter_mut().chain(&mut self.last) {
+            *step = step.shifted(by);
+        }
+        if let Some((at, _)) = &mut self.flip {
+            *at = added(*at, by);
+        }
+        self
+    }
+}
+
+fn cross(a: Place, b: Place) -> i128 {
+    let [[ax, ay], [bx, by]] = [a, b].map(|place| place.map(i128::from));
+    (ax * by).wrapping_sub(ay * bx)
+}
+
+/// The second move has the wire on the other side than the first.
+pub(crate) fn changes_side(one: &Move, other: &Move) -> bool {
+    matches!((one.side, other.side), (Some(one), Some(other)) if one != other)
+}
+
+fn joined(a: WireSide, b: WireSide) -> WireSide {
+    match (a, b) {
+        (WireSide::None, other) | (other, WireSide::None) => other,
+        (one, other) if one == other => one,
+        _ => WireSide::Both,
+    }
+}
+
+/// An arc that may be tighter than a correction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Tight {
+    pub(crate) arc: Move,
+    /// µm, relative to its own start: the same anywhere.
+    pub(crate) radius: f64,
+    /// Bytes from the start of the cut; the whole line's words.
+    pub(crate) range: (u32, u32),
+}
+
+/// A way out and back at whose tip a move begins.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Spur {
+    pub(crate) tip: Place,
+    /// µm.
+    pub(crate) length: f64,
+    /// Bytes from the start of the cut: the whole line's words.
+    pub(crate) range: (u32, u32),
+}
