@@ -3,7 +3,7 @@
 //! Points are µm in the program's own frame, as `f64`: a counting machine is always on whole µm, an ISO program may
 //! have fractions. Nothing here knows how a language is written.
 
-use super::way::Writing;
+use super::way::{Node, Way, Writing};
 use crate::finding::Side;
 use crate::geometry::{Bounds, Point, Segment, Vector};
 use std::ops::Range;
@@ -181,5 +181,28 @@ impl Follower {
         self.at += step.start - self.stands;
         self.stands = step.end;
         self.at
+    }
+}
+
+impl Way {
+    /// The way of steps that move.
+    pub(crate) fn of_steps<'a>(steps: impl IntoIterator<Item = &'a Step>, writing: Writing) -> Way {
+        let mut steps = steps.into_iter().peekable();
+        let start = steps.peek().map_or(Point::origin(), |first| first.start);
+        let mut way = Way::from(Node::at(start), writing);
+        for step in steps {
+            let from = way.end().ideal;
+            let by = from - step.start;
+            let piece = match &step.ideal {
+                Some(ideal) => ideal.moved(by),
+                None => Segment::line(from, from + step.meant()),
+            };
+            let end = Node {
+                machine: step.end,
+                ideal: from + step.meant(),
+            };
+            way.push(piece, step.kind == Kind::Arc, end);
+        }
+        way
     }
 }

@@ -1,6 +1,5 @@
 //! Ways: consecutive cutting blocks, and where they lead.
 
-use super::trace::{Kind, Step};
 use crate::geometry::{Point, Segment, Vector};
 
 /// The tolerance for the end of a way with this many arcs at a place, µm: rounding adds up as a random walk.
@@ -61,27 +60,6 @@ impl Way {
             writing,
             ..Way::default()
         }
-    }
-
-    /// The way of steps that move.
-    pub(crate) fn of_steps<'a>(steps: impl IntoIterator<Item = &'a Step>, writing: Writing) -> Way {
-        let mut steps = steps.into_iter().peekable();
-        let start = steps.peek().map_or(Point::origin(), |first| first.start);
-        let mut way = Way::from(Node::at(start), writing);
-        for step in steps {
-            let from = way.end().ideal;
-            let by = from - step.start;
-            let piece = match &step.ideal {
-                Some(ideal) => ideal.moved(by),
-                None => Segment::line(from, from + step.meant()),
-            };
-            let end = Node {
-                machine: step.end,
-                ideal: from + step.meant(),
-            };
-            way.push(piece, step.kind == Kind::Arc, end);
-        }
-        way
     }
 
     /// The same with a stop after this many blocks, before its tab.

@@ -11,10 +11,11 @@ use super::parse::{Item, read_line};
 use super::rules::position_mismatch::Positions;
 use super::rules::{self, Counts, Limits, Observation, Spot};
 use super::words::{Word, Words};
-use crate::geometry::{Point, Segment};
+use crate::geometry::{Bounds, Point, Segment};
 use crate::program::numbering::Numbering;
 use crate::program::path::{Found, Node, Verdict, Way, Writing, odd_joint};
 use crate::text::SourceText;
+use std::borrow::Cow;
 use std::ops::{Deref, Range};
 
 /// A way of at most this many lines between two stops leads from one contour to the next, wherever it turns.
@@ -53,21 +54,34 @@ pub(super) struct Cut {
     pub(crate) faults: Vec<Local>,
     /// The stop, and whether it is the controller's own word; `None` for lines after the last.
     pub(crate) stop: Option<(Word, bool)>,
-    pub(crate) verdict: Verdict,
+    /// Blocks that can be read, and arcs among them.
+    pub(crate) blocks: u32,
+    arcs: u32,
+    pub(crate) travel: Move,
+    /// Twice the area between the way and its chord, µm²; above 0 where it runs to the left.
+    pub(crate) twice_area: f64,
+    /// Around its way, µm from its start.
+    pub(crate) bounds: Option<Bounds>,
+    pub(crate) closes: bool,
+    pub(crate) goes_round: bool,
+    /// How far the last block leads on from the start, to which the way had come back, µm.
+    pub(crate) leads_on: Option<f64>,
+    /// All that is known of one that does not go round, and is no way between two.
+    open: Option<Box<Verdict>>,
     /// Where it crosses itself, if it does.
     pub(crate) found: Option<Box<Found>>,
     /// Between two stops it is the way from one contour to the next, perhaps.
     pub(crate) may_be_jump: bool,
-    pub(crate) texts: usize,
+    pub(crate) texts: u32,
     /// Blocks that could not be read: the end of the way is unknown.
-    pub(crate) unread: usize,
+    pub(crate) unread: u32,
     /// Faults that change where the way leads.
-    pub(crate) errors: usize,
+    pub(crate) errors: u32,
     /// Entries with a number.
-    pub(crate) numbered: usize,
+    pub(crate) numbered: u32,
     pub(crate) numbering: Numbering,
-    pub(crate) positions: Positions,
-    pub(crate) travel: Move,
+    /// None where nothing says where blocks end.
+    positions: Option<Box<Positions>>,
 }
 
 /// Reads lines from one on, up to one that ends with a stop: the cuts that they are, each with its lines, of which several
@@ -111,7 +125,7 @@ fn is_unread(fault: &SyntaxFault) -> bool {
 
 impl Cut {
     pub(crate) fn has_blocks(&self) -> bool {
-        self.verdict.ends.blocks + self.unread > 0
+        self.blocks + self.unread > 0
     }
 
     pub(crate) fn blocks(&self) -> impl DoubleEndedIterator<Item = &BlockEntry> {
@@ -129,18 +143,40 @@ impl Cut {
         way_of(self.blocks().map(BlockEntry::block))
     }
 
+    /// All that is known of its way.
+    pub(crate) fn verdict(&self) -> Cow<'_, Verdict> {
+        match &self.open {
+            Some(verdict) => Cow::Borrowed(verdict),
+            None => Cow::Owned(Verdict::of(&self.way())),
+        }
+    }
+
+    /// The end points that stand after its blocks.
+    pub(crate) fn positions(&self) -> Option<&Positions> {
+        self.positions.as_deref()
+    }
+
     /// What takes time, and depends on its blocks alone.
     pub(crate) fn finished(mut self, limits: &Limits) -> Cut {
         self.entries.shrink_to_fit();
-        let way = self.way();
-        self.verdict = Verdict::of(&way);
-        let travels = self.blocks().map(BlockEntry::travel);
-        self.travel = travels.fold(Move::default(), Move::plus);
+        let (way, verdict) = (self.way(), Verdict::of(&self.way()));
+        self.blocks = verdict.ends.blocks as u32;
+        self.arcs = verdict.ends.arcs as u32;
+        self.travel = self
+            .blocks()
+            .map(BlockEntry::travel)
+            .fold(Move::default(), Move::plus);
+        self.twice_area = verdict.twice_area;
+        self.bounds = (self.blocks > 0).then_some(verdict.bounds);
+        (self.closes, self.goes_round) = (verdict.closes(), verdict.goes_round);
+        self.leads_on = verdict.ends.lead_on();
         self.may_be_jump = self.may_be_jump();
+        self.open = (!self.goes_round && !self.may_be_jump).then(|| Box::new(verdict));
+        self.positions.take_if(|positions| positions.say_nothing());
         self.join(&way);
         self.faults.shrink_to_fit();
         if self.errors == 0 {
-            let offset = limits.control_offset(self.blocks(), self.verdict.twice_area);
+            let offset = limits.control_offset(self.blocks(), self.twice_area);
             let found = Found::of(&way, offset);
             self.found = (!found.is_clean()).then(|| Box::new(found));
         }
@@ -173,8 +209,8 @@ impl Cut {
     /// one: that is how a tab is cut off, from and to the thread hole.
     fn may_be_jump(&self) -> bool {
         let travel = self.travel.machine.map(|um| um as f64);
-        let count = self.verdict.ends.blocks;
-        if count == 0 || self.verdict.ends.arcs > 0 || self.travel.machine == [0, 0] {
+        let count = self.blocks as usize;
+        if count == 0 || self.arcs > 0 || self.travel.machine == [0, 0] {
             return false;
         }
         let (mut along, mut length) = ([0.0, 0.0], 0.0);
@@ -210,10 +246,12 @@ impl Cut {
                     // An unusual block, or one too tight, leads where it says.
                     let leads_astray = observation.counts == Counts::Always
                         && observation.rule != crate::finding::Rule::SmallRadius;
-                    self.errors += usize::from(leads_astray);
+                    self.errors += u32::from(leads_astray);
                     self.observe(range.clone(), observation);
                 }
-                self.positions.block(self.entries.len(), &entry);
+                self.positions
+                    .get_or_insert_default()
+                    .block(self.entries.len(), &entry);
                 self.push(range, line, number, What::Block(entry));
             }
             Item::Word {
@@ -226,7 +264,7 @@ impl Cut {
                 self.push(local(range), line, number, What::Word { word, is_own });
             }
             Item::StartPoint { at, range } => {
-                self.positions.start(at);
+                self.positions.get_or_insert_default().start(at);
                 self.push(local(range), line, None, What::StartPoint(at));
             }
             Item::Text { range, column } => {
@@ -240,11 +278,11 @@ impl Cut {
             Item::Fault(fault) => {
                 // Without its coordinates a block leads where it says.
                 self.errors +=
-                    usize::from(!matches!(fault.flaw, Flaw::DecimalCommas | Flaw::FarStart));
+                    u32::from(!matches!(fault.flaw, Flaw::DecimalCommas | Flaw::FarStart));
                 if is_unread(&fault) {
                     self.unread += 1;
                     // Its number has its turn, but its end is unknown.
-                    self.positions.lost();
+                    self.positions.get_or_insert_default().lost();
                     self.push(local(fault.range.clone()), line, fault.number, What::Unread);
                 }
                 self.observe(local(fault.range.clone()), Observation::of(&fault));
@@ -253,7 +291,7 @@ impl Cut {
     }
 
     fn push(&mut self, range: Range<usize>, line: u32, number: Option<u32>, what: What) {
-        self.numbered += usize::from(number.is_some());
+        self.numbered += u32::from(number.is_some());
         self.numbering = self
             .numbering
             .with(number, matches!(what, What::Block(_) | What::Unread));

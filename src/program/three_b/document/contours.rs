@@ -4,7 +4,7 @@ use super::super::cut::Cut;
 use super::super::entry::{BlockEntry, Entry, What};
 use super::super::words::Word;
 use super::{At, Document};
-use crate::geometry::cross;
+use crate::geometry::{Vector, cross};
 use crate::program::contours::Divided;
 use crate::program::path::{ControlOffset, Ends, Verdict, Way};
 use crate::program::steps::Program;
@@ -22,7 +22,7 @@ impl Divided for Document {
     }
 
     fn verdict(&self, cut: usize) -> Cow<'_, Verdict> {
-        Cow::Borrowed(&self.cuts[cut].verdict)
+        self.cuts[cut].verdict()
     }
 
     fn way(&self, cut: usize) -> Way {
@@ -32,7 +32,7 @@ impl Divided for Document {
     fn may_go_on(&self, cut: usize) -> bool {
         let own = &self.cuts[cut];
         own.has_blocks()
-            && !own.verdict.goes_round
+            && !own.goes_round
             && !self.is_jump(cut)
             && !(own.stop.is_some() && self.stops_again(cut))
     }
@@ -43,7 +43,7 @@ impl Divided for Document {
 
     fn stands_alone(&self, cut: usize) -> bool {
         let own = &self.cuts[cut];
-        own.verdict.ends.blocks > 0 && (self.is_jump(cut) || own.verdict.closes())
+        own.blocks > 0 && (self.is_jump(cut) || own.closes)
     }
 
     fn is_doubtful(&self, cuts: &Range<usize>) -> bool {
@@ -69,9 +69,7 @@ impl Document {
         let foreign = || stops().rfind(ends(false));
         let stop = || {
             let (last, cut) = stops().rfind(|(_, cut)| cut.stop.is_some())?;
-            let is_last = self.cuts[last + 1..]
-                .iter()
-                .all(|cut| cut.verdict.ends.blocks == 0);
+            let is_last = self.cuts[last + 1..].iter().all(|cut| cut.blocks == 0);
             let has_blocks = || self.last_block(None).is_some();
             (is_last && has_blocks()).then_some((last, cut))
         };
@@ -180,7 +178,7 @@ impl Document {
 
     /// Whether a cut is a contour that does not close, and with which no other goes on.
     pub(super) fn is_open(&self, cut: usize) -> bool {
-        let closes = self.cuts[cut].verdict.closes();
+        let closes = self.cuts[cut].closes;
         !closes && self.view.contours.of_cut(cut).is_none() && self.may_go_on(cut)
     }
 
@@ -204,28 +202,35 @@ impl Document {
     }
 
     pub(super) fn ends_of(&self, cuts: &OneContour) -> Ends {
-        let mut all = self.cuts[cuts.clone()].iter().map(|cut| cut.verdict.ends);
+        let mut all = self.cuts[cuts.clone()].iter().map(|cut| cut.verdict().ends);
         let first = all.next().unwrap_or_default();
         all.fold(first, |before, next| before.then(&next))
     }
 
     /// Twice the area between a contour and its chord, µm²; above 0 where it runs to the left.
     pub(super) fn twice_area(&self, cuts: &OneContour) -> f64 {
-        let (mut area, mut at) = (0.0, crate::geometry::Vector::zeros());
-        for Cut { verdict, .. } in &self.cuts[cuts.clone()] {
-            let by = verdict.ends.travel().ideal.coords;
-            area += verdict.twice_area + cross(at, by);
+        let (mut area, mut at) = (0.0, Vector::zeros());
+        for cut in &self.cuts[cuts.clone()] {
+            let by = Vector::from(cut.travel.meant_um());
+            area += cut.twice_area + cross(at, by);
             at += by;
         }
         area
     }
 
+    pub(super) fn block_count(&self, cuts: &OneContour) -> usize {
+        let blocks = self.cuts[cuts.clone()].iter().map(|cut| cut.blocks);
+        blocks.sum::<u32>() as usize
+    }
+
     pub(super) fn errors(&self, cuts: &OneContour) -> usize {
-        self.cuts[cuts.clone()].iter().map(|cut| cut.errors).sum()
+        let errors = self.cuts[cuts.clone()].iter().map(|cut| cut.errors);
+        errors.sum::<u32>() as usize
     }
 
     pub(super) fn unread(&self, cuts: &OneContour) -> usize {
-        self.cuts[cuts.clone()].iter().map(|cut| cut.unread).sum()
+        let unread = self.cuts[cuts.clone()].iter().map(|cut| cut.unread);
+        unread.sum::<u32>() as usize
     }
 
     /// Whether a stop follows the last stop before an entry: nothing is cut between.

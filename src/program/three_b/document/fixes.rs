@@ -32,8 +32,7 @@ impl Document {
         let of_contour = self.contour_fixes(finding);
         let cuts = || self.contour_at(self.entry_at(finding.place.in_text()?)?);
         let is_searched = of_contour.is_some() && is_about_numbers(finding.rule);
-        if is_searched && cuts().is_some_and(|cuts| self.ends_of(&cuts).blocks >= FEWEST_THAT_CLOSE)
-        {
+        if is_searched && cuts().is_some_and(|cuts| self.block_count(&cuts) >= FEWEST_THAT_CLOSE) {
             // Which of them is wrong is for the search to say.
             let is_way = |fix: &&mut TextFix| !matches!(fix.kind, FixKind::SetCoordinates { .. });
             own.iter_mut()

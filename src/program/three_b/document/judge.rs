@@ -28,10 +28,11 @@ impl Document {
     fn judge_size(&self, findings: &mut Vec<Finding>) {
         // Cuts are laid end to end by what their blocks mean.
         let (mut bounds, mut blocks, mut before) = (Bounds::EMPTY, 0, Move::default());
-        for cut in self.cuts.iter().filter(|cut| cut.verdict.ends.blocks > 0) {
-            let [x, y] = before.meant_um();
-            bounds.merge(&cut.verdict.bounds.moved(Vector::new(x, y)));
-            blocks += cut.verdict.ends.blocks;
+        for cut in self.cuts.iter() {
+            let by = Vector::from(before.meant_um());
+            let placed = cut.bounds.map(|own| own.moved(by));
+            placed.iter().for_each(|placed| bounds.merge(placed));
+            blocks += cut.blocks as usize;
             before = before.plus(cut.travel);
         }
         let first = || {
@@ -50,9 +51,8 @@ impl Document {
     fn judge_ways(&self, findings: &mut Vec<Finding>) {
         for cut in 0..self.cut_count() {
             // The last one may well end elsewhere.
-            let goes_on =
-                |next: usize| next < self.cut_count() && self.cuts[next].verdict.ends.blocks > 0;
-            if let Some(length) = self.cuts[cut].verdict.ends.lead_on()
+            let goes_on = |next: usize| next < self.cut_count() && self.cuts[next].blocks > 0;
+            if let Some(length) = self.cuts[cut].leads_on
                 && goes_on(cut + 1)
                 && let Some(last) = self.blocks_of(&(cut..cut + 1)).next_back()
             {
@@ -67,7 +67,7 @@ impl Document {
             return;
         };
         let Some(end) = self.view.end else {
-            let blocks: usize = self.cuts.iter().map(|cut| cut.verdict.ends.blocks).sum();
+            let blocks: u32 = self.cuts.iter().map(|cut| cut.blocks).sum();
             let fault = Fault::MissingEnd {
                 word: self.words.end.clone(),
             };

@@ -97,7 +97,7 @@ impl Document {
         let before = places.iter().position(|at| *at == first)?;
         let (index, fault) = self.blamed_of(whole, &places, &pieces)?;
         let own = index.checked_sub(before)?;
-        (own < self.ends_of(cut).blocks).then_some((own, fault))
+        (own < self.block_count(cut)).then_some((own, fault))
     }
 
     fn blamed_of(
@@ -196,7 +196,7 @@ impl Document {
 
     /// The blocks of a contour, including unreadable ones; `None` where there are too few or too many.
     fn pieces_of(&self, cut: &OneContour) -> Option<(Vec<At>, Vec<Written>)> {
-        if !BLOCKS.contains(&(self.ends_of(cut).blocks + self.unread(cut))) {
+        if !BLOCKS.contains(&(self.block_count(cut) + self.unread(cut))) {
             return None;
         }
         let (mut places, mut pieces) = (Vec::new(), Vec::new());

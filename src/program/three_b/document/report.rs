@@ -167,7 +167,7 @@ impl Document {
             let before = before
                 .filter(|entry| matches!(entry.what, What::Block(_)))
                 .count();
-            let earlier = self.ends_of(&(cuts.start..cut)).blocks;
+            let earlier = self.block_count(&(cuts.start..cut));
             let tip = self.way_of(&cuts).node(earlier + before);
             let tolerance = path::tolerance(self.ends_of(&cuts).arcs);
             tip.machine.coords.norm() <= tolerance

@@ -1,7 +1,6 @@
 //! The sequence of blocks: their numbers, and their stated places.
 
 use super::super::around::StatedPoint;
-use super::super::cut::Cut;
 use super::super::entry::{Entry, Move, What};
 use super::super::rules::position_mismatch;
 use super::{At, Document};
@@ -103,7 +102,11 @@ impl Document {
     pub(super) fn off_positions(&self) -> Vec<OffPosition> {
         let (mut before, mut compared) = (None, 0);
         let mut off: Vec<OffPosition> = Vec::new();
-        for (cut, Cut { positions, .. }) in self.cuts.iter().enumerate() {
+        for (cut, own) in self.cuts.iter().enumerate() {
+            let Some(positions) = own.positions() else {
+                before = before.filter(|_| !own.has_blocks());
+                continue;
+            };
             if let (Some(before), Some(first)) = (&before, &positions.first) {
                 compared += 1;
                 let (entry, stated, travel) = &**first;

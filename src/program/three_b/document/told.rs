@@ -36,11 +36,11 @@ impl Document {
         for cut in open {
             let contour = cut..cut + 1;
             let own = &self.cuts[cut];
-            let is_fragment = self.view.end.is_none() || own.verdict.ends.blocks <= FRAGMENT;
+            let is_fragment = self.view.end.is_none() || own.blocks as usize <= FRAGMENT;
             if own.unread > 0 || (is_fragment && self.leads_out(cut)) {
                 continue;
             }
-            let fault = own.verdict.ends.not_closed();
+            let fault = own.verdict().ends.not_closed();
             if let Some(last) = self.blocks_of(&contour).next_back() {
                 let finding = Finding::of(fault, self.range_of(last));
                 findings.push(match is_fragment {
@@ -48,7 +48,7 @@ impl Document {
                     false => finding,
                 });
             }
-            let may_be_one_field = own.errors == 0 && own.verdict.ends.blocks >= FEWEST_BLAMED;
+            let may_be_one_field = own.errors == 0 && own.blocks as usize >= FEWEST_BLAMED;
             if may_be_one_field && !is_fragment && !self.lacks_a_number(&contour) {
                 let mark = self.mark_of_search(&contour, &marks);
                 searched.push((contour, mark));
@@ -97,7 +97,7 @@ impl Document {
             return false;
         };
         let before = self.ends_of(&self.view.contours.cuts_of(before));
-        before.then(&self.cuts[cut].verdict.ends).returns()
+        before.then(&self.cuts[cut].verdict().ends).returns()
     }
 
     /// The finding of the block to blame.

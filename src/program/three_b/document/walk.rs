@@ -163,7 +163,7 @@ impl Program for Document {
     }
 
     fn has_steps(&self, cut: usize) -> bool {
-        self.cuts[cut].stop.is_some() || self.cuts[cut].verdict.ends.blocks > 0
+        self.cuts[cut].stop.is_some() || self.cuts[cut].blocks > 0
     }
 
     fn walk(&self, cut: usize, contour: &mut usize, each: &mut dyn FnMut(Step)) {

@@ -75,6 +75,12 @@ impl Positions {
         self.last = Some(Some(StatedPoint { at, decimals: 3 }));
     }
 
+    /// They are compared with nothing, and nothing is compared with them.
+    pub(crate) fn say_nothing(&self) -> bool {
+        let is_stated = matches!(self.last, Some(Some(_)));
+        self.compared == 0 && self.first.is_none() && self.off.is_empty() && !is_stated
+    }
+
     /// Nothing says where the wire stands.
     pub(crate) fn lost(&mut self) {
         self.last = Some(None);
