@@ -161,7 +161,7 @@ fn a_cut_that_goes_through_itself_is_told_at_both_places() {
         &bow("G40").replace("X20. Y0.\n", "X20. Y0.\nG02 X20. Y0. R0\nG01 "),
         &[(7, "arc-without-radius")],
     );
-    // Far apart in the text, and across the borders of stretches.
+    // Far apart in the text, and beyond a stop.
     let mut long = String::from("G92 X0 Y0\nG91\nG01 X1000\n");
     (0..700).for_each(|step| long += if step % 2 == 0 { "X10\n" } else { "Y10\n" });
     long += "Y3000\nX-2000\nY-5000\nX700 Y-3000\nX1000 Y6000\nX-700\nM02\n";

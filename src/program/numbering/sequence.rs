@@ -12,7 +12,7 @@ pub(in crate::program) struct Numbered {
     pub(crate) is_unread: bool,
 }
 
-/// How the blocks of a stretch are numbered.
+/// How the blocks of a cut are numbered.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(in crate::program) enum Numbering {
     /// There is no block.

@@ -64,7 +64,7 @@ fn assert_parts_are_of_the_whole(document: &Document) -> Result<(), TestCaseErro
             prop_assert_eq!(stands, begins);
         }
     }
-    // Where nothing moves, it stands as the step before has left it, wherever the text falls into chunks.
+    // Where nothing moves, it stands as the step before has left it, wherever its cut begins.
     let has_steps = !trace.steps.is_empty();
     if has_steps && trace.steps.is_sorted_by_key(|step| step.range.start) {
         for line in 0..=unread.unwrap_or(text.line_count() - 1) {

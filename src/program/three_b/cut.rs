@@ -17,6 +17,7 @@ use crate::program::path::{Found, Node, Verdict, Way, Writing, odd_joint};
 use crate::text::SourceText;
 use std::borrow::Cow;
 use std::ops::{Deref, Range};
+use std::sync::LazyLock;
 
 /// A way of at most this many lines between two stops leads from one contour to the next, wherever it turns.
 const JUMP_BLOCKS: usize = 3;
@@ -51,7 +52,6 @@ pub(super) struct Cut {
     pub(crate) id: u64,
     /// The last block or word of them is the stop.
     pub(crate) entries: Vec<Entry>,
-    pub(crate) faults: Vec<Local>,
     /// The stop, and whether it is the controller's own word; `None` for lines after the last.
     pub(crate) stop: Option<(Word, bool)>,
     /// Blocks that can be read, and arcs among them.
@@ -64,24 +64,31 @@ pub(super) struct Cut {
     pub(crate) bounds: Option<Bounds>,
     pub(crate) closes: bool,
     pub(crate) goes_round: bool,
-    /// How far the last block leads on from the start, to which the way had come back, µm.
-    pub(crate) leads_on: Option<f64>,
-    /// All that is known of one that does not go round, and is no way between two.
-    open: Option<Box<Verdict>>,
-    /// Where it crosses itself, if it does.
-    pub(crate) found: Option<Box<Found>>,
     /// Between two stops it is the way from one contour to the next, perhaps.
     pub(crate) may_be_jump: bool,
-    pub(crate) texts: u32,
-    /// Blocks that could not be read: the end of the way is unknown.
-    pub(crate) unread: u32,
-    /// Faults that change where the way leads.
-    pub(crate) errors: u32,
     /// Entries with a number.
     pub(crate) numbered: u32,
     pub(crate) numbering: Numbering,
-    /// None where nothing says where blocks end.
-    positions: Option<Box<Positions>>,
+    rare: Option<Box<Rare>>,
+}
+
+/// What few cuts have.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Rare {
+    pub(crate) faults: Vec<Local>,
+    /// Where it crosses itself.
+    pub(crate) found: Found,
+    /// All that is known of one that does not go round, and is no way between two.
+    open: Option<Verdict>,
+    /// How far the last block leads on from the start, to which the way had come back, µm.
+    pub(crate) leads_on: Option<f64>,
+    /// The end points that stand after its blocks.
+    pub(crate) positions: Positions,
+    pub(crate) texts: usize,
+    /// Blocks that could not be read: the end of the way is unknown.
+    pub(crate) unread: usize,
+    /// Faults that change where the way leads.
+    pub(crate) errors: usize,
 }
 
 /// Reads lines from one on, up to one that ends with a stop: the cuts that they are, each with its lines, of which several
@@ -125,7 +132,7 @@ fn is_unread(fault: &SyntaxFault) -> bool {
 
 impl Cut {
     pub(crate) fn has_blocks(&self) -> bool {
-        self.blocks + self.unread > 0
+        self.blocks > 0 || self.rare().unread > 0
     }
 
     pub(crate) fn blocks(&self) -> impl DoubleEndedIterator<Item = &BlockEntry> {
@@ -145,15 +152,19 @@ impl Cut {
 
     /// All that is known of its way.
     pub(crate) fn verdict(&self) -> Cow<'_, Verdict> {
-        match &self.open {
+        match &self.rare().open {
             Some(verdict) => Cow::Borrowed(verdict),
             None => Cow::Owned(Verdict::of(&self.way())),
         }
     }
 
-    /// The end points that stand after its blocks.
-    pub(crate) fn positions(&self) -> Option<&Positions> {
-        self.positions.as_deref()
+    pub(crate) fn rare(&self) -> &Rare {
+        static NONE: LazyLock<Rare> = LazyLock::new(Rare::default);
+        self.rare.as_deref().unwrap_or(&NONE)
+    }
+
+    fn rare_mut(&mut self) -> &mut Rare {
+        self.rare.get_or_insert_default()
     }
 
     /// What takes time, and depends on its blocks alone.
@@ -169,17 +180,21 @@ impl Cut {
         self.twice_area = verdict.twice_area;
         self.bounds = (self.blocks > 0).then_some(verdict.bounds);
         (self.closes, self.goes_round) = (verdict.closes(), verdict.goes_round);
-        self.leads_on = verdict.ends.lead_on();
         self.may_be_jump = self.may_be_jump();
-        self.open = (!self.goes_round && !self.may_be_jump).then(|| Box::new(verdict));
-        self.positions.take_if(|positions| positions.say_nothing());
         self.join(&way);
-        self.faults.shrink_to_fit();
-        if self.errors == 0 {
-            let offset = limits.control_offset(self.blocks(), self.twice_area);
-            let found = Found::of(&way, offset);
-            self.found = (!found.is_clean()).then(|| Box::new(found));
+        let is_open = !self.goes_round && !self.may_be_jump;
+        let mut rare = self.rare.take().map_or_else(Rare::default, |rare| *rare);
+        if rare.positions.say_nothing() {
+            rare.positions = Positions::default();
         }
+        rare.leads_on = verdict.ends.lead_on();
+        rare.open = is_open.then_some(verdict);
+        rare.faults.shrink_to_fit();
+        if rare.errors == 0 {
+            let offset = limits.control_offset(self.blocks(), self.twice_area);
+            rare.found = Found::of(&way, offset);
+        }
+        self.rare = (rare != Rare::default()).then(|| Box::new(rare));
         self
     }
 
@@ -202,7 +217,9 @@ impl Cut {
                 },
             }));
         }
-        self.faults.extend(odd);
+        if !odd.is_empty() {
+            self.rare_mut().faults.extend(odd);
+        }
     }
 
     /// True for what may be the way between two stops from one contour to the next. A way that returns to its start is not
@@ -227,7 +244,7 @@ impl Cut {
     }
 
     fn observe(&mut self, range: Range<usize>, observation: Observation) {
-        self.faults.push(Local { range, observation });
+        self.rare_mut().faults.push(Local { range, observation });
     }
 
     fn take(&mut self, item: Item, line: u32, base: usize, limits: &Limits) {
@@ -246,12 +263,11 @@ impl Cut {
                     // An unusual block, or one too tight, leads where it says.
                     let leads_astray = observation.counts == Counts::Always
                         && observation.rule != crate::finding::Rule::SmallRadius;
-                    self.errors += u32::from(leads_astray);
+                    self.rare_mut().errors += usize::from(leads_astray);
                     self.observe(range.clone(), observation);
                 }
-                self.positions
-                    .get_or_insert_default()
-                    .block(self.entries.len(), &entry);
+                let nth = self.entries.len();
+                self.rare_mut().positions.block(nth, &entry);
                 self.push(range, line, number, What::Block(entry));
             }
             Item::Word {
@@ -264,25 +280,25 @@ impl Cut {
                 self.push(local(range), line, number, What::Word { word, is_own });
             }
             Item::StartPoint { at, range } => {
-                self.positions.get_or_insert_default().start(at);
+                self.rare_mut().positions.start(at);
                 self.push(local(range), line, None, What::StartPoint(at));
             }
             Item::Text { range, column } => {
-                self.texts += 1;
+                self.rare_mut().texts += 1;
                 self.push(local(range), line, None, What::Text { column });
             }
             Item::CommentedBlock { range, column } => {
-                self.texts += 1;
+                self.rare_mut().texts += 1;
                 self.push(local(range), line, None, What::CommentedBlock { column });
             }
             Item::Fault(fault) => {
                 // Without its coordinates a block leads where it says.
-                self.errors +=
-                    u32::from(!matches!(fault.flaw, Flaw::DecimalCommas | Flaw::FarStart));
+                self.rare_mut().errors +=
+                    usize::from(!matches!(fault.flaw, Flaw::DecimalCommas | Flaw::FarStart));
                 if is_unread(&fault) {
-                    self.unread += 1;
+                    self.rare_mut().unread += 1;
                     // Its number has its turn, but its end is unknown.
-                    self.positions.get_or_insert_default().lost();
+                    self.rare_mut().positions.lost();
                     self.push(local(fault.range.clone()), line, fault.number, What::Unread);
                 }
                 self.observe(local(fault.range.clone()), Observation::of(&fault));

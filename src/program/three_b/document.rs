@@ -228,7 +228,7 @@ mod tests {
     use crate::program::path::Step;
     use proptest::prelude::*;
 
-    /// Findings in one order, whatever stretches the lines lie in.
+    /// Findings in one order, whatever cuts the lines lie in.
     fn sorted(document: &Document) -> Vec<String> {
         let mut findings: Vec<String> = document
             .findings()
@@ -346,7 +346,7 @@ mod tests {
             copies in 1_usize..12,
             edits in prop::collection::vec((0_usize..4000, 0_usize..60, REPLACEMENT), 1..6),
         ) {
-            // More lines than one stretch holds.
+            // More lines than a page.
             let mut document = Document::read(text.repeat(copies).into_bytes());
             for (start, length, replacement) in edits {
                 document.edit(start..start + length, &replacement);

@@ -1,5 +1,5 @@
 //! An edited text reads as the same text from scratch, and a fault is found wherever the text is divided
-//! into stretches.
+//! into cuts.
 
 use super::*;
 use proptest::prelude::*;
@@ -173,8 +173,8 @@ fn a_spur_before_a_doubled_block_is_one() {
 
 #[test]
 fn what_a_joint_looks_at_behind_many_comments_is_looked_at_again() {
-    // Whether the way goes back on itself is decided by the next block, which may be several
-    // stretches further on.
+    // Whether the way goes back on itself is decided by the next block, which may be many
+    // lines further on.
     for before in (0..50).step_by(7) {
         for between in 0..62 {
             let text = format!(
@@ -316,7 +316,7 @@ proptest! {
         contours in prop::collection::vec((1_i32..30, any::<bool>(), prop::sample::select(vec!["", "M00\n", "M00\nM00\n", "G41 D1\n"])), 1..24),
         edits in prop::collection::vec((0_usize..20_000, 0_usize..3, prop::sample::select(vec!["", "5", "1", "\n", "M00\n", "G42 D1\n", "X", "G91\n", "H1=80\n"])), 1..6),
     ) {
-        // Squares in steps of 1 mm: of some the way runs through many stretches.
+        // Squares in steps of 1 mm: of some the way is long.
         let contour = |(nth, (steps, is_relative, before)): (usize, &(i32, bool, &str))| {
             let begin = 40 * nth as i32;
             let mut text = format!("G90\n{before}G00 X{begin}. Y0.\n{}\n", if *is_relative { "G91" } else { "G90" });
@@ -350,7 +350,7 @@ proptest! {
 
 #[test]
 fn a_line_that_cannot_be_read_says_nothing_of_a_cut_that_was_over_before_it() {
-    // Between the two, the text falls into stretches somewhere.
+    // However far apart the two are.
     for lines_between in [0, 400] {
         let text = format!(
             "G92 X0 Y0\nG01 X10. Y0\nG01 X10. Y10.\nG01 X3. Y10.\nG28 X0\nG00 X5. Y5.\n{}X- Y\nM02\n",

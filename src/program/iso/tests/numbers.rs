@@ -371,7 +371,7 @@ fn every_number_that_stands_out_is_told_where_they_are_few() {
 
 #[test]
 fn a_number_that_the_control_passes_over_does_not_stand_for_one_with_other_decimals() {
-    // Of X that is repeated the last one counts; where the lines come to stand in one stretch, and where they do not.
+    // Of X that is repeated the last one counts; and of many lines.
     for between in [0, 5, 400] {
         let comments = "(plate)\n".repeat(between);
         let body = "G01 X1.5 Y2.5\nG01 X3.5 Y0.5\n".repeat(10);

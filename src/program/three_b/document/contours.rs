@@ -224,13 +224,13 @@ impl Document {
     }
 
     pub(super) fn errors(&self, cuts: &OneContour) -> usize {
-        let errors = self.cuts[cuts.clone()].iter().map(|cut| cut.errors);
-        errors.sum::<u32>() as usize
+        let errors = self.cuts[cuts.clone()].iter().map(|cut| cut.rare().errors);
+        errors.sum()
     }
 
     pub(super) fn unread(&self, cuts: &OneContour) -> usize {
-        let unread = self.cuts[cuts.clone()].iter().map(|cut| cut.unread);
-        unread.sum::<u32>() as usize
+        let unread = self.cuts[cuts.clone()].iter().map(|cut| cut.rare().unread);
+        unread.sum()
     }
 
     /// Whether a stop follows the last stop before an entry: nothing is cut between.

@@ -52,7 +52,7 @@ impl Document {
         for cut in 0..self.cut_count() {
             // The last one may well end elsewhere.
             let goes_on = |next: usize| next < self.cut_count() && self.cuts[next].blocks > 0;
-            if let Some(length) = self.cuts[cut].leads_on
+            if let Some(length) = self.cuts[cut].rare().leads_on
                 && goes_on(cut + 1)
                 && let Some(last) = self.blocks_of(&(cut..cut + 1)).next_back()
             {
@@ -104,7 +104,7 @@ impl Document {
             .find(|(_, entry)| entry.block().is_some());
         let first_block = first_block.map(|(at, _)| at);
         let known = findings.len();
-        let with_texts = (0..self.cuts.len()).filter(|cut| self.cuts[*cut].texts > 0);
+        let with_texts = (0..self.cuts.len()).filter(|cut| self.cuts[*cut].rare().texts > 0);
         let texts = with_texts
             .flat_map(|cut| self.entries(cut..cut + 1))
             .filter_map(|(at, entry)| match entry.what {
@@ -112,7 +112,7 @@ impl Document {
                 What::CommentedBlock { column } => Some((at, column, true)),
                 _ => None,
             });
-        let has_fault = self.cuts.iter().any(|cut| !cut.faults.is_empty());
+        let has_fault = self.cuts.iter().any(|cut| !cut.rare().faults.is_empty());
         let mut is_said = false;
         for (at, column, is_comment) in texts {
             let range = self.range_of(at);

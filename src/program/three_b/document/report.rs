@@ -39,7 +39,7 @@ impl Report for Document {
 
     fn found(&self) -> impl Iterator<Item = Found<Source>> {
         let in_blocks = (0..self.cuts.len()).flat_map(move |cut| {
-            let faults = self.cuts[cut].faults.iter().enumerate();
+            let faults = self.cuts[cut].rare().faults.iter().enumerate();
             let counting = faults.filter(move |(_, local)| self.counts(cut, local));
             counting.map(move |(index, local)| {
                 let base = self.cuts.byte(cut);
@@ -79,7 +79,7 @@ impl Report for Document {
     fn worded(&self, source: Source) -> Option<Finding> {
         match source {
             Source::InBlock { cut, index } => {
-                let local = self.cuts.get(cut)?.faults.get(index)?;
+                let local = self.cuts.get(cut)?.rare().faults.get(index)?;
                 Some(self.materialized(cut, local))
             }
             Source::InContour { cuts, index } => {
@@ -129,7 +129,7 @@ impl Document {
             contour.is_none_or(|contour| !contour.ends_with_tab)
         };
         let cuts = (0..self.cut_count()).filter(move |cut| is_whole(cut));
-        let cuts = cuts.filter_map(|cut| Some((cut..cut + 1, self.cuts[cut].found.as_deref()?)));
+        let cuts = cuts.filter_map(|cut| Some((cut..cut + 1, &self.cuts[cut].rare().found)));
         let all = with_tabs.chain(cuts);
         all.filter(|(cuts, found)| {
             !found.is_clean()
@@ -142,14 +142,14 @@ impl Document {
     fn found_of(&self, cuts: &OneContour) -> Option<&path::Found> {
         match self.view.contours.of_cut(cuts.start) {
             Some(contour) if contour.cuts == *cuts => Some(contour.found()),
-            _ => self.cuts.get(cuts.start)?.found.as_deref(),
+            _ => Some(&self.cuts.get(cuts.start)?.rare().found),
         }
     }
 
     /// Whether an odd joint of a contour is reported.
     fn is_odd(&self, cuts: &OneContour) -> bool {
         cuts.clone().any(|cut| {
-            let mut faults = self.cuts[cut].faults.iter();
+            let mut faults = self.cuts[cut].rare().faults.iter();
             faults.any(|local| local.counts == Counts::IfAlone && self.counts(cut, local))
         })
     }

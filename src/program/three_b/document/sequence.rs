@@ -103,10 +103,7 @@ impl Document {
         let (mut before, mut compared) = (None, 0);
         let mut off: Vec<OffPosition> = Vec::new();
         for (cut, own) in self.cuts.iter().enumerate() {
-            let Some(positions) = own.positions() else {
-                before = before.filter(|_| !own.has_blocks());
-                continue;
-            };
+            let positions = &own.rare().positions;
             if let (Some(before), Some(first)) = (&before, &positions.first) {
                 compared += 1;
                 let (entry, stated, travel) = &**first;
@@ -114,9 +111,13 @@ impl Document {
                 off.extend(by.map(|by| (At { cut, entry: *entry }, by)));
             }
             compared += positions.compared;
-            let own = positions.off.iter();
-            off.extend(own.map(|(entry, by)| (At { cut, entry: *entry }, *by)));
-            before = positions.last.unwrap_or(before);
+            let wrong = positions.off.iter();
+            off.extend(wrong.map(|(entry, by)| (At { cut, entry: *entry }, *by)));
+            // Blocks without an end point leave nothing to compare the next one with.
+            before = match positions.last {
+                Some(last) => last,
+                None => before.filter(|_| !own.has_blocks()),
+            };
         }
         if off.len() > 2 && off.len() as f64 > position_mismatch::FOREIGN * compared as f64 {
             off.clear();

@@ -37,7 +37,7 @@ impl Document {
             let contour = cut..cut + 1;
             let own = &self.cuts[cut];
             let is_fragment = self.view.end.is_none() || own.blocks as usize <= FRAGMENT;
-            if own.unread > 0 || (is_fragment && self.leads_out(cut)) {
+            if own.rare().unread > 0 || (is_fragment && self.leads_out(cut)) {
                 continue;
             }
             let fault = own.verdict().ends.not_closed();
@@ -48,7 +48,7 @@ impl Document {
                     false => finding,
                 });
             }
-            let may_be_one_field = own.errors == 0 && own.blocks as usize >= FEWEST_BLAMED;
+            let may_be_one_field = own.rare().errors == 0 && own.blocks as usize >= FEWEST_BLAMED;
             if may_be_one_field && !is_fragment && !self.lacks_a_number(&contour) {
                 let mark = self.mark_of_search(&contour, &marks);
                 searched.push((contour, mark));

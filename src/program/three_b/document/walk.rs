@@ -133,7 +133,7 @@ impl Program for Document {
     }
 
     fn unread_line(&self) -> Option<usize> {
-        let cut = self.cuts.iter().position(|cut| cut.unread > 0)?;
+        let cut = self.cuts.iter().position(|cut| cut.rare().unread > 0)?;
         let mut entries = self.entries(cut..cut + 1);
         let (at, entry) = entries.find(|(_, entry)| entry.what == What::Unread)?;
         Some(self.line_of(at, entry))
