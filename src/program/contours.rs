@@ -180,7 +180,7 @@ fn judged<D: Divided>(program: &D, cuts: &Range<usize>) -> Arc<Judged> {
 /// which is its tab, or the last of pieces that return to the start together, in whatever order they are cut.
 fn join<D: Divided>(program: &D, first: usize) -> (usize, Joined) {
     let (mut last, mut may_be_tab) = (first, true);
-    let (mut ends, mut whole) = (program.verdict(first).ends, program.way(first));
+    let (mut ends, mut whole) = (program.verdict(first).ends, None);
     for stop in 1..=STOPS_WITHIN {
         let Some(next) = program.behind_stop(last) else {
             break;
@@ -190,9 +190,11 @@ fn join<D: Divided>(program: &D, first: usize) -> (usize, Joined) {
         may_be_tab &= stop <= TABS_WITHIN;
         let mut is_tab_here = false;
         if may_be_tab {
-            let (before, behind) = (whole.clone(), program.way(next));
-            whole.append(&behind);
-            is_tab_here = ends.blocks > 2 && is_tab(&before, &behind, &whole);
+            let before = whole.take().unwrap_or_else(|| program.way(first));
+            let (behind, mut all) = (program.way(next), before.clone());
+            all.append(&behind);
+            is_tab_here = ends.blocks > 2 && is_tab(&before, &behind, &all);
+            whole = Some(all);
         }
         if is_tab_here || ends.close() {
             return (last + 2, Some((last, is_tab_here)));

@@ -36,8 +36,15 @@ pub(in crate::program) trait Reader: Sync {
     /// each with its lines.
     fn finish(&self, text: &SourceText, begun: Self::Begun) -> Vec<(Range<usize>, Self::Cut)>;
 
-    /// Takes back what running some lines has added to the whole: they are run again, or are gone.
-    fn forget(&mut self, _: &SourceText, _lines: Range<usize>, _before: &Self::State) {}
+    /// Takes back what running a cut has added to the whole: its lines are run again, or are gone.
+    fn forget(
+        &mut self,
+        _: &Self::Cut,
+        _: &SourceText,
+        _lines: Range<usize>,
+        _before: &Self::State,
+    ) {
+    }
 
     /// The reading of a line depends on no more than this many after it.
     const REACH: usize = 0;
@@ -165,7 +172,9 @@ impl<C: Send + Sync, S: Clone + PartialEq + Send + Sync> Cuts<C, S> {
     where
         L: Reader<Cut = C, State = S>,
     {
-        language.forget(text, self.lines(cut), self.state_before(cut));
+        if let Some(own) = self.list.get(cut) {
+            language.forget(own, text, self.lines(cut), self.state_before(cut));
+        }
     }
 
     /// Runs lines from one on in place of the cuts from `from` on, of which those before `to` are forgotten, until one that

@@ -6,7 +6,7 @@ use super::evidence::Evidence;
 use super::limits::{Limits, Table, correction_in};
 use super::moves::{Move, Place, Reading, added, apart, micrometres};
 use super::order::Order;
-use super::read::Run;
+use super::read::{Placed, Run};
 use super::summary::WireSide;
 use crate::program::cuts::Reader;
 use crate::program::path::{ControlOffset, Found, Node, Verdict, Way};
@@ -62,6 +62,9 @@ impl<'a> Sequence<'a> {
     }
 }
 
+/// Lines of a cut of which it is kept what they say of how numbers are meant.
+const LONG: usize = 64;
+
 /// How the lines of a program are read.
 pub(super) struct Control<'a> {
     pub(super) reading: Reading,
@@ -95,7 +98,7 @@ impl Control<'_> {
 pub(super) struct Begun {
     lines: Range<usize>,
     cut: Cut,
-    way: Vec<(Move, (u32, u32))>,
+    way: Vec<Placed>,
 }
 
 impl Reader for Control<'_> {
@@ -116,7 +119,10 @@ impl Reader for Control<'_> {
         let (run, behind) = self.ran(text, lines, before);
         self.evidence.add(&run.evidence);
         let after = Entry::of(run.after, Some(before));
-        let (cut, way) = run.finished();
+        let is_long = behind - first > LONG;
+        let evidence = is_long.then_some(run.evidence);
+        let (mut cut, way) = run.finished();
+        cut.keep_evidence(evidence);
         let begun = Begun {
             lines: first..behind,
             cut,
@@ -147,9 +153,14 @@ impl Reader for Control<'_> {
         vec![(lines, cut)]
     }
 
-    fn forget(&mut self, text: &SourceText, lines: Range<usize>, before: &Entry) {
-        let (run, _) = self.ran(text, lines, before);
-        self.evidence.take(&run.evidence);
+    /// What a long cut says is kept: running it again takes longer.
+    fn forget(&mut self, cut: &Cut, text: &SourceText, lines: Range<usize>, before: &Entry) {
+        match cut.evidence() {
+            Some(evidence) => self.evidence.take(evidence),
+            None => self
+                .evidence
+                .take(&self.ran(text, lines, before).0.evidence),
+        }
     }
 
     const REACH: usize = corner::REACH;

@@ -294,7 +294,7 @@ impl Document {
     fn read_all(&mut self) {
         self.leader = leader(&self.text);
         self.order = None;
-        self.table = Box::default();
+        self.table.clear();
         self.guess_reading();
         self.run();
         if self.cuts.iter().any(|cut| cut.calls) {

@@ -21,6 +21,9 @@ use std::ops::Range;
 /// Arcs with a larger radius are not kept: no correction comes near, nm.
 const LARGEST_CORRECTION: f64 = 5e6;
 
+/// A move, and the bytes of its words.
+pub(crate) type Placed = (Move, (u32, u32));
+
 /// Lines up to the end of a cut as they are run.
 pub(crate) struct Run {
     pub(crate) cut: Cut,
@@ -32,7 +35,7 @@ pub(crate) struct Run {
     pub(crate) reading: Reading,
     pub(crate) evidence: Evidence,
     /// Their moves that cut, from there.
-    pub(crate) way: Vec<(Move, (u32, u32))>,
+    pub(crate) way: Vec<Placed>,
     sum: Option<Summary>,
     tight: Vec<Tight>,
     spurs: Vec<Spur>,
@@ -85,7 +88,7 @@ impl Run {
     }
 
     /// What was run.
-    pub(crate) fn finished(self) -> (Cut, Vec<(Move, (u32, u32))>) {
+    pub(crate) fn finished(self) -> (Cut, Vec<Placed>) {
         let places = self.evidence.places.iter().enumerate();
         let used = places.filter(|(_, count)| **count > 0);
         let places = used.fold(0, |bits, (place, _)| bits | 1 << place);

@@ -121,7 +121,7 @@ impl Document {
     /// Whether there may be a finding about the moves of each cut as a whole, of those of which that is not known.
     pub(super) fn doubts(&self) -> Vec<Option<bool>> {
         let mut report = Report::new(self);
-        let mut doubt = |cut: usize| {
+        let doubt = |cut: usize| {
             let moves = self.cuts[cut].moves.as_ref()?;
             if moves.is_doubtful.is_some() || self.contours.of_cut(cut).is_some() {
                 return None;
@@ -135,7 +135,7 @@ impl Document {
                     || report.says(&contour),
             )
         };
-        (0..self.cuts.len()).map(|cut| doubt(cut)).collect()
+        (0..self.cuts.len()).map(doubt).collect()
     }
 }
 

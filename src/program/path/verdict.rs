@@ -81,13 +81,9 @@ impl Found {
         }
         let passes = passes(way);
         let first_pass = passes.first().map_or(way.count(), |pass| pass.end);
-        let aside = aside_at_stop(way);
-        let whole = [0..way.count()];
-        let searched = if passes.is_empty() {
-            &whole[..]
-        } else {
-            &passes
-        };
+        let (aside, whole) = (aside_at_stop(way), 0..way.count());
+        let whole = std::slice::from_ref(&whole);
+        let searched = if passes.is_empty() { whole } else { &passes };
         let mut found = Found {
             is_crowded: passes.len() == MOST_PASSES,
             ..Found::default()

@@ -147,7 +147,7 @@ impl Cut {
 
     /// Its way from the origin. A block that leads nowhere is a piece of no length.
     pub(crate) fn way(&self) -> Way {
-        way_of(self.blocks().map(BlockEntry::block))
+        way_of(self.blocks().map(BlockEntry::block)).0
     }
 
     /// All that is known of its way.
@@ -170,13 +170,11 @@ impl Cut {
     /// What takes time, and depends on its blocks alone.
     pub(crate) fn finished(mut self, limits: &Limits) -> Cut {
         self.entries.shrink_to_fit();
-        let (way, verdict) = (self.way(), Verdict::of(&self.way()));
+        let (way, travel) = way_of(self.blocks().map(BlockEntry::block));
+        let verdict = Verdict::of(&way);
         self.blocks = verdict.ends.blocks as u32;
         self.arcs = verdict.ends.arcs as u32;
-        self.travel = self
-            .blocks()
-            .map(BlockEntry::travel)
-            .fold(Move::default(), Move::plus);
+        self.travel = travel;
         self.twice_area = verdict.twice_area;
         self.bounds = (self.blocks > 0).then_some(verdict.bounds);
         (self.closes, self.goes_round) = (verdict.closes(), verdict.goes_round);
@@ -321,8 +319,8 @@ impl Cut {
     }
 }
 
-/// The way of some blocks from the origin.
-pub(super) fn way_of(blocks: impl Iterator<Item = Block>) -> Way {
+/// The way of some blocks from the origin, and where they lead.
+pub(super) fn way_of(blocks: impl Iterator<Item = Block>) -> (Way, Move) {
     let mut at = Move::default();
     let mut way = Way::from(Node::at(Point::origin()), Writing::default());
     for block in blocks {
@@ -332,5 +330,5 @@ pub(super) fn way_of(blocks: impl Iterator<Item = Block>) -> Way {
         at = at.plus(travel_of(&block));
         way.push(piece, !block.motion.is_line(), at.node());
     }
-    way
+    (way, at)
 }

@@ -4,7 +4,8 @@
 //! follow each other within a cut, or with a stop after each.
 
 use super::super::contours::Contour;
-use super::super::moves::{Move, Place as Spot, apart, meet, micrometres};
+use super::super::cut::Cut;
+use super::super::moves::{Move, Place as Spot, added, apart, meet, micrometres};
 use super::super::plain::word_at;
 use super::super::summary::WireSide;
 use super::Report;
@@ -114,15 +115,28 @@ impl Report<'_> {
 
     /// The same of passes with a stop after each: their sides, alone, are judged with their cuts.
     pub(super) fn passes_between_stops(&mut self) {
-        let mut passes = Vec::new();
         let document = self.document;
-        let may_have_side = |cut: &usize| {
-            let sum = document.cuts[*cut].sum();
-            let has_none = sum.is_none_or(|sum| sum.side == WireSide::None);
-            !has_none || document.contours.of_cut(*cut).is_some()
+        let mut passes = Vec::new();
+        let sided: Vec<(usize, [Spot; 4])> = self.cuts_with_sides();
+        let are_near = |nth: Option<usize>, other: Option<usize>| {
+            let places = |nth: Option<usize>| nth.and_then(|nth| sided.get(nth));
+            let (Some((_, own)), Some((_, its))) = (places(nth), places(other)) else {
+                return false;
+            };
+            let is_near = |own: &Spot| its.iter().any(|its| meet(*own, *its, BESIDE));
+            own.iter().any(is_near)
         };
-        let cuts = (0..document.cuts.len()).filter(may_have_side);
-        for cut in cuts.filter_map(|cut| document.contour(cut)) {
+        for (nth, (cut, _)) in sided.iter().enumerate() {
+            // Most cuts lie nowhere near the next one.
+            let is_alone =
+                !are_near(Some(nth), nth.checked_sub(1)) && !are_near(Some(nth), Some(nth + 1));
+            if is_alone && document.contours.of_cut(*cut).is_none() {
+                self.contour_of(&std::mem::take(&mut passes));
+                continue;
+            }
+            let Some(cut) = document.contour(*cut) else {
+                continue;
+            };
             let WireSide::One(_) = cut.sum.side else {
                 continue;
             };
@@ -137,6 +151,24 @@ impl Report<'_> {
             passes.extend(own);
         }
         self.contour_of(&passes);
+    }
+
+    /// The cuts beside which the wire runs on a side, each with the places where a pass may begin and end.
+    fn cuts_with_sides(&self) -> Vec<(usize, [Spot; 4])> {
+        let document = self.document;
+        let places = |(cut, own): (usize, &Cut)| {
+            let sum = own.sum()?;
+            let is_whole = document.contours.of_cut(cut).is_none();
+            if is_whole && sum.side == WireSide::None {
+                return None;
+            }
+            let [[first, _], [before, last]] = [sum.first, sum.last];
+            let at = document.cuts.state_before(cut).at;
+            let places = [first.to, before.from, last.from, last.to];
+            Some((cut, places.map(|place| added(place, at))))
+        };
+        let cuts = document.cuts.iter().enumerate();
+        cuts.filter_map(places).collect()
     }
 
     fn contour_of(&mut self, passes: &[Pass]) {

@@ -31,10 +31,8 @@ impl Divided for Document {
 
     fn may_go_on(&self, cut: usize) -> bool {
         let own = &self.cuts[cut];
-        own.has_blocks()
-            && !own.goes_round
-            && !self.is_jump(cut)
-            && !(own.stop.is_some() && self.stops_again(cut))
+        let ends_here = own.stop.is_some() && self.stops_again(cut);
+        own.has_blocks() && !own.goes_round && !ends_here && !self.is_jump(cut)
     }
 
     fn behind_stop(&self, cut: usize) -> Option<usize> {

@@ -169,7 +169,7 @@ impl Document {
             true => blocks.to_vec(),
             false => own(other).into_iter().collect(),
         });
-        all.len() >= 3 && Ends::of(&way_of(made)).close()
+        all.len() >= 3 && Ends::of(&way_of(made).0).close()
     }
 
     /// A way out and back goes, where it returns to its start.

@@ -129,7 +129,7 @@ impl Document {
             contour.is_none_or(|contour| !contour.ends_with_tab)
         };
         let cuts = (0..self.cut_count()).filter(move |cut| is_whole(cut));
-        let cuts = cuts.filter_map(|cut| Some((cut..cut + 1, &self.cuts[cut].rare().found)));
+        let cuts = cuts.map(|cut| (cut..cut + 1, &self.cuts[cut].rare().found));
         let all = with_tabs.chain(cuts);
         all.filter(|(cuts, found)| {
             !found.is_clean()
