@@ -5,7 +5,7 @@ use super::{Rule, Severity, Side};
 use crate::geometry::Vector;
 
 /// An axis of the table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Axis {
     X,
     Y,

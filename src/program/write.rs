@@ -20,10 +20,11 @@ pub struct ProvedProgram {
     pub length: f64,
     /// Length of the ways without a cut in mm.
     pub(crate) jumps: f64,
-    /// The rounding of J in all blocks, added up, µm, of exact arcs; 0 where ends are written. A controller that counts
+    /// How far the program ends beside its last node, µm, of exact arcs; 0 where ends are written. A controller that counts
     /// steps of whole micrometres stops elsewhere.
     pub(crate) closure: [f64; 2],
-    /// Largest distance in µm of the decoded blocks from the path, over their whole length.
+    /// Largest distance in µm of the decoded blocks from the path, over their whole length, each from where the program
+    /// stands.
     pub(crate) deviation: f64,
     /// What the control has to offset by, mm, where it does: the correction of each pass, with the word that says where
     /// the control finds it, which is empty where there is one for all.

@@ -1,8 +1,8 @@
 //! From a line or arc of the path to blocks on the µm grid.
 
 use super::block::{Block, CountingAxis, Motion, Node, Quadrant};
-use super::decode::{DecodeFault, decode, phase};
-use crate::geometry::{Arc, Segment};
+use super::decode::{decode, phase};
+use crate::geometry::{Arc, Segment, Vector};
 pub(super) use crate::program::encode::ASIDE_TOLERANCE;
 use crate::program::encode::{Attempt, Encoder, aside};
 use crate::program::grid::grid_centers;
@@ -11,9 +11,6 @@ use std::f64::consts::{PI, TAU};
 
 /// How far a decoded block may end from its node, µm.
 pub(crate) const END_TOLERANCE: f64 = 1.5;
-
-/// A block as it runs from its own node.
-pub(super) type Decoded = Result<Segment, DecodeFault>;
 
 /// A block, the nodes between which it runs, and its piece of the path, in µm.
 #[derive(Clone, Copy, Debug)]
@@ -35,10 +32,7 @@ pub(crate) fn encode(
     largest: i64,
     blocks: &mut Vec<Encoded>,
 ) -> Option<()> {
-    let mut made = Vec::new();
-    Blocks { largest }.encode(piece, from, to, &mut made)?;
-    blocks.extend(made.into_iter().map(|(block, _)| block));
-    Some(())
+    Blocks { largest }.encode(piece, from, to, blocks)
 }
 
 /// Blocks with no number above the largest.
@@ -47,7 +41,7 @@ pub(super) struct Blocks {
 }
 
 impl Encoder for Blocks {
-    type Block = (Encoded, Decoded);
+    type Block = Encoded;
 
     fn step(&self) -> f64 {
         1.0
@@ -66,15 +60,13 @@ impl Encoder for Blocks {
         2.0 * self.largest as f64
     }
 
-    fn line(&self, piece: Segment, from: Node, to: Node) -> (Encoded, Decoded) {
-        let block = line_block(from, to);
-        let encoded = Encoded {
-            block,
+    fn line(&self, piece: Segment, from: Node, to: Node) -> Encoded {
+        Encoded {
+            block: line_block(from, to),
             from,
             to,
             piece,
-        };
-        (encoded, decode(&block, point_of(from)))
+        }
     }
 
     fn arc(&self, arc: &Arc, from: Node, to: Node, full_turn: bool) -> Attempt<Self::Block> {
@@ -83,22 +75,18 @@ impl Encoder for Blocks {
         }
         match arc_block(arc, from, to, full_turn) {
             None => Attempt::Misses,
-            Some((block, _)) if block.x.max(block.y) > self.largest => Attempt::Chords,
+            Some(block) if block.x.max(block.y) > self.largest => Attempt::Chords,
             // Pieces of one length differ in their J; one that is too long is split once more.
-            Some((block, _)) if block.j > self.largest => {
+            Some(block) if block.j > self.largest => {
                 let count = block.j / (self.largest - self.largest / 1000).max(1) + 1;
                 Attempt::Pieces(count.max(2))
             }
-            Some((block, decoded)) => {
-                let piece = Segment::Arc(*arc);
-                let encoded = Encoded {
-                    block,
-                    from,
-                    to,
-                    piece,
-                };
-                Attempt::Made((encoded, Ok(decoded)))
-            }
+            Some(block) => Attempt::Made(Encoded {
+                block,
+                from,
+                to,
+                piece: Segment::Arc(*arc),
+            }),
         }
     }
 }
@@ -124,51 +112,22 @@ pub(crate) fn line_block(from: Node, to: Node) -> Block {
     }
 }
 
-/// The block about the best centre, and how it runs. Where it leads too far from the arc, as a grid centre two µm off
-/// can past a half turn, the block about the next best one.
-fn arc_block(arc: &Arc, from: Node, to: Node, full_turn: bool) -> Option<(Block, Segment)> {
-    grid_centers(arc, from, to).find_map(|center| block_about(center, arc, from, to, full_turn))
+/// The block about the best centre. Where it leads too far from the arc, as a grid centre two µm off can past a half
+/// turn, the block about the next best one.
+fn arc_block(arc: &Arc, from: Node, to: Node, full_turn: bool) -> Option<Block> {
+    grid_centers(arc, from, to).find_map(|center| {
+        let block = raw_block(center, arc.sweep, from, to, full_turn)?;
+        let decoded = decode(&block, point_of(from)).ok()?;
+        let is_arc = decoded
+            .as_arc()
+            .is_some_and(|arc| arc.is_full_turn() == full_turn);
+        (is_arc && runs_along(&decoded, &Segment::Arc(*arc), to)).then_some(block)
+    })
 }
 
-/// Other blocks for the same arc within tolerance: about another centre, or counting 1 µm more or less.
-pub(crate) fn alternatives(encoded: &Encoded, largest: i64) -> Vec<(Encoded, Decoded)> {
-    let Segment::Arc(arc) = &encoded.piece else {
-        return Vec::new();
-    };
-    let (from, to) = (encoded.from, encoded.to);
-    if from == to || matches!(encoded.block.motion, Motion::Line(_)) {
-        return Vec::new();
-    }
-    let mut found = Vec::new();
-    for center in grid_centers(arc, from, to) {
-        let Some((block, _)) = block_about(center, arc, from, to, false) else {
-            continue;
-        };
-        let counts = [block.j - 1, block.j, block.j + 1].map(|j| Block { j, ..block });
-        let fitting = counts
-            .into_iter()
-            .filter(|block| block.x.max(block.y).max(block.j) <= largest);
-        found.extend(fitting.filter_map(|block| {
-            let decoded = standing_for(&block, arc, from, to, false)?;
-            Some((Encoded { block, ..*encoded }, Ok(decoded)))
-        }));
-    }
-    found
-}
-
-/// A block decoded again, if it is the arc between its nodes.
-fn standing_for(
-    block: &Block,
-    arc: &Arc,
-    from: Node,
-    to: Node,
-    full_turn: bool,
-) -> Option<Segment> {
-    let decoded = decode(block, point_of(from)).ok()?;
-    let is_arc = decoded
-        .as_arc()
-        .is_some_and(|arc| arc.is_full_turn() == full_turn);
-    (is_arc && runs_along(&decoded, &Segment::Arc(*arc), to)).then_some(decoded)
+/// The block of an arc between two different nodes.
+pub(super) fn block_of(arc: &Arc, from: Node, to: Node) -> Option<Block> {
+    arc_block(arc, from, to, false)
 }
 
 /// Whether a decoded block runs along its piece of the path to its node.
@@ -177,32 +136,29 @@ pub(super) fn runs_along(decoded: &Segment, piece: &Segment, to: Node) -> bool {
         && aside(decoded, piece) <= ASIDE_TOLERANCE
 }
 
-fn block_about(
+/// The block that turns by about `sweep` from one node to another about a grid point; `None` where that is one of them.
+pub(super) fn raw_block(
     center: Node,
-    arc: &Arc,
+    sweep: f64,
     from: Node,
     to: Node,
     full_turn: bool,
-) -> Option<(Block, Segment)> {
+) -> Option<Block> {
     let (start_x, start_y) = (from.x - center.x, from.y - center.y);
     let (end_x, end_y) = (to.x - center.x, to.y - center.y);
     if (start_x, start_y) == (0, 0) || (end_x, end_y) == (0, 0) {
         return None;
     }
-    let counter_clockwise = arc.sweep > 0.0;
+    let counter_clockwise = sweep > 0.0;
     let radius = (start_x as f64).hypot(start_y as f64);
-    let axis = if end_x.abs() < end_y.abs() {
-        CountingAxis::X
-    } else {
-        CountingAxis::Y
-    };
+    let axis = counted_axis(Vector::new(end_x as f64, end_y as f64));
     let j = if full_turn {
         4.0 * radius
     } else {
         let start_angle = (start_y as f64).atan2(start_x as f64);
         let between = (end_y as f64).atan2(end_x as f64) - start_angle;
-        let sweep = between + TAU * ((arc.sweep - between) / TAU).round();
-        if sweep * arc.sweep <= 0.0 || sweep.abs() > TAU {
+        let own = between + TAU * ((sweep - between) / TAU).round();
+        if own * sweep <= 0.0 || own.abs() > TAU {
             return None;
         }
         projections(
@@ -210,17 +166,24 @@ fn block_about(
             axis.of([end_x, end_y]) as f64,
             radius,
             phase(axis, start_angle, counter_clockwise),
-            sweep.abs(),
+            own.abs(),
         )
     };
-    let block = Block {
+    Some(Block {
         x: start_x.abs(),
         y: start_y.abs(),
         j: j.round() as i64,
         axis,
         motion: Motion::arc(counter_clockwise, start_x, start_y),
-    };
-    Some((block, standing_for(&block, arc, from, to, full_turn)?))
+    })
+}
+
+/// The axis on which an arc is counted that ends here, seen from its centre.
+pub(super) fn counted_axis(end: Vector) -> CountingAxis {
+    match end.x.abs() < end.y.abs() {
+        true => CountingAxis::X,
+        false => CountingAxis::Y,
+    }
 }
 
 /// How far a controller counts on an axis along an arc.

@@ -23,6 +23,7 @@ pub(in crate::program) mod refactor;
 mod repair;
 mod rules;
 mod scan;
+mod stand;
 #[cfg(test)]
 mod tests;
 mod tokens;

@@ -1,60 +1,75 @@
 //! Decodes the written text and compares it with the path, block by block.
 
-use super::block::{Motion, PartArc};
-use super::encode::{Decoded, END_TOLERANCE, Encoded, alternatives, point_of};
+use super::block::PartArc;
+use super::encode::{END_TOLERANCE, Encoded, point_of};
 use super::parse::{Item, read_line};
+use super::stand::{Allowed, Planned, Stand, plan};
 use super::words::Words;
-use crate::geometry::{Segment, Vector};
+use crate::geometry::Vector;
 use crate::program::encode::proved_aside;
+use crate::program::grid::Node;
 use crate::program::path::tolerance;
 use std::ops::Range;
 
-/// The results for the blocks of one program so far.
-#[derive(Clone, Debug, Default)]
+/// Where the program stands, and what has been proved so far.
+#[derive(Clone, Debug)]
 pub(super) struct Proof {
-    /// Sum of the deviations of blocks from their nodes: the drift of a controller that only counts J, µm.
-    pub(crate) drift: Vector,
-    /// Largest distance of a block from its piece of the path, over its whole length, µm.
+    stand: Stand,
+    /// The node at which it should stand.
+    node: Node,
+    /// How far it stood beside its nodes where the table was moved by hand, added up, of exact arcs, µm.
+    left_behind: Vector,
+    /// Largest distance of a block from its piece of the path, over its whole length, in both readings, µm.
     pub(crate) deviation: f64,
+    /// Of the contour.
     arcs: usize,
-    drift_at_start: Vector,
-    arcs_at_start: usize,
 }
 
 impl Proof {
-    /// Takes a block, decoded from its own node, or another one for the same arc where a counting
-    /// controller would otherwise drift further and further: equal arcs in a row miss their ends by
-    /// the same amount. No number is above `largest`; without it there is no other one.
-    pub(crate) fn taken(
+    pub(crate) fn from(node: Node) -> Proof {
+        Proof {
+            stand: Stand::at(node),
+            node,
+            left_behind: Vector::zeros(),
+            deviation: 0.0,
+            arcs: 0,
+        }
+    }
+
+    /// Plans the blocks in place of one between nodes.
+    pub(crate) fn plan(
         &mut self,
         encoded: Encoded,
-        decoded: Decoded,
-        largest: Option<i64>,
-    ) -> (Encoded, Decoded) {
-        let drift = self.drift - self.drift_at_start;
-        let miss = |decoded: &Decoded| match decoded {
-            Ok(decoded) => decoded.end() - point_of(encoded.to),
-            Err(_) => Vector::new(f64::INFINITY, f64::INFINITY),
-        };
-        let drifted = |decoded: &Decoded| (drift + miss(decoded)).norm();
-        let allowed = tolerance(self.arcs - self.arcs_at_start) / 2.0;
-        let mut taken = (encoded, decoded);
-        if let Some(largest) = largest.filter(|_| drifted(&taken.1) > allowed) {
-            let others = alternatives(&encoded, largest).into_iter();
-            let best = others.min_by(|a, b| drifted(&a.1).total_cmp(&drifted(&b.1)));
-            if let Some(best) = best.filter(|(_, other)| drifted(other) < drifted(&taken.1)) {
-                taken = best;
-            }
-        }
-        self.drift += miss(&taken.1);
-        self.arcs += usize::from(!matches!(taken.0.block.motion, Motion::Line(_)));
-        taken
+        allowed: Allowed,
+        out: &mut Vec<Planned>,
+    ) -> Result<(), String> {
+        plan(&mut self.stand, encoded, allowed, out)
+            .ok_or_else(|| say!(a_block_cannot_be_decoded, encoded.block))?;
+        self.arcs += usize::from(!encoded.block.motion.is_line());
+        self.node = encoded.to;
+        Ok(())
+    }
+
+    /// The table has been moved by hand.
+    pub(crate) fn moved_by_hand(&mut self, to: Node) {
+        self.left_behind = self.drift();
+        (self.stand, self.node) = (Stand::at(to), to);
+    }
+
+    /// The drift of a reader that runs exact arcs, µm.
+    pub(crate) fn drift(&self) -> Vector {
+        self.left_behind + (self.stand.exact - point_of(self.node))
+    }
+
+    /// The drift that closing allows, µm.
+    pub(crate) fn allowed(&self) -> f64 {
+        tolerance(self.arcs)
     }
 
     /// Ends one contour: its drift must stay within the tolerance of closing.
     pub(crate) fn finish_contour(&mut self) -> Result<(), String> {
-        let drift = (self.drift - self.drift_at_start).norm();
-        let allowed = tolerance(self.arcs - self.arcs_at_start);
+        let drift = (self.stand.exact - point_of(self.node)).norm();
+        let allowed = self.allowed();
         if drift > allowed {
             return Err(say!(
                 a_controller_that_counts_j_drifts_more_than_allowed,
@@ -62,7 +77,7 @@ impl Proof {
                 allowed
             ));
         }
-        (self.drift_at_start, self.arcs_at_start) = (self.drift, self.arcs);
+        self.arcs = 0;
         Ok(())
     }
 }
@@ -76,14 +91,15 @@ pub(super) struct Checked {
     pub(super) aside: f64,
 }
 
-/// Reads `line` back, which begins at byte `at` of the text, and compares its block, which is `decoded` from its own
-/// node, with its piece of the path.
+/// Reads `line` back, which begins at byte `at` of the text, and compares its block with its piece of the path, from
+/// where the program stands. `drift` is how far it may stand beside its nodes, µm.
 pub(super) fn check_line(
     line: &[u8],
     at: usize,
     words: &Words<'_>,
-    (encoded, decoded): (&Encoded, &Segment),
+    planned: &Planned,
     part: Option<PartArc>,
+    drift: f64,
 ) -> Result<Checked, String> {
     let mut read = None;
     let mut fault = None;
@@ -102,33 +118,41 @@ pub(super) fn check_line(
         return Err(say!(a_written_block_cannot_be_read_again, fault.sentence()));
     }
     match read {
-        Some((block, read, range, number)) if block == encoded.block && read == part => {
+        Some((block, read, range, number)) if block == planned.encoded.block && read == part => {
             Ok(Checked {
                 range: at + range.start..at + range.end,
                 number,
-                aside: check_block(encoded, decoded)?,
+                aside: check_block(planned, drift)?,
             })
         }
         _ => Err(say!(
             a_written_block_reads_otherwise,
             String::from_utf8_lossy(line),
-            encoded.block
+            planned.encoded.block
         )),
     }
 }
 
-/// The largest distance of a decoded block from its piece of the path.
-fn check_block(encoded: &Encoded, decoded: &Segment) -> Result<f64, String> {
-    let block = &encoded.block;
-    let distance = (decoded.end() - point_of(encoded.to)).norm();
-    if distance > END_TOLERANCE {
+/// The largest distance of a block from its piece of the path, in both readings; its end also from that of the piece.
+fn check_block(planned: &Planned, drift: f64) -> Result<f64, String> {
+    let Encoded {
+        block, from, piece, ..
+    } = &planned.encoded;
+    let ends = [planned.after.exact, point_of(planned.after.machine)];
+    let off = ends.map(|end| (end - planned.target()).norm());
+    let distance = f64::max(off[0], off[1]);
+    if distance > END_TOLERANCE + drift {
         return Err(say!(
             a_block_ends_beside_its_node,
             block,
             distance,
-            encoded.to
+            planned.encoded.to
         ));
     }
-    proved_aside(decoded, &encoded.piece, 0.0)
-        .map_err(|worst| say!(a_block_runs_beside_the_path, block, worst, encoded.from))
+    let runs = [planned.run, planned.run_of_machine()];
+    runs.iter().try_fold(distance, |worst, run| {
+        let aside = proved_aside(run, piece, drift)
+            .map_err(|worst| say!(a_block_runs_beside_the_path, block, worst, from))?;
+        Ok(worst.max(aside))
+    })
 }

@@ -2,12 +2,13 @@
 
 use super::block::Node;
 use super::block::PartArc;
-use super::encode::{self, Encoded};
+use super::encode;
 use super::layout::{push_block, push_start_point};
 use super::machine::travel;
 use super::parse::{Item, read_line};
 use super::part::{CutCorners, is_concave, mm, rounded, rounded_with_tab, unwritable, wire_step};
 use super::proof::{Proof, check_line};
+use super::stand::{Allowed, Planned};
 use super::words::{Word, Words};
 use crate::finding::{Side, Unwritable};
 use crate::geometry::{Point, Segment, Vector, turn};
@@ -203,10 +204,10 @@ struct Blocks<'a> {
 struct Line {
     /// Bytes of the text, without the line end.
     range: Range<usize>,
-    block: Encoded,
-    /// From its own node.
-    decoded: Segment,
+    planned: Planned,
     part: Option<PartArc>,
+    /// How far the program may stand beside its nodes there, µm.
+    drift: f64,
 }
 
 impl Writer for Blocks<'_> {
@@ -218,15 +219,15 @@ impl Writer for Blocks<'_> {
                 say!(a_3b_program_cannot_leave_the_correction_to_the_controller).into(),
             ));
         }
-        match from {
-            Some(from) => self.go_over(from, first, path, self.settings)?,
-            None if self.settings.header => {
-                push_start_point(&mut self.out, first);
-                if let Some(notes) = &mut self.notes {
-                    notes.start = Some(point_of(first));
-                }
+        if let Some(from) = from {
+            return self.go_over(from, first, path, self.settings);
+        }
+        self.proof = Proof::from(first);
+        if self.settings.header {
+            push_start_point(&mut self.out, first);
+            if let Some(notes) = &mut self.notes {
+                notes.start = Some(point_of(first));
             }
-            None => {}
         }
         Ok(())
     }
@@ -240,30 +241,18 @@ impl Writer for Blocks<'_> {
             left,
             |Piece { from, to, .. }| say!(no_blocks_within_tolerance_lead_from_to, from, to),
         )?;
-        // 4B's radius is the block's own.
-        let largest = self.part.is_none().then_some(largest);
+        let allowed = Allowed {
+            largest_number: largest,
+            correction: self.part.as_ref().map(|part| part.correction),
+        };
         let mut lines = Vec::with_capacity(encoded.iter().map(Vec::len).sum());
-        for (piece, (block, decoded)) in encoded.into_iter().flatten() {
-            let (block, decoded) = self.proof.taken(block, decoded, largest);
-            self.made.blocks += 1;
-            let start = self.out.len();
-            let decoded = decoded
-                .map_err(|_| ProofError::Mismatch(say!(a_block_cannot_be_decoded, block.block)))?;
-            let part = self.part_of(&block, &decoded, pieces[piece].source)?;
-            push_block(
-                &mut self.out,
-                self.settings.layout,
-                self.made.blocks,
-                &block.block,
-                part.as_ref(),
-                block.to,
-            );
-            lines.push(Line {
-                range: start..self.out.len() - 1,
-                block,
-                decoded,
-                part,
-            });
+        let mut planned = Vec::new();
+        for (piece, block) in encoded.into_iter().flatten() {
+            let planning = self.proof.plan(block, allowed, &mut planned);
+            planning.map_err(ProofError::Mismatch)?;
+            for planned in planned.drain(..) {
+                lines.push(self.push_planned(planned, pieces[piece].source)?);
+            }
         }
         for piece in pieces {
             self.made.length += piece.segment.length();
@@ -316,7 +305,8 @@ impl Writer for Blocks<'_> {
     }
 
     /// The blocks count from the table's position.
-    fn moved_by_hand(&mut self, _: Node) -> Proved {
+    fn moved_by_hand(&mut self, to: Node) -> Proved {
+        self.proof.moved_by_hand(to);
         Ok(())
     }
 }
@@ -340,7 +330,7 @@ impl<'a> Blocks<'a> {
             },
             out: Vec::new(),
             made: ProvedProgram::default(),
-            proof: Proof::default(),
+            proof: Proof::from(Node { x: 0, y: 0 }),
         }
     }
 
@@ -350,13 +340,35 @@ impl<'a> Blocks<'a> {
         made.map_err(|_| does_not_stop(key, word))
     }
 
+    /// Writes a block.
+    fn push_planned(&mut self, planned: Planned, source: Source) -> Proved<Line> {
+        self.made.blocks += 1;
+        let start = self.out.len();
+        let part = self.part_of(&planned, source)?;
+        let encoded = &planned.encoded;
+        push_block(
+            &mut self.out,
+            self.settings.layout,
+            self.made.blocks,
+            &encoded.block,
+            part.as_ref(),
+            encoded.to,
+        );
+        Ok(Line {
+            range: start..self.out.len() - 1,
+            planned,
+            part,
+            drift: self.proof.allowed(),
+        })
+    }
+
     /// Reads lines back, compares them with the path, and notes what they do.
     fn prove(&mut self, lines: &[Line]) -> Proved {
         let (out, words) = (&self.out, &self.words);
         let read = each(lines.len(), AT_A_TIME, |nth| {
             let line = &lines[nth];
-            let (written, own) = (&out[line.range.clone()], (&line.block, &line.decoded));
-            check_line(written, line.range.start, words, own, line.part)
+            let (written, start) = (&out[line.range.clone()], line.range.start);
+            check_line(written, start, words, &line.planned, line.part, line.drift)
         });
         for (line, read) in lines.iter().zip(read) {
             let read = read.map_err(ProofError::Mismatch)?;
@@ -365,9 +377,10 @@ impl<'a> Blocks<'a> {
                 continue;
             };
             let start = notes.at();
-            let by = travel(&line.block.block).map_or(Vector::zeros(), |to| point_of(to).coords);
+            let by = travel(&line.planned.encoded.block)
+                .map_or(Vector::zeros(), |to| point_of(to).coords);
             notes.four_b |= line.part.is_some();
-            let kind = match line.decoded {
+            let kind = match line.planned.run {
                 _ if self.is_jump => Kind::Rapid,
                 Segment::Line(_) => Kind::Line,
                 Segment::Arc(_) => Kind::Arc,
@@ -376,7 +389,7 @@ impl<'a> Blocks<'a> {
                 range: read.range,
                 number: read.number,
                 end: start + by,
-                ideal: Some(line.decoded.moved(start - point_of(line.block.from))),
+                ideal: Some(line.planned.run.moved(start - line.planned.before.exact)),
                 is_relative: true,
                 ..Step::stop(kind, start)
             });
@@ -388,8 +401,7 @@ impl<'a> Blocks<'a> {
     /// it.
     fn part_of(
         &mut self,
-        encoded: &Encoded,
-        decoded: &Segment,
+        Planned { encoded, run, .. }: &Planned,
         source: Source,
     ) -> Proved<Option<PartArc>> {
         let Some(part) = &mut self.part else {
@@ -400,7 +412,7 @@ impl<'a> Blocks<'a> {
             return Ok(None);
         }
         if let Some(direction) = part.direction {
-            let turn = turn(direction, decoded.start_tangent());
+            let turn = turn(direction, run.start_tangent());
             if wire_step(turn, part.correction) > WIRE_GAP {
                 // As of a side that is hardly longer than a step of the grid.
                 let fault = Unwritable::NoTransition {
@@ -411,8 +423,8 @@ impl<'a> Blocks<'a> {
                 return Err(unwritable(source, fault));
             }
         }
-        part.direction = Some(decoded.end_tangent());
-        let Segment::Arc(arc) = decoded else {
+        part.direction = Some(run.end_tangent());
+        let Segment::Arc(arc) = run else {
             return Ok(None);
         };
         let concave = is_concave(arc, part.side);
@@ -458,7 +470,7 @@ impl<'a> Blocks<'a> {
         }
         self.push_word(self.words.end, Word::End)?;
         let made = ProvedProgram {
-            closure: [self.proof.drift.x, self.proof.drift.y],
+            closure: self.proof.drift().into(),
             deviation: self.proof.deviation,
             ..self.made
         };
