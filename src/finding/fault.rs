@@ -5,7 +5,7 @@ use super::{Rule, Severity, Side};
 use crate::geometry::Vector;
 
 /// An axis of the table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Axis {
     X,
     Y,

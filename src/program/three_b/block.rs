@@ -8,7 +8,7 @@ pub(crate) use crate::program::grid::Node;
 pub use crate::finding::Axis as CountingAxis;
 
 /// A quadrant, 1 to 4.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quadrant {
     First,
     Second,
@@ -74,7 +74,7 @@ impl Quadrant {
 }
 
 /// Z: the kind of motion, and the quadrant of a line's direction or of an arc's start.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Motion {
     /// `L1` to `L4`.
     Line(Quadrant),
@@ -128,7 +128,7 @@ impl Motion {
 }
 
 /// `B X B Y B J G Z`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Block {
     /// µm, not negative: a line's end relative to its start, or an arc's start relative to its centre.
     pub x: i64,

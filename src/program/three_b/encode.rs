@@ -2,7 +2,7 @@
 
 use super::block::{Block, CountingAxis, Motion, Node, Quadrant};
 use super::decode::{decode, phase};
-use crate::geometry::{Arc, Segment, Vector};
+use crate::geometry::{Arc, Point, Segment};
 pub(super) use crate::program::encode::ASIDE_TOLERANCE;
 use crate::program::encode::{Attempt, Encoder, aside};
 use crate::program::grid::grid_centers;
@@ -19,6 +19,17 @@ pub(crate) struct Encoded {
     pub(crate) from: Node,
     pub(crate) to: Node,
     pub(crate) piece: Segment,
+}
+
+impl Encoded {
+    /// Where its piece ends; the node, where that was moved.
+    pub(super) fn target(&self) -> Point {
+        let end = self.piece.end();
+        match snap(end) == Some(self.to) {
+            true => end,
+            false => point_of(self.to),
+        }
+    }
 }
 
 /// Appends the blocks of `piece` (µm) from `from` to `to`, its snapped ends. No number is above `largest`.
@@ -125,11 +136,6 @@ fn arc_block(arc: &Arc, from: Node, to: Node, full_turn: bool) -> Option<Block> 
     })
 }
 
-/// The block of an arc between two different nodes.
-pub(super) fn block_of(arc: &Arc, from: Node, to: Node) -> Option<Block> {
-    arc_block(arc, from, to, false)
-}
-
 /// Whether a decoded block runs along its piece of the path to its node.
 pub(super) fn runs_along(decoded: &Segment, piece: &Segment, to: Node) -> bool {
     (decoded.end() - point_of(to)).norm() <= END_TOLERANCE
@@ -151,7 +157,11 @@ pub(super) fn raw_block(
     }
     let counter_clockwise = sweep > 0.0;
     let radius = (start_x as f64).hypot(start_y as f64);
-    let axis = counted_axis(Vector::new(end_x as f64, end_y as f64));
+    let axis = if end_x.abs() < end_y.abs() {
+        CountingAxis::X
+    } else {
+        CountingAxis::Y
+    };
     let j = if full_turn {
         4.0 * radius
     } else {
@@ -176,14 +186,6 @@ pub(super) fn raw_block(
         axis,
         motion: Motion::arc(counter_clockwise, start_x, start_y),
     })
-}
-
-/// The axis on which an arc is counted that ends here, seen from its centre.
-pub(super) fn counted_axis(end: Vector) -> CountingAxis {
-    match end.x.abs() < end.y.abs() {
-        true => CountingAxis::X,
-        false => CountingAxis::Y,
-    }
 }
 
 /// How far a controller counts on an axis along an arc.

@@ -17,8 +17,6 @@ pub(super) struct Proof {
     stand: Stand,
     /// The node at which it should stand.
     node: Node,
-    /// How far it stood beside its nodes where the table was moved by hand, added up, of exact arcs, µm.
-    left_behind: Vector,
     /// Largest distance of a block from its piece of the path, over its whole length, in both readings, µm.
     pub(crate) deviation: f64,
     /// Of the contour.
@@ -30,35 +28,33 @@ impl Proof {
         Proof {
             stand: Stand::at(node),
             node,
-            left_behind: Vector::zeros(),
             deviation: 0.0,
             arcs: 0,
         }
     }
 
-    /// Plans the blocks in place of one between nodes.
+    /// The blocks in place of one between nodes.
     pub(crate) fn plan(
         &mut self,
         encoded: Encoded,
         allowed: Allowed,
-        out: &mut Vec<Planned>,
-    ) -> Result<(), String> {
-        plan(&mut self.stand, encoded, allowed, out)
+    ) -> Result<Vec<Planned>, String> {
+        let planned = plan(self.stand, encoded, allowed)
             .ok_or_else(|| say!(a_block_cannot_be_decoded, encoded.block))?;
+        self.stand = planned.last().map_or(self.stand, |last| last.after);
         self.arcs += usize::from(!encoded.block.motion.is_line());
         self.node = encoded.to;
-        Ok(())
+        Ok(planned)
     }
 
     /// The table has been moved by hand.
     pub(crate) fn moved_by_hand(&mut self, to: Node) {
-        self.left_behind = self.drift();
         (self.stand, self.node) = (Stand::at(to), to);
     }
 
     /// The drift of a reader that runs exact arcs, µm.
     pub(crate) fn drift(&self) -> Vector {
-        self.left_behind + (self.stand.exact - point_of(self.node))
+        self.stand.exact - point_of(self.node)
     }
 
     /// The drift that closing allows, µm.
@@ -68,8 +64,7 @@ impl Proof {
 
     /// Ends one contour: its drift must stay within the tolerance of closing.
     pub(crate) fn finish_contour(&mut self) -> Result<(), String> {
-        let drift = (self.stand.exact - point_of(self.node)).norm();
-        let allowed = self.allowed();
+        let (drift, allowed) = (self.drift().norm(), self.allowed());
         if drift > allowed {
             return Err(say!(
                 a_controller_that_counts_j_drifts_more_than_allowed,
@@ -139,7 +134,7 @@ fn check_block(planned: &Planned, drift: f64) -> Result<f64, String> {
         block, from, piece, ..
     } = &planned.encoded;
     let ends = [planned.after.exact, point_of(planned.after.machine)];
-    let off = ends.map(|end| (end - planned.target()).norm());
+    let off = ends.map(|end| (end - planned.encoded.target()).norm());
     let distance = f64::max(off[0], off[1]);
     if distance > END_TOLERANCE + drift {
         return Err(say!(

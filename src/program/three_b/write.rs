@@ -246,11 +246,9 @@ impl Writer for Blocks<'_> {
             correction: self.part.as_ref().map(|part| part.correction),
         };
         let mut lines = Vec::with_capacity(encoded.iter().map(Vec::len).sum());
-        let mut planned = Vec::new();
         for (piece, block) in encoded.into_iter().flatten() {
-            let planning = self.proof.plan(block, allowed, &mut planned);
-            planning.map_err(ProofError::Mismatch)?;
-            for planned in planned.drain(..) {
+            let planned = self.proof.plan(block, allowed);
+            for planned in planned.map_err(ProofError::Mismatch)? {
                 lines.push(self.push_planned(planned, pieces[piece].source)?);
             }
         }
