@@ -14,9 +14,9 @@ use crate::geometry::{Arc, Point, Segment, turn};
 use crate::program::encode::{ASIDE_TOLERANCE, aside};
 use crate::program::grid::Node;
 
-/// The block between the nodes is written where it costs at most this, µm: a control that stands on the node itself may
-/// be 0.7 µm off.
-const NEAR: f64 = 1.0;
+/// The block between the nodes is written where it costs at most this, µm: one µm in each reading, as blocks of textbooks
+/// miss their ends.
+const NEAR: f64 = 1.4;
 
 /// Where the best block costs more than this, an arc is cut in two: two blocks have more ends to choose from.
 const FAR: f64 = 1.8;
@@ -132,7 +132,7 @@ pub(super) struct Allowed {
 
 impl Allowed {
     fn holds(&self, block: &Block) -> bool {
-        block.x.max(block.y).max(block.j) <= self.largest_number
+        block.j > 0 && block.x.max(block.y).max(block.j) <= self.largest_number
     }
 
     /// Whether an arc may get another radius, or become two.

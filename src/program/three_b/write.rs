@@ -206,8 +206,6 @@ struct Line {
     range: Range<usize>,
     planned: Planned,
     part: Option<PartArc>,
-    /// How far the program may stand beside its nodes there, µm.
-    drift: f64,
 }
 
 impl Writer for Blocks<'_> {
@@ -356,17 +354,16 @@ impl<'a> Blocks<'a> {
             range: start..self.out.len() - 1,
             planned,
             part,
-            drift: self.proof.allowed(),
         })
     }
 
     /// Reads lines back, compares them with the path, and notes what they do.
     fn prove(&mut self, lines: &[Line]) -> Proved {
-        let (out, words) = (&self.out, &self.words);
+        let (out, words, drift) = (&self.out, &self.words, self.proof.allowed());
         let read = each(lines.len(), AT_A_TIME, |nth| {
             let line = &lines[nth];
             let (written, start) = (&out[line.range.clone()], line.range.start);
-            check_line(written, start, words, &line.planned, line.part, line.drift)
+            check_line(written, start, words, &line.planned, line.part, drift)
         });
         for (line, read) in lines.iter().zip(read) {
             let read = read.map_err(ProofError::Mismatch)?;
