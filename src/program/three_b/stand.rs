@@ -11,12 +11,18 @@ use super::decode::decode;
 use super::encode::{Encoded, encode, line_block, point_of, raw_block, snap};
 use super::machine::travel;
 use crate::geometry::{Arc, Point, Segment, turn};
-use crate::program::encode::{ASIDE_TOLERANCE, aside};
+use crate::program::encode::aside;
 use crate::program::grid::Node;
 
 /// The block between the nodes is written where it costs at most this, µm: one µm in each reading, as blocks of textbooks
 /// miss their ends.
 const NEAR: f64 = 1.4;
+
+/// Where another block is sought, the first that costs at most this is taken.
+const GOOD: f64 = 1.0;
+
+/// The largest distance on the way counts less than that at its end, which all behind it have to take back.
+const ASIDE_WEIGHS: f64 = 0.6;
 
 /// Where the best block costs more than this, an arc is cut in two: two blocks have more ends to choose from.
 const FAR: f64 = 1.8;
@@ -96,8 +102,10 @@ impl Planned {
         exact.max(machine)
     }
 
+    /// How badly it runs, and where it then stands.
     fn cost(&self) -> f64 {
-        self.after.cost(self.encoded.target())
+        let end = self.after.cost(self.encoded.target());
+        end.max(ASIDE_WEIGHS * self.aside())
     }
 
     /// Whether another block may stand in place of this one.
@@ -115,9 +123,10 @@ impl Planned {
         let lever = allowed.correction.map_or(lever, |own| own.max(lever));
         let piece = &self.encoded.piece;
         let turns = |share| turn(piece.tangent_at(share), other.run.tangent_at(share));
-        [0.0, 1.0]
-            .into_iter()
-            .all(|share| turns(share).abs() * lever <= TILT)
+        lever == 0.0
+            || [0.0, 1.0]
+                .into_iter()
+                .all(|share| turns(share).abs() * lever <= TILT)
     }
 }
 
@@ -149,7 +158,7 @@ pub(super) fn plan(stand: Stand, encoded: Encoded, allowed: Allowed) -> Option<V
 
 fn in_halves(stand: Stand, encoded: Encoded, allowed: Allowed, cuts: u32) -> Option<Vec<Planned>> {
     let whole = best(stand, encoded, allowed)?;
-    let (target, cost) = (encoded.target(), whole.cost());
+    let cost = whole.cost();
     let is_cut = |arc: &&Arc| cuts > 0 && cost > FAR && allowed.may_change(arc);
     let arc = encoded.piece.as_arc().filter(is_cut);
     let halves = arc.and_then(|arc| {
@@ -163,7 +172,7 @@ fn in_halves(stand: Stand, encoded: Encoded, allowed: Allowed, cuts: u32) -> Opt
             let stand = made.last().map_or(stand, |last: &Planned| last.after);
             made.append(&mut in_halves(stand, half, allowed, cuts - 1)?);
         }
-        (made.last()?.after.cost(target) < cost).then_some(made)
+        made.iter().all(|part| part.cost() < cost).then_some(made)
     });
     Some(halves.unwrap_or_else(|| vec![whole]))
 }
@@ -172,12 +181,9 @@ fn in_halves(stand: Stand, encoded: Encoded, allowed: Allowed, cuts: u32) -> Opt
 fn best(stand: Stand, encoded: Encoded, allowed: Allowed) -> Option<Planned> {
     let first = stand.run(encoded.block, &encoded)?;
     let mut best = first;
-    // Where it stands too far away already, every block begins there.
-    let widest = ASIDE_TOLERANCE.max(first.aside());
-    let target = encoded.target();
-    for reach in 1..=2 {
-        let mut least = best.cost();
-        if least <= NEAR {
+    let (target, mut least) = (encoded.target(), first.cost());
+    for (reach, enough) in [(1, NEAR), (2, FAR)] {
+        if least <= enough {
             break;
         }
         for block in others(stand.machine, &encoded, reach) {
@@ -186,11 +192,17 @@ fn best(stand: Stand, encoded: Encoded, allowed: Allowed) -> Option<Planned> {
             if !allowed.holds(&block) || travel(&block).is_some_and(|by| away(by) >= least) {
                 continue;
             }
-            let made = stand.run(block, &encoded).filter(|made| {
-                made.cost() < least && first.may_be(made, allowed) && made.aside() <= widest
-            });
-            if let Some(made) = made {
-                (best, least) = (made, made.cost());
+            let made = stand.run(block, &encoded);
+            let is_nearer = |made: &Planned| made.after.cost(target) < least;
+            let made = made.filter(|made| is_nearer(made) && first.may_be(made, allowed));
+            let Some((cost, made)) = made.map(|made| (made.cost(), made)) else {
+                continue;
+            };
+            if cost < least {
+                (best, least) = (made, cost);
+            }
+            if least <= GOOD {
+                return Some(best);
             }
         }
     }
