@@ -157,8 +157,7 @@ pub(super) fn plan(stand: Stand, encoded: Encoded, allowed: Allowed) -> Option<V
 }
 
 fn in_halves(stand: Stand, encoded: Encoded, allowed: Allowed, cuts: u32) -> Option<Vec<Planned>> {
-    let whole = best(stand, encoded, allowed)?;
-    let cost = whole.cost();
+    let (cost, whole) = best(stand, encoded, allowed)?;
     let is_cut = |arc: &&Arc| cuts > 0 && cost > FAR && allowed.may_change(arc);
     let arc = encoded.piece.as_arc().filter(is_cut);
     let halves = arc.and_then(|arc| {
@@ -172,36 +171,32 @@ fn in_halves(stand: Stand, encoded: Encoded, allowed: Allowed, cuts: u32) -> Opt
             let stand = made.last().map_or(stand, |last: &Planned| last.after);
             made.append(&mut in_halves(stand, half, allowed, cuts - 1)?);
         }
-        made.iter().all(|part| part.cost() < cost).then_some(made)
+        let is_better = !made.is_empty() && made.iter().all(|part| part.cost() < cost);
+        is_better.then_some(made)
     });
     Some(halves.unwrap_or_else(|| vec![whole]))
 }
 
-/// The block between the nodes where both readings stand near its end behind it, else the best one.
-fn best(stand: Stand, encoded: Encoded, allowed: Allowed) -> Option<Planned> {
+/// The block between the nodes where both readings stand near its end behind it, else the best one, and what it costs.
+fn best(stand: Stand, encoded: Encoded, allowed: Allowed) -> Option<(f64, Planned)> {
     let first = stand.run(encoded.block, &encoded)?;
-    let mut best = first;
-    let (target, mut least) = (encoded.target(), first.cost());
+    let (target, mut best) = (encoded.target(), (first.cost(), first));
     for (reach, enough) in [(1, NEAR), (2, FAR)] {
-        if least <= enough {
+        if best.0 <= enough {
             break;
         }
         for block in others(stand.machine, &encoded, reach) {
             // Exact arcs are only run where the steps alone do not rule a block out.
             let away = |by: Node| (point_of(stand.machine) + point_of(by).coords - target).norm();
-            if !allowed.holds(&block) || travel(&block).is_some_and(|by| away(by) >= least) {
+            if !allowed.holds(&block) || travel(&block).is_some_and(|by| away(by) >= best.0) {
                 continue;
             }
             let made = stand.run(block, &encoded);
-            let is_nearer = |made: &Planned| made.after.cost(target) < least;
+            let is_nearer = |made: &Planned| made.after.cost(target) < best.0;
             let made = made.filter(|made| is_nearer(made) && first.may_be(made, allowed));
-            let Some((cost, made)) = made.map(|made| (made.cost(), made)) else {
-                continue;
-            };
-            if cost < least {
-                (best, least) = (made, cost);
-            }
-            if least <= GOOD {
+            let made = made.map(|made| (made.cost(), made));
+            best = made.filter(|(cost, _)| *cost < best.0).unwrap_or(best);
+            if best.0 <= GOOD {
                 return Some(best);
             }
         }
