@@ -3,7 +3,7 @@
 use super::block::PartArc;
 use super::encode::{END_TOLERANCE, Encoded, point_of};
 use super::parse::{Item, read_line};
-use super::stand::{Allowed, Planned, Stand, plan};
+use super::stand::{Planned, Stand, plan};
 use super::words::Words;
 use crate::geometry::Vector;
 use crate::program::encode::proved_aside;
@@ -33,13 +33,13 @@ impl Proof {
         }
     }
 
-    /// The blocks in place of one between nodes.
+    /// The blocks in place of one between nodes. No number is above `largest`; without it there is no other one.
     pub(crate) fn plan(
         &mut self,
         encoded: Encoded,
-        allowed: Allowed,
+        largest: Option<i64>,
     ) -> Result<Vec<Planned>, String> {
-        let planned = plan(self.stand, encoded, allowed)
+        let planned = plan(self.stand, encoded, largest)
             .ok_or_else(|| say!(a_block_cannot_be_decoded, encoded.block))?;
         self.stand = planned.last().map_or(self.stand, |last| last.after);
         self.arcs += usize::from(!encoded.block.motion.is_line());
@@ -129,25 +129,29 @@ pub(super) fn check_line(
 }
 
 /// The largest distance of a block from its piece of the path, in both readings; its end also from that of the piece.
+/// Exact arcs are what is proved; where the control stands is stated.
 fn check_block(planned: &Planned, drift: f64) -> Result<f64, String> {
     let Encoded {
         block, from, piece, ..
     } = &planned.encoded;
     let ends = [planned.after.exact, point_of(planned.after.machine)];
-    let off = ends.map(|end| (end - planned.encoded.target()).norm());
-    let distance = f64::max(off[0], off[1]);
-    if distance > END_TOLERANCE + drift {
+    let [exact, machine] = ends.map(|end| (end - planned.encoded.target()).norm());
+    if exact > END_TOLERANCE + drift {
         return Err(say!(
             a_block_ends_beside_its_node,
             block,
-            distance,
+            exact,
             planned.encoded.to
         ));
     }
-    let runs = [planned.run, planned.run_of_machine()];
-    runs.iter().try_fold(distance, |worst, run| {
-        let aside = proved_aside(run, piece, drift)
-            .map_err(|worst| say!(a_block_runs_beside_the_path, block, worst, from))?;
-        Ok(worst.max(aside))
-    })
+    let runs = [
+        (planned.run, drift),
+        (planned.run_of_machine(), f64::INFINITY),
+    ];
+    runs.iter()
+        .try_fold(exact.max(machine), |worst, (run, slack)| {
+            let aside = proved_aside(run, piece, *slack)
+                .map_err(|worst| say!(a_block_runs_beside_the_path, block, worst, from))?;
+            Ok(worst.max(aside))
+        })
 }

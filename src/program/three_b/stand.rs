@@ -10,7 +10,7 @@ use super::block::Block;
 use super::decode::decode;
 use super::encode::{Encoded, encode, line_block, point_of, raw_block, snap};
 use super::machine::travel;
-use crate::geometry::{Arc, Point, Segment, turn};
+use crate::geometry::{Point, Segment, turn};
 use crate::program::encode::aside;
 use crate::program::grid::Node;
 
@@ -30,7 +30,7 @@ const FAR: f64 = 1.8;
 /// How often.
 const CUTS: u32 = 3;
 
-/// How far another block may turn a line at its other end, or the wire of 4B at a joint, µm.
+/// How far another block may turn a line at its other end, µm.
 const TILT: f64 = 0.5;
 
 /// Where a program stands in both readings, µm.
@@ -109,67 +109,41 @@ impl Planned {
     }
 
     /// Whether another block may stand in place of this one.
-    fn may_be(&self, other: &Planned, allowed: Allowed) -> bool {
-        let lever = match (&self.run, &other.run) {
-            (Segment::Line(line), Segment::Line(_)) => line.length(),
-            (Segment::Arc(one), Segment::Arc(own)) if one.is_full_turn() == own.is_full_turn() => {
-                if !allowed.may_change(one) && own.radius.round() < one.radius.round() {
-                    return false;
-                }
-                0.0
-            }
-            _ => return false,
-        };
-        let lever = allowed.correction.map_or(lever, |own| own.max(lever));
+    fn may_be(&self, other: &Planned) -> bool {
         let piece = &self.encoded.piece;
-        let turns = |share| turn(piece.tangent_at(share), other.run.tangent_at(share));
-        lever == 0.0
-            || [0.0, 1.0]
-                .into_iter()
-                .all(|share| turns(share).abs() * lever <= TILT)
-    }
-}
-
-/// What blocks may be.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Allowed {
-    pub(super) largest_number: i64,
-    /// The correction of a control for 4B, µm, which offsets each block by its own direction: arcs of about that radius keep
-    /// theirs.
-    pub(super) correction: Option<f64>,
-}
-
-impl Allowed {
-    fn holds(&self, block: &Block) -> bool {
-        block.j > 0 && block.x.max(block.y).max(block.j) <= self.largest_number
-    }
-
-    /// Whether an arc may get another radius, or become two.
-    fn may_change(&self, arc: &Arc) -> bool {
-        self.correction.is_none_or(|own| arc.radius > 2.0 * own)
+        match (&self.run, &other.run) {
+            (Segment::Line(line), Segment::Line(_)) => {
+                let turned = turn(piece.start_tangent(), other.run.start_tangent());
+                turned.abs() * line.length() <= TILT
+            }
+            (Segment::Arc(one), Segment::Arc(own)) => one.is_full_turn() == own.is_full_turn(),
+            _ => false,
+        }
     }
 }
 
 /// The block of a piece as it is run from where the program stands, or those that take its place. `None` where the block
-/// leads nowhere.
-pub(super) fn plan(stand: Stand, encoded: Encoded, allowed: Allowed) -> Option<Vec<Planned>> {
-    in_halves(stand, encoded, allowed, CUTS)
+/// leads nowhere. No number is above `largest`; without it there is no other block.
+pub(super) fn plan(stand: Stand, encoded: Encoded, largest: Option<i64>) -> Option<Vec<Planned>> {
+    match largest {
+        Some(largest) => in_halves(stand, encoded, largest, CUTS),
+        None => Some(vec![stand.run(encoded.block, &encoded)?]),
+    }
 }
 
-fn in_halves(stand: Stand, encoded: Encoded, allowed: Allowed, cuts: u32) -> Option<Vec<Planned>> {
-    let (cost, whole) = best(stand, encoded, allowed)?;
-    let is_cut = |arc: &&Arc| cuts > 0 && cost > FAR && allowed.may_change(arc);
-    let arc = encoded.piece.as_arc().filter(is_cut);
+fn in_halves(stand: Stand, encoded: Encoded, largest: i64, cuts: u32) -> Option<Vec<Planned>> {
+    let (cost, whole) = best(stand, encoded, largest)?;
+    let arc = encoded.piece.as_arc().filter(|_| cuts > 0 && cost > FAR);
     let halves = arc.and_then(|arc| {
         let (mut halves, mut made) = (Vec::new(), Vec::new());
         let middle = snap(arc.point_at(0.5))?;
         for (share, from, to) in [(0.0, encoded.from, middle), (0.5, middle, encoded.to)] {
             let half = encoded.piece.part(share, share + 0.5);
-            encode(&half, from, to, allowed.largest_number, &mut halves)?;
+            encode(&half, from, to, largest, &mut halves)?;
         }
         for half in halves {
             let stand = made.last().map_or(stand, |last: &Planned| last.after);
-            made.append(&mut in_halves(stand, half, allowed, cuts - 1)?);
+            made.append(&mut in_halves(stand, half, largest, cuts - 1)?);
         }
         let is_better = !made.is_empty() && made.iter().all(|part| part.cost() < cost);
         is_better.then_some(made)
@@ -178,7 +152,7 @@ fn in_halves(stand: Stand, encoded: Encoded, allowed: Allowed, cuts: u32) -> Opt
 }
 
 /// The block between the nodes where both readings stand near its end behind it, else the best one, and what it costs.
-fn best(stand: Stand, encoded: Encoded, allowed: Allowed) -> Option<(f64, Planned)> {
+fn best(stand: Stand, encoded: Encoded, largest: i64) -> Option<(f64, Planned)> {
     let first = stand.run(encoded.block, &encoded)?;
     let (target, mut best) = (encoded.target(), (first.cost(), first));
     for (reach, enough) in [(1, NEAR), (2, FAR)] {
@@ -188,12 +162,13 @@ fn best(stand: Stand, encoded: Encoded, allowed: Allowed) -> Option<(f64, Planne
         for block in others(stand.machine, &encoded, reach) {
             // Exact arcs are only run where the steps alone do not rule a block out.
             let away = |by: Node| (point_of(stand.machine) + point_of(by).coords - target).norm();
-            if !allowed.holds(&block) || travel(&block).is_some_and(|by| away(by) >= best.0) {
+            let holds = block.j > 0 && block.x.max(block.y).max(block.j) <= largest;
+            if !holds || travel(&block).is_some_and(|by| away(by) >= best.0) {
                 continue;
             }
             let made = stand.run(block, &encoded);
             let is_nearer = |made: &Planned| made.after.cost(target) < best.0;
-            let made = made.filter(|made| is_nearer(made) && first.may_be(made, allowed));
+            let made = made.filter(|made| is_nearer(made) && first.may_be(made));
             let made = made.map(|made| (made.cost(), made));
             best = made.filter(|(cost, _)| *cost < best.0).unwrap_or(best);
             if best.0 <= GOOD {

@@ -8,7 +8,7 @@ use super::machine::travel;
 use super::parse::{Item, read_line};
 use super::part::{CutCorners, is_concave, mm, rounded, rounded_with_tab, unwritable, wire_step};
 use super::proof::{Proof, check_line};
-use super::stand::{Allowed, Planned};
+use super::stand::Planned;
 use super::words::{Word, Words};
 use crate::finding::{Side, Unwritable};
 use crate::geometry::{Point, Segment, Vector, turn};
@@ -239,13 +239,11 @@ impl Writer for Blocks<'_> {
             left,
             |Piece { from, to, .. }| say!(no_blocks_within_tolerance_lead_from_to, from, to),
         )?;
-        let allowed = Allowed {
-            largest_number: largest,
-            correction: self.part.as_ref().map(|part| part.correction),
-        };
+        // 4B's radius is the block's own.
+        let largest = self.part.is_none().then_some(largest);
         let mut lines = Vec::with_capacity(encoded.iter().map(Vec::len).sum());
         for (piece, block) in encoded.into_iter().flatten() {
-            let planned = self.proof.plan(block, allowed);
+            let planned = self.proof.plan(block, largest);
             for planned in planned.map_err(ProofError::Mismatch)? {
                 lines.push(self.push_planned(planned, pieces[piece].source)?);
             }
