@@ -39,13 +39,12 @@ impl SyntaxFault {
         }
     }
 
-    /// The same in a text with this many more bytes before it.
-    pub(super) fn shifted(mut self, by: usize) -> SyntaxFault {
+    /// Moves it to a text with this many more bytes before it.
+    pub(super) fn shift(&mut self, by: usize) {
         self.range = self.range.start + by..self.range.end + by;
         if let Flaw::MissingB { at } = &mut self.flaw {
             *at += by;
         }
-        self
     }
 
     /// The finding and the expectation.

@@ -3,19 +3,16 @@
 //! A line is rewritten from what the reader finds in it and read back before it counts. Damaged lines, headings and
 //! lines whose new form would differ in meaning stay byte for byte as they are.
 
-mod chunk;
 mod guard;
 mod line;
 mod stand;
 
 pub(crate) use self::guard::guarded;
 
-use self::chunk::{Chunk, Line, count_blocks, has_end};
-use self::line::{Formed, Writer};
+use self::line::{Line, What, Writer};
 use self::stand::Walk;
 use crate::program::edits::{self, AT_ONCE, LineEdits};
 use crate::program::three_b::layout::layout_in;
-use crate::program::three_b::parse::{Item, read_line};
 use crate::program::three_b::words::Words;
 use crate::settings::Layout;
 use crate::text::{SourceText, TextEdit};
@@ -47,23 +44,29 @@ fn format(
     lines: Range<usize>,
 ) -> Vec<TextEdit> {
     // The numbers of the checking layout depend on all blocks, everything else on those before.
-    let end = if layout == Layout::Checking {
-        text.line_count()
-    } else {
-        lines.end.min(text.line_count())
+    let end = match layout {
+        Layout::Checking => text.line_count(),
+        Layout::Compact | Layout::Aligned => lines.end.min(text.line_count()),
     };
-    let read = |first: usize| Chunk::read(text, words, first..(first + AT_ONCE).min(end));
-    let firsts: Vec<usize> = (0..end).step_by(AT_ONCE).collect();
-    let mut chunks: Vec<Chunk> = if firsts.len() > 2 {
-        firsts.into_par_iter().map(read).collect()
-    } else {
-        firsts.into_iter().map(read).collect()
-    };
-    let numbers_count_blocks = numbers_count_blocks(&chunks);
+    let read = (0..end).into_par_iter().with_min_len(AT_ONCE);
+    let read = read.map(|line| Line::read(line, text.line(line), words));
+    let mut all: Vec<Line> = read.collect();
     let mut walk = Walk::new(layout, ends);
-    chunks.iter_mut().for_each(|chunk| walk.go_through(chunk));
+    all.iter_mut().for_each(|line| walk.go_through(line));
+    let writer = Writer {
+        words,
+        layout,
+        ends,
+        numbers_count_blocks: numbers_count_blocks(&all),
+    };
+    let asked = all.get(lines.start.min(end)..lines.end.min(end));
+    let chunks: Vec<&[Line]> = asked.unwrap_or_default().chunks(AT_ONCE).collect();
     edits::formed(text, &chunks, |chunk| {
-        chunk.form(text, words, (layout, ends), numbers_count_blocks, &lines)
+        let mut edits = LineEdits::default();
+        chunk
+            .iter()
+            .for_each(|line| writer.form(line, text, &mut edits));
+        edits
     })
 }
 
@@ -73,19 +76,13 @@ fn layout_of(text: &SourceText, words: &Words<'_>) -> Layout {
     let mut votes = [0_usize; 3];
     for line in 0..text.line_count() {
         let bytes = text.line(line);
-        read_line(bytes, 0, words, |item| {
-            let Item::Block {
-                range, stated_end, ..
-            } = item
-            else {
-                return;
-            };
-            let layout = match stated_end {
+        for part in Line::read(line, bytes, words).parts {
+            let layout = match part.stated_end {
                 Some(_) => Layout::Checking,
-                None => layout_in(bytes.get(range).unwrap_or_default()),
+                None => layout_in(bytes.get(part.range).unwrap_or_default()),
             };
-            votes[layout as usize] += 1;
-        });
+            votes[layout as usize] += usize::from(matches!(part.what, What::Block(..)));
+        }
         if votes.iter().sum::<usize>() >= LOOKED_AT {
             break;
         }
@@ -99,78 +96,11 @@ fn layout_of(text: &SourceText, words: &Words<'_>) -> Layout {
 }
 
 /// True where every block that has a number has its own ordinal.
-fn numbers_count_blocks(chunks: &[Chunk]) -> bool {
-    let numbers = chunks
-        .iter()
-        .flat_map(|chunk| &chunk.items)
-        .filter_map(|item| match item {
-            Item::Block { number, .. } => Some(*number),
-            _ => None,
-        });
-    numbers
-        .zip(1_u32..)
-        .all(|(number, ordinal)| number.is_none_or(|number| number == ordinal))
-}
-
-impl Chunk {
-    /// The edits of those of its lines that are asked for.
-    fn form(
-        &self,
-        text: &SourceText,
-        words: &Words<'_>,
-        (layout, ends): (Layout, Ends),
-        numbers_count_blocks: bool,
-        lines: &Range<usize>,
-    ) -> LineEdits {
-        let mut edits = LineEdits::default();
-        let (mut ordinal, mut is_over, mut first) = (self.ordinal, self.is_over, 0);
-        for (line, Line { end, is_sound }) in (self.first_line..).zip(&self.lines) {
-            let (items, stated) = (&self.items[first..*end], &self.stated[first..*end]);
-            if lines.contains(&line) {
-                let pieces = Vec::new();
-                let mut writer = Writer {
-                    words,
-                    layout,
-                    ends,
-                    numbers_count_blocks,
-                    ordinal,
-                    is_over,
-                    items,
-                    stated,
-                    pieces,
-                    is_sound: *is_sound,
-                };
-                if let Some(formed) = writer.form(text.line(line), text.line_end(line)) {
-                    replace(&mut edits, text, line, formed);
-                }
-            }
-            ordinal += count_blocks(items);
-            is_over |= has_end(items);
-            first = *end;
-        }
-        edits
-    }
-}
-
-fn replace(edits: &mut LineEdits, text: &SourceText, line: usize, formed: Formed) {
-    let range = text.line_range(line);
-    let old = text.bytes().get(range.clone()).unwrap_or_default();
-    let Formed { from, head, kept } = formed;
-    let behind = TextEdit::new(range.start + kept.end..range.end, "");
-    match std::str::from_utf8(old.get(kept.clone()).unwrap_or_default()) {
-        // Only space at the end goes.
-        Ok(_) if from >= old.len() => edits.push(text, 0..0, behind),
-        Ok(kept) => {
-            let new = TextEdit::new(range.start + from..range.end, head + kept);
-            edits.push(text, line..line + 1, new);
-        }
-        // Bytes in another code page are not touched, so they are in no edit.
-        Err(_) => {
-            let before = range.start + from.min(kept.start)..range.start + kept.start;
-            edits.push(text, 0..0, TextEdit::new(before, head));
-            edits.push(text, 0..0, behind);
-        }
-    }
+fn numbers_count_blocks(lines: &[Line]) -> bool {
+    let parts = lines.iter().flat_map(|line| &line.parts);
+    let blocks = parts.filter(|part| matches!(part.what, What::Block(..)));
+    let mut numbers = blocks.map(|block| block.number).zip(1_u32..);
+    numbers.all(|(number, ordinal)| number.is_none_or(|number| number == ordinal))
 }
 
 #[cfg(test)]

@@ -13,6 +13,7 @@ mod fault;
 mod fields;
 pub(in crate::program) mod format;
 pub(crate) mod layout;
+mod line;
 mod machine;
 mod numbers;
 pub(crate) mod parse;
@@ -22,11 +23,9 @@ mod proof;
 pub(in crate::program) mod refactor;
 mod repair;
 mod rules;
-mod scan;
 mod stand;
 #[cfg(test)]
 mod tests;
-mod tokens;
 pub(crate) mod words;
 mod write;
 

@@ -7,53 +7,14 @@
 
 #![warn(clippy::indexing_slicing)]
 
-use super::around::{StatedPoint, before_comment};
-use super::block::{Block, PartArc};
+use super::around::before_comment;
 use super::fault::{Flaw, SyntaxFault};
-use super::tokens::{Token, Tokens, readable};
-use super::words::{Word, Words};
+pub use super::line::Item;
+use super::line::{BYTE_ORDER_MARK, Token, Tokens, readable, shown};
+use super::words::Words;
 use crate::program::lookalikes::{Likeness, alike, in_plain_letters};
-use crate::text::{self, SourceText, head};
+use crate::text::{SourceText, head};
 use std::ops::Range;
-
-/// One item of a line.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Item {
-    Block {
-        block: Block,
-        /// From the first `B` to the quadrant.
-        range: Range<usize>,
-        /// `N12`, or the number of a row.
-        number: Option<u32>,
-        /// Absolute end point in mm after the block.
-        stated_end: Option<StatedPoint>,
-        /// The additional part of a 4B block.
-        part: Option<PartArc>,
-    },
-    Word {
-        word: Word,
-        /// The word that the settings name, not one of another controller.
-        is_own: bool,
-        range: Range<usize>,
-        number: Option<u32>,
-    },
-    /// `Start Point = x , y`, mm.
-    StartPoint {
-        at: [f64; 2],
-        range: Range<usize>,
-    },
-    /// Neither block, word nor comment, nor a damaged block.
-    Text {
-        range: Range<usize>,
-        column: usize,
-    },
-    /// A comment, from its mark on, with a sound block in it: the controller skips it.
-    CommentedBlock {
-        range: Range<usize>,
-        column: usize,
-    },
-    Fault(SyntaxFault),
-}
 
 /// Reads a whole text; line ends are LF, CR LF and CR. Other text after the first block is a fault.
 pub fn read(text: &[u8], words: &Words<'_>) -> (Vec<Item>, Vec<SyntaxFault>) {
@@ -97,16 +58,16 @@ pub fn read_line(line: &[u8], offset: usize, words: &Words<'_>, mut each: impl F
     if line.is_ascii() {
         return read_plain_line(line, offset, words, &mut each);
     }
-    let from = if offset == 0 && line.starts_with(b"\xef\xbb\xbf") {
-        3
-    } else {
-        0
-    };
-    let line = line.get(from..).unwrap_or_default();
+    let marked = line.strip_prefix(BYTE_ORDER_MARK).filter(|_| offset == 0);
+    let offset = offset + marked.map_or(0, |_| BYTE_ORDER_MARK.len());
+    let line = marked.unwrap_or(line);
     let plain = readable(line);
     match not_plain(line, &plain, words) {
-        Some(fault) => each(Item::Fault(fault.shifted(offset + from))),
-        None => read_plain_line(&plain, offset + from, words, &mut each),
+        Some(mut fault) => {
+            fault.shift(offset);
+            each(Item::Fault(fault))
+        }
+        None => read_plain_line(&plain, offset, words, &mut each),
     }
 }
 
@@ -119,7 +80,7 @@ fn not_plain(line: &[u8], readable: &[u8], words: &Words<'_>) -> Option<SyntaxFa
         .find(|found| found.likeness.is_letter() && found.at < code)?;
     let says = |line: &[u8]| {
         let (mut says, mut number) = (false, None);
-        read_plain_line(line, 1, words, &mut |item| match item {
+        read_plain_line(line, 0, words, &mut |item| match item {
             Item::Block { .. } | Item::Word { .. } => says = true,
             Item::Fault(fault) => number = number.or(fault.number),
             _ => {}
@@ -132,16 +93,15 @@ fn not_plain(line: &[u8], readable: &[u8], words: &Words<'_>) -> Option<SyntaxFa
         return None;
     }
     let end = head(line, code).trim_ascii_end().len();
-    let script = if matches!(first.likeness, Likeness::Foreign(_)) {
-        say!(cyrillic_or_greek)
-    } else {
-        say!(full_width)
+    let script = match first.likeness {
+        Likeness::Foreign(_) => say!(cyrillic_or_greek),
+        _ => say!(full_width),
     };
-    let found = shown(line.get(first.at..)?);
+    let (column, found) = (first.at + 1, shown(line.get(first.at..)?));
     let expected = say!(a_block_in_plain_letters_and_digits);
     let sentence = say!(
         found_letters_of_another_script,
-        first.at + 1,
+        column,
         found,
         expected,
         script
@@ -154,90 +114,39 @@ fn not_plain(line: &[u8], readable: &[u8], words: &Words<'_>) -> Option<SyntaxFa
 }
 
 fn read_plain_line(line: &[u8], offset: usize, words: &Words<'_>, each: &mut dyn FnMut(Item)) {
-    let mut tokens = Tokens::of(line);
-    // A block waits for the next token, because its coordinates stand after it.
+    let mut tokens = Tokens::of(line, offset, words);
+    // A block waits for the next item, because its coordinates stand after it.
     let mut waiting: Option<Item> = None;
     let mut number = None;
-    while let Some((token, range)) = tokens.next(words) {
-        let column = range.start + 1;
-        let range = range.start + offset..range.end + offset;
-        let item = match token {
-            Token::Comment { holds_block: false } => continue,
-            Token::Number(read) => {
-                number = Some(read);
-                continue;
-            }
+    while let Some(token) = tokens.next() {
+        match token {
+            Token::Comment => {}
+            Token::Number(read) => number = Some(read),
             Token::Coordinates(end) => {
                 if let Some(Item::Block { stated_end, .. }) = &mut waiting {
                     *stated_end = Some(end);
                 }
-                continue;
+                break;
             }
-            Token::Block {
-                block,
-                part,
-                row,
-                faults,
-            } => {
+            Token::Item(mut item, faults) => {
                 waiting.take().into_iter().for_each(&mut *each);
-                let placed = faults.into_iter().map(|fault| fault.shifted(offset));
-                placed.map(Item::Fault).for_each(&mut *each);
-                waiting = Some(Item::Block {
-                    block,
-                    range,
-                    number: number.take().or(row),
-                    stated_end: None,
-                    part,
-                });
-                continue;
+                faults.into_iter().map(Item::Fault).for_each(&mut *each);
+                match &mut item {
+                    Item::Block { number: own, .. } | Item::Word { number: own, .. } => {
+                        *own = number.take().or(*own);
+                    }
+                    Item::Fault(fault) => match fault.flaw {
+                        Flaw::Unreadable(_) => fault.number = number.take(),
+                        // The rest of the line belongs to the place.
+                        _ => return each(item),
+                    },
+                    _ => {}
+                }
+                waiting = Some(item);
             }
-            Token::Word { word, is_own } => Item::Word {
-                word,
-                is_own,
-                range,
-                number: number.take(),
-            },
-            Token::StartPoint(at) => Item::StartPoint { at, range },
-            Token::Text => Item::Text { range, column },
-            Token::Comment { .. } => Item::CommentedBlock { range, column },
-            Token::FarStart => Item::Fault(SyntaxFault::new(range, Flaw::FarStart)),
-            Token::DecimalCommas => Item::Fault(SyntaxFault::new(range, Flaw::DecimalCommas)),
-            Token::Broken(expected) => {
-                tokens.skip_broken_block();
-                let found = line.get(range.start - offset..).unwrap_or_default();
-                Item::Fault(SyntaxFault {
-                    number: number.take(),
-                    ..broken(found, column, range.start, expected)
-                })
-            }
-        };
-        waiting.take().into_iter().for_each(&mut *each);
-        each(item);
+        }
     }
     waiting.into_iter().for_each(each);
-}
-
-/// The fault of a broken block; its range is the text there up to the next space. After the end there is nothing to
-/// underline, so the last byte stands for it.
-fn broken(rest: &[u8], column: usize, at: usize, expected: &str) -> SyntaxFault {
-    let length = rest.iter().position(u8::is_ascii_whitespace);
-    let length = length
-        .unwrap_or(rest.len())
-        .clamp(rest.len().min(1), rest.len());
-    let (start, found) = if rest.is_empty() {
-        let before = at - usize::from(column > 1);
-        (before, say!(the_line_ends).to_owned())
-    } else {
-        (at, say!(found_something, shown(head(rest, length))))
-    };
-    let sentence = say!(expected_in_a_column, column, found, expected);
-    SyntaxFault::new(start..at + length, Flaw::Unreadable(sentence))
-}
-
-/// The first characters of what was found.
-fn shown(bytes: &[u8]) -> String {
-    let mut words = bytes.split(u8::is_ascii_whitespace);
-    text::shown(words.next().unwrap_or_default())
 }
 
 #[cfg(test)]

@@ -3,9 +3,9 @@
 
 #![warn(clippy::indexing_slicing)]
 
-use super::fields::fields_of;
-use super::scan::{Number, Scan};
-use super::tokens::{Token, Tokens, readable};
+use super::fault::Flaw;
+use super::fields::{Number, Scan, fields_of};
+use super::line::{Item, Token, Tokens, readable};
 use super::words::{Word, Words};
 use std::ops::Range;
 
@@ -48,67 +48,60 @@ pub(crate) struct Piece {
 
 /// Cuts a line, without its line end, into pieces. Space between them belongs to none.
 pub(crate) fn pieces(line: &[u8], words: &Words<'_>) -> Vec<Piece> {
-    let from = if line.starts_with(b"\xef\xbb\xbf") {
-        3
-    } else {
-        0
-    };
-    let plain = readable(line.get(from..).unwrap_or_default());
+    let plain = readable(line);
     let mut cutter = Cutter {
         line: &plain,
         raw: line,
-        from,
         begun: 0,
         found: Vec::with_capacity(12),
     };
-    let mut tokens = Tokens::of(&plain);
+    let mut tokens = Tokens::of(&plain, 0, words);
     loop {
         tokens.skip_space();
+        let before = tokens;
         let start = tokens.at;
-        let Some((token, range)) = tokens.next(words) else {
+        let Some(token) = tokens.next() else {
             return cutter.found;
         };
-        if !matches!(token, Token::Text | Token::Broken(_)) {
-            cutter.begun = 0;
-        }
-        match token {
-            Token::Number(_) => cutter.push(Field::Number, range),
-            Token::Coordinates(_) | Token::DecimalCommas => {
-                let start = start.min(range.start);
-                tokens.at = range.end;
-                cutter.push(Field::Coordinates, start..range.end);
-            }
-            Token::Block { row, faults, .. } => {
-                let before = match row {
-                    Some(_) => Field::Number,
-                    None => Field::Strange,
-                };
+        let field = match token {
+            Token::Number(_) => Field::Number,
+            Token::Coordinates(_) => Field::Coordinates,
+            Token::Comment => Field::Comment,
+            Token::Item(Item::Block { range, number, .. }, _) => {
+                let before = number.map_or(Field::Strange, |_| Field::Number);
                 cutter.push(before, start..range.start);
-                if row.is_none() && faults.is_empty() {
-                    cutter.push_scan(&tokens.scan, tokens.scan.numbers(), range.start);
-                } else {
-                    cutter.push_mended(range);
-                }
+                cutter.push_block(range);
+                cutter.begun = 0;
+                continue;
             }
-            Token::Word { word, .. } => cutter.push(
-                match word {
-                    Word::Pause => Field::Pause,
-                    Word::End => Field::End,
-                },
-                range,
-            ),
-            Token::StartPoint(_) | Token::FarStart => cutter.push(Field::StartPoint, range),
-            Token::Comment { .. } => cutter.push(Field::Comment, range),
-            Token::Text | Token::Broken(_) => tokens.at = cutter.push_broken(start),
+            Token::Item(item, _) => field_of(&item),
+        };
+        if field == Field::Strange {
+            tokens = before;
+            tokens.at = cutter.push_broken(start);
+        } else {
+            cutter.begun = 0;
+            cutter.push(field, start..tokens.at);
         }
+    }
+}
+
+fn field_of(item: &Item) -> Field {
+    match item {
+        Item::Word { word, .. } if *word == Word::End => Field::End,
+        Item::Word { .. } => Field::Pause,
+        Item::StartPoint { .. } => Field::StartPoint,
+        Item::CommentedBlock { .. } => Field::Comment,
+        Item::Fault(fault) if fault.flaw == Flaw::DecimalCommas => Field::Coordinates,
+        Item::Fault(fault) if fault.flaw == Flaw::FarStart => Field::StartPoint,
+        Item::Block { .. } | Item::Text { .. } | Item::Fault(_) => Field::Strange,
     }
 }
 
 struct Cutter<'a> {
     line: &'a [u8],
-    /// As it stands, with this many bytes before `line`.
+    /// As it stands.
     raw: &'a [u8],
-    from: usize,
     /// Numbers of a broken block so far.
     begun: usize,
     found: Vec<Piece>,
@@ -118,26 +111,20 @@ impl Cutter<'_> {
     /// A piece without the space at its end; before a block, without the bars of its table.
     fn push(&mut self, field: Field, range: Range<usize>) {
         let is_before = matches!(field, Field::Number | Field::Strange);
-        let is_space = |byte: u8| match byte {
-            b' ' | b'\t' | 0x0b | 0x0c | 0x1a => true,
-            b'|' | b',' => is_before,
-            _ => false,
+        let is_own = |byte: &u8| match byte {
+            b' ' | b'\t' | 0x0b | 0x0c | 0x1a => false,
+            b'|' | b',' => !is_before,
+            _ => true,
         };
-        let mut end = range.end;
-        while let Some(last) = end.checked_sub(1).filter(|last| *last >= range.start)
-            && self.line.get(last).is_some_and(|byte| is_space(*byte))
-        {
-            end = last;
-        }
-        if end <= range.start {
+        let text = self.line.get(range.clone()).unwrap_or_default();
+        let Some(last) = text.iter().rposition(is_own) else {
             return;
-        }
+        };
+        let mut end = range.start + last + 1;
         // A wide mark takes more bytes than the one that it is read as.
-        let raw = |at: usize| self.raw.get(at + self.from).copied().unwrap_or(b' ');
-        if raw(end - 1) >= 0x80 {
-            while self.line.get(end) == Some(&b' ') && raw(end) != b' ' {
-                end += 1;
-            }
+        let raw = |at: usize| self.raw.get(at).copied().unwrap_or(b' ');
+        while raw(end - 1) >= 0x80 && self.line.get(end) == Some(&b' ') && raw(end) != b' ' {
+            end += 1;
         }
         self.add(field, range.start..end);
     }
@@ -145,73 +132,63 @@ impl Cutter<'_> {
     /// A piece, where it is not empty.
     fn add(&mut self, field: Field, range: Range<usize>) {
         if !range.is_empty() {
-            let range = range.start + self.from..range.end + self.from;
             self.found.push(Piece { field, range });
         }
     }
 
-    /// The numbers of a block that lead with their `B`, and the rest of it where all of them do; and their end.
-    fn push_scan(&mut self, scan: &Scan, numbers: &[Number], start: usize) -> usize {
-        const FIELDS: [Field; 4] = [Field::X, Field::Y, Field::J, Field::Radius];
-        let place = |range: &Range<usize>| range.start + start..range.end + start;
-        let mut end = start;
-        for number in numbers {
-            let Some(b) = number.b else { return end };
-            self.add(Field::Separator, start + b..start + b + 1);
-            let field = FIELDS.get(self.begun).copied().unwrap_or(Field::X);
-            self.add(field, place(&number.digits));
-            self.begun = (self.begun + 1) % FIELDS.len();
-            end = start + number.digits.end;
-        }
-        if scan.axis.is_none() {
-            return end;
-        }
-        self.add(Field::Axis, place(&scan.axis_range));
-        self.add(Field::Convexity, place(&scan.side_range));
-        self.add(Field::Motion, place(&scan.motion_range));
-        start + scan.end
-    }
-
-    /// The pieces of a block that is damaged, and can be read.
-    fn push_mended(&mut self, range: Range<usize>) {
+    /// The pieces of a block that can be read.
+    fn push_block(&mut self, range: Range<usize>) {
         let Some(fields) = fields_of(self.line, range) else {
             return;
         };
-        let numbers = [
-            (Field::X, Some(fields.x)),
-            (Field::Y, Some(fields.y)),
-            (Field::J, Some(fields.j)),
-            (Field::Radius, fields.radius),
-        ];
-        let mut at = fields.first;
-        for (field, digits) in numbers {
-            let Some(digits) = digits else { continue };
-            let between = self.line.get(at..digits.start).unwrap_or_default();
-            if let Some(b) = memchr::memchr2(b'B', b'b', between) {
-                self.add(Field::Separator, at + b..at + b + 1);
-            }
-            at = digits.end;
-            self.add(field, digits);
+        let first = self.push_number(fields.first, Field::X, fields.x);
+        let second = self.push_number(first, Field::Y, fields.y);
+        let third = self.push_number(second, Field::J, fields.j);
+        if let Some(radius) = fields.radius {
+            self.push_number(third, Field::Radius, radius);
         }
         self.add(Field::Axis, fields.axis);
         self.add(Field::Convexity, fields.side.unwrap_or_default());
         self.add(Field::Motion, fields.motion);
     }
 
-    /// The pieces of an unfinished or unreadable block, and after them one that is none, up to the next space or
-    /// comment; and their end.
+    /// A number with any `B` from a byte on; and its end.
+    fn push_number(&mut self, from: usize, field: Field, digits: Range<usize>) -> usize {
+        let before = self.line.get(from..digits.start).unwrap_or_default();
+        if let Some(b) = memchr::memchr2(b'B', b'b', before) {
+            self.add(Field::Separator, from + b..from + b + 1);
+        }
+        let end = digits.end;
+        self.add(field, digits);
+        end
+    }
+
+    /// The pieces of an unfinished or unreadable block, as far as its numbers lead with their `B`, and after them one
+    /// that is none, up to the next space or comment; and their end.
     fn push_broken(&mut self, start: usize) -> usize {
-        let scan = Scan::of(self.line.get(start..).unwrap_or_default());
+        const FIELDS: [Field; 4] = [Field::X, Field::Y, Field::J, Field::Radius];
+        let scan = Scan::at(self.line, start);
         let mut numbers = scan.numbers();
         let mut end = start;
-        if let [row, first, ..] = numbers
-            && (row.b, first.b.is_some_and(|b| b > row.digits.end)) == (None, true)
+        if let [row @ Number { b: None, .. }, rest @ ..] = numbers
+            && let [Number { b: Some(b), .. }, ..] = rest
+            && *b > row.digits.end
         {
-            end = start + row.digits.end;
+            end = row.digits.end;
             self.push(Field::Number, start..end);
-            numbers = numbers.get(1..).unwrap_or_default();
+            numbers = rest;
         }
-        end = end.max(self.push_scan(&scan, numbers, start));
+        for number in numbers.iter().take_while(|number| number.b.is_some()) {
+            let field = FIELDS.get(self.begun).copied().unwrap_or(Field::X);
+            end = self.push_number(end, field, number.digits.clone());
+            self.begun = (self.begun + 1) % FIELDS.len();
+        }
+        if numbers.iter().all(|number| number.b.is_some()) && scan.axis.is_some() {
+            self.add(Field::Axis, scan.axis_range);
+            self.add(Field::Convexity, scan.side_range);
+            self.add(Field::Motion, scan.motion_range);
+            end = scan.end;
+        }
         let rest = self.line.get(end..).unwrap_or_default();
         let is_over = |byte: &u8| byte.is_ascii_whitespace() || *byte == b';';
         let length = rest.iter().position(is_over).unwrap_or(rest.len());

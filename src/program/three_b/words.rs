@@ -31,7 +31,7 @@ impl Default for Words<'_> {
 impl Words<'_> {
     /// The effect of a word; `None` for one unknown in programs. Letter case does not matter.
     pub(super) fn meaning(&self, word: &[u8]) -> Option<Word> {
-        let is = |known: &str| word.eq_ignore_ascii_case(known.as_bytes());
+        let is = |known: &str| !word.is_empty() && word.eq_ignore_ascii_case(known.as_bytes());
         if is(self.end) {
             return Some(Word::End);
         }

@@ -48,6 +48,7 @@ pub(crate) fn completions(document: &Document, offset: usize) -> Vec<Completion>
 }
 
 /// The unfinished block at the end of some text.
+#[derive(Default)]
 struct Typed {
     numbers: Vec<Option<i64>>,
     axis: Option<CountingAxis>,
@@ -62,22 +63,17 @@ impl Typed {
             let bytes = before.get(piece.range.clone()).unwrap_or_default();
             let number = || std::str::from_utf8(bytes).ok()?.parse::<i64>().ok();
             match (piece.field, &mut typed) {
-                (Field::Separator, Some(typed)) => typed.numbers.push(None),
-                (Field::Separator, None) => {
-                    typed = Some(Typed {
-                        numbers: vec![None],
-                        axis: None,
-                        begun: None,
-                    })
-                }
+                (Field::Separator, typed) => typed.get_or_insert_default().numbers.push(None),
                 (Field::X | Field::Y | Field::J, Some(typed)) => {
                     if let Some(last) = typed.numbers.last_mut() {
                         *last = number();
                     }
                 }
                 (Field::Axis, Some(typed)) => {
-                    let is_x = matches!(bytes.last(), Some(b'X' | b'x'));
-                    typed.axis = Some([CountingAxis::Y, CountingAxis::X][usize::from(is_x)]);
+                    typed.axis = match bytes.last() {
+                        Some(b'X' | b'x') => Some(CountingAxis::X),
+                        _ => Some(CountingAxis::Y),
+                    }
                 }
                 (Field::Strange, Some(typed)) if piece.range.end == before.len() => {
                     typed.begun = Some(piece.range.start)
@@ -122,15 +118,13 @@ impl Typed {
 /// that start in each of them.
 fn shapes(x: i64, y: i64, largest: i64) -> Vec<Block> {
     let origin = Node { x: 0, y: 0 };
-    let corners = corners(x, y);
-    let mut blocks: Vec<Block> = corners
-        .iter()
-        .filter(|&&corner| corner != origin)
-        .map(|&corner| line_block(origin, corner))
-        .collect();
+    let mut corners = corners(x, y);
+    corners.retain(|corner| *corner != origin);
+    let lines = corners.iter().map(|corner| line_block(origin, *corner));
+    let mut blocks: Vec<Block> = lines.collect();
     for sweep in [TAU, PI, FRAC_PI_2] {
         for turn in [1.0, -1.0] {
-            for &corner in corners.iter().filter(|&&corner| corner != origin) {
+            for &corner in &corners {
                 let start = point_of(corner);
                 let arc = Arc::from_center(
                     Point::origin(),
@@ -147,7 +141,7 @@ fn shapes(x: i64, y: i64, largest: i64) -> Vec<Block> {
                 });
                 if encode(&piece, corner, end, largest, &mut encoded).is_some()
                     && let [one] = encoded[..]
-                    && !matches!(one.block.motion, Motion::Line(_))
+                    && !one.block.motion.is_line()
                 {
                     blocks.push(one.block);
                 }
@@ -160,11 +154,8 @@ fn shapes(x: i64, y: i64, largest: i64) -> Vec<Block> {
 /// The points whose coordinates have these absolute values.
 fn corners(x: i64, y: i64) -> Vec<Node> {
     let mut corners: Vec<Node> = Vec::new();
-    for (sign_x, sign_y) in [(1, 1), (-1, 1), (-1, -1), (1, -1)] {
-        let corner = Node {
-            x: sign_x * x,
-            y: sign_y * y,
-        };
+    for (x, y) in [(x, y), (-x, y), (-x, -y), (x, -y)] {
+        let corner = Node { x, y };
         if !corners.contains(&corner) {
             corners.push(corner);
         }
@@ -174,27 +165,22 @@ fn corners(x: i64, y: i64) -> Vec<Node> {
 
 /// Blocks with these numbers and each Z that they can have.
 fn motions(x: i64, y: i64, j: i64, axis: CountingAxis) -> Vec<Block> {
-    let kinds: [fn(Quadrant) -> Motion; 3] =
-        [Motion::Line, Motion::CounterClockwise, Motion::Clockwise];
-    let mut blocks = Vec::new();
-    for kind in kinds {
-        for corner in corners(x, y) {
-            let quadrant = match kind(Quadrant::First) {
-                Motion::Clockwise(_) => Quadrant::clockwise(corner.x, corner.y),
-                Motion::Line(_) | Motion::CounterClockwise(_) => {
-                    Quadrant::counter_clockwise(corner.x, corner.y)
-                }
-            };
-            blocks.push(Block {
-                x,
-                y,
-                j,
-                axis,
-                motion: kind(quadrant),
-            });
-        }
-    }
-    blocks
+    let corners = corners(x, y);
+    let lines = corners
+        .iter()
+        .map(|corner| Quadrant::counter_clockwise(corner.x, corner.y));
+    let arcs = [true, false].into_iter().flat_map(|is_left| {
+        let corners = corners.iter();
+        corners.map(move |corner| Motion::arc(is_left, corner.x, corner.y))
+    });
+    let block = |motion: Motion| Block {
+        x,
+        y,
+        j,
+        axis,
+        motion,
+    };
+    lines.map(Motion::Line).chain(arcs).map(block).collect()
 }
 
 /// The end of a piece, in words.

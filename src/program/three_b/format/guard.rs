@@ -41,33 +41,30 @@ pub(crate) fn guarded(
     let before = document.findings();
     let adds = layout == Layout::Checking;
     let is_sound = before.is_empty() && (adds || document.stated_ends().next().is_none());
-    if edits.is_empty() || is_sound {
-        return Formatted { edits, kept: None };
-    }
-    let is_doubtful = |finding: &&Finding| tells_of_wrong_ends(finding.rule);
-    let mut reason = before.iter().find(is_doubtful).filter(|_| adds).cloned();
-    if reason.is_none() {
-        let after = findings_after(document, settings, &edits);
-        reason = changed(&before, &after).cloned();
-    }
-    let Some(reason) = reason else {
+    let changed_by = |edits: &[TextEdit]| {
+        let after = findings_after(document, settings, edits);
+        changed(&before, &after).cloned()
+    };
+    let reason = if edits.is_empty() || is_sound {
+        None
+    } else {
+        let is_doubtful = |finding: &&Finding| tells_of_wrong_ends(finding.rule);
+        let doubtful = before.iter().find(is_doubtful).filter(|_| adds).cloned();
+        doubtful.or_else(|| changed_by(&edits))
+    };
+    let kept = reason.map(|reason| (reason, laid(Ends::Kept)));
+    let Some((reason, mut kept)) = kept.filter(|(_, kept)| *kept != edits) else {
         return Formatted { edits, kept: None };
     };
-    let mut kept = laid(Ends::Kept);
-    if kept == edits {
-        return Formatted { edits, kept: None };
-    }
-    if changed(&before, &findings_after(document, settings, &kept)).is_some() {
+    if changed_by(&kept).is_some() {
         kept.clear();
     }
     let place = reason.place.in_text();
     let line = place.map_or(0, |range| text.line_of(range.start.min(text.len())));
+    let rule = reason.rule;
     Formatted {
         edits: kept,
-        kept: Some(Reason {
-            rule: reason.rule,
-            line,
-        }),
+        kept: Some(Reason { rule, line }),
     }
 }
 
@@ -112,10 +109,6 @@ fn changed<'a>(before: &'a [Finding], after: &'a [Finding]) -> Option<&'a Findin
     }
     let differs = |one: &&Finding| more.get(&one.rule).is_some_and(|more| *more != 0);
     let gone = before.iter().find(differs);
-    gone.or_else(|| {
-        after
-            .iter()
-            .find(differs)
-            .map(|new| before.first().unwrap_or(new))
-    })
+    let new = || after.iter().find(differs);
+    gone.or_else(|| new().map(|new| before.first().unwrap_or(new)))
 }

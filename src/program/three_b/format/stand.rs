@@ -1,17 +1,26 @@
 //! The machine on its way through a program that is formatted, and the verdict on its stated end points.
 
 use super::Ends;
-use super::chunk::{Chunk, Line, Stated, Travel, count_blocks, has_end};
+use super::line::{Line, Part, What};
 use crate::geometry::Point;
-use crate::program::three_b::around::StatedPoint;
 use crate::program::three_b::block::Node;
 use crate::program::three_b::encode::{point_of, snap as node_of};
-use crate::program::three_b::parse::Item;
 use crate::program::three_b::words::Word;
 use crate::settings::Layout;
 
 /// The tolerance for a stated end point, µm: 2, and 1 for each arc since the last one.
 const STATED_TOLERANCE: f64 = 2.0;
+
+/// A stated end point, or the end of a block without one.
+#[derive(Clone, Copy)]
+pub(super) enum Stated {
+    /// It is the block's own.
+    Right(Node),
+    /// It is not, or nobody asks: it stays.
+    AsItStands,
+    /// There is none; the block's own, where it is known.
+    Absent(Option<Node>),
+}
 
 /// The way through a program, line by line.
 pub(super) struct Walk {
@@ -19,9 +28,13 @@ pub(super) struct Walk {
     ends: Ends,
     /// Blocks so far.
     ordinal: u64,
-    stand: Stand,
     /// The end word has come: nothing after it is formatted.
     is_over: bool,
+    /// Where the machine stands, µm.
+    at: Point,
+    trust: Trust,
+    /// Arcs since the last stated place that was taken over.
+    arcs: f64,
 }
 
 impl Walk {
@@ -30,117 +43,71 @@ impl Walk {
             layout,
             ends,
             ordinal: 0,
-            stand: Stand {
-                at: Point::origin(),
-                trust: Trust::Known,
-                arcs: 0.0,
-            },
             is_over: false,
+            at: Point::origin(),
+            trust: Trust::Known,
+            arcs: 0.0,
         }
     }
 
-    /// Follows the machine through some lines.
-    pub(crate) fn go_through(&mut self, chunk: &mut Chunk) {
-        (chunk.ordinal, chunk.is_over) = (self.ordinal, self.is_over);
-        let mut first = 0;
-        for Line { end, is_sound } in &chunk.lines {
-            if !is_sound {
-                self.stand.trust = Trust::Lost;
-            }
-            for (item, way) in chunk.items[first..*end]
-                .iter()
-                .zip(&chunk.ways[first..*end])
-            {
-                let stand = &mut self.stand;
-                let mut stated = Stated::Absent(None);
-                match item {
-                    Item::Block { stated_end, .. } => {
-                        stated = stand.go_on(*stated_end, *way, self.layout);
-                        if self.ends == Ends::Kept {
-                            stated = match stated_end {
-                                Some(_) => Stated::AsItStands,
-                                None => Stated::Absent(None),
-                            };
-                        }
-                    }
-                    Item::Word {
-                        word: Word::Pause, ..
-                    } if stand.trust == Trust::Known => stand.trust = Trust::UnlessStated,
-                    Item::StartPoint { at: [x, y], .. } => {
-                        *stand = Stand {
-                            at: Point::new(x * 1000.0, y * 1000.0),
-                            trust: Trust::Known,
-                            arcs: 0.0,
-                        };
-                    }
-                    Item::Word { .. }
-                    | Item::Text { .. }
-                    | Item::CommentedBlock { .. }
-                    | Item::Fault(_) => {}
+    /// Follows the machine through a line.
+    pub(crate) fn go_through(&mut self, line: &mut Line) {
+        (line.ordinal, line.is_over) = (self.ordinal, self.is_over);
+        if !line.is_sound {
+            self.trust = Trust::Lost;
+        }
+        for part in &mut line.parts {
+            match part.what {
+                What::Block(..) => {
+                    self.ordinal += 1;
+                    let stated = self.go_on(part);
+                    part.stated = match (self.ends, part.stated_end) {
+                        (Ends::OfLayout, _) => stated,
+                        (Ends::Kept, Some(_)) => Stated::AsItStands,
+                        (Ends::Kept, None) => Stated::Absent(None),
+                    };
                 }
-                chunk.stated.push(stated);
+                What::Word(Word::Pause) if self.trust == Trust::Known => {
+                    self.trust = Trust::UnlessStated
+                }
+                What::Word(word) => self.is_over |= word == Word::End,
+                What::StartPoint([x, y]) => self.stand_at(Point::new(x * 1000.0, y * 1000.0)),
             }
-            first = *end;
         }
-        self.ordinal += count_blocks(&chunk.items);
-        self.is_over |= has_end(&chunk.items);
     }
-}
 
-/// Where the machine stands.
-#[derive(Clone, Copy)]
-struct Stand {
-    /// µm.
-    at: Point,
-    trust: Trust,
-    /// Arcs since the last stated place that was taken over.
-    arcs: f64,
-}
+    fn stand_at(&mut self, place: Point) {
+        (self.at, self.trust, self.arcs) = (place, Trust::Known, 0.0);
+    }
 
-impl Stand {
     /// Moves on to a block's end, and judges its stated end point.
     ///
     /// Where stated points stay in the text, later ones are compared with them; where they are
     /// dropped, later ones are compared with the blocks alone, so that formatting again finds the
     /// same.
-    fn go_on(
-        &mut self,
-        stated: Option<StatedPoint>,
-        way: Option<Travel>,
-        layout: Layout,
-    ) -> Stated {
-        let stated = stated
-            .and_then(|StatedPoint { at: [x, y], .. }| node_of(Point::new(x * 1000.0, y * 1000.0)));
-        let told = if layout == Layout::Checking {
-            stated
-        } else {
-            None
-        };
-        match way {
-            Some(Travel { by, is_arc }) => {
-                self.arcs += f64::from(u8::from(is_arc));
-                self.at += by;
+    fn go_on(&mut self, block: &Part) -> Stated {
+        let place = |[x, y]: [f64; 2]| node_of(Point::new(x * 1000.0, y * 1000.0));
+        let stated = block.stated_end.and_then(|stated| place(stated.at));
+        match &block.way {
+            Some(way) => {
+                self.arcs += f64::from(u8::from(way.as_arc().is_some()));
+                self.at += way.end().coords;
             }
             // The block means nothing: from here on only a stated point gives the position.
             None => self.trust = Trust::Lost,
         }
-        if let Some(node) = told
-            && (self.trust != Trust::Known || self.is_near(node))
-        {
-            *self = Stand {
-                at: point_of(node),
-                trust: Trust::Known,
-                arcs: 0.0,
-            };
-            return Stated::Right(node);
-        }
-        match (stated, self.trust) {
-            (Some(node), Trust::Known | Trust::UnlessStated) if self.is_near(node) => {
+        match stated {
+            Some(node)
+                if self.layout == Layout::Checking
+                    && (self.trust != Trust::Known || self.is_near(node)) =>
+            {
+                self.stand_at(point_of(node));
                 Stated::Right(node)
             }
-            (Some(_), _) => Stated::AsItStands,
-            (None, Trust::Lost) => Stated::Absent(None),
-            (None, _) => Stated::Absent(node_of(self.at)),
+            Some(node) if self.trust != Trust::Lost && self.is_near(node) => Stated::Right(node),
+            Some(_) => Stated::AsItStands,
+            None if self.trust == Trust::Lost => Stated::Absent(None),
+            None => Stated::Absent(node_of(self.at)),
         }
     }
 

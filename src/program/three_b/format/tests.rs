@@ -1,5 +1,5 @@
 use super::*;
-use crate::program::three_b::read;
+use crate::program::three_b::{Item, read};
 use proptest::prelude::*;
 
 fn formatted(text: &[u8], layout: Option<Layout>) -> Vec<u8> {

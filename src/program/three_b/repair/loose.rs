@@ -1,8 +1,8 @@
 //! The remains of an unreadable block: its numbers, its axis and its motion, as far as they are there.
 
-use super::super::around::n_word;
-use super::super::block::{Block, CountingAxis, Motion};
-use super::super::scan::{self, Scan};
+use super::super::around::number;
+use super::super::block::{Block, CountingAxis, Motion, Quadrant};
+use super::super::fields::{self, Scan};
 use std::ops::Range;
 
 /// A number of a block.
@@ -32,9 +32,8 @@ pub(in super::super) struct Loose {
     numbers: Vec<Vec<u8>>,
     axis: Option<CountingAxis>,
     motions: Vec<Motion>,
-    /// Marks among the digits that no number has.
-    marks: usize,
-    missing: usize,
+    /// Keys that are missing, and marks that no number has.
+    keys: usize,
 }
 
 /// One way to read it; `unknown` is the missing number, 0 in the block.
@@ -48,57 +47,44 @@ pub(super) struct Reading {
 /// The parts of one block in a text that holds nothing else but a number before it and a comment after it.
 pub(in super::super) fn loose(text: &[u8]) -> Option<Loose> {
     let is_between = |byte: &u8| matches!(byte, b' ' | b'\t' | b'|');
-    let skipped = |from: usize, skips: &dyn Fn(&u8) -> bool| {
-        let space = text.iter().skip(from).take_while(|byte| skips(byte));
-        from + space.count()
-    };
-    let mut start = skipped(0, &is_between);
-    let own = text.get(start..)?;
-    if let Some(b'N' | b'n') = own.first() {
+    let mut start = text.iter().position(|byte| !is_between(byte))?;
+    if let own @ [b'N' | b'n', ..] = text.get(start..)? {
         // Its digits may be lost.
-        start += n_word(own).map_or(1, |(_, length)| length);
-        start = skipped(start, &|byte| is_between(byte) || *byte == b':');
+        start += number(own).map_or(1, |(_, length)| length);
+        let behind = text.get(start..)?.iter();
+        start += behind
+            .take_while(|byte| is_between(byte) || **byte == b':')
+            .count();
     }
-    let own = text.get(start..)?;
-    let scan = Scan::all_of(own);
-    let behind = own.get(scan.end..)?.iter().find(|byte| !is_between(byte));
+    let scan = Scan::read(text, start, true);
+    let behind = text.get(scan.end..)?.iter().find(|byte| !is_between(byte));
     let is_over = behind.is_none_or(|byte| !byte.is_ascii_alphanumeric());
     let is_block = !scan.axis_range.is_empty() || !scan.motion_range.is_empty();
     let is_four_b = scan.side.is_some() || !(2..=3).contains(&scan.numbers().len());
     if !is_over || !is_block || is_four_b || scan.is_too_long {
         return None;
     }
-    let digits = |number: &scan::Number| {
-        let bytes = own.get(number.digits.clone()).unwrap_or_default();
+    let digits = |number: &fields::Number| {
+        let bytes = text.get(number.digits.clone()).unwrap_or_default();
         let digit = |byte: &u8| match byte {
             b'0'..=b'9' => Some(*byte),
             byte => byte.is_ascii_alphabetic().then_some(b'0'),
         };
         bytes.iter().filter_map(digit).collect()
     };
-    let kind_of = |motion: &Motion| {
-        let mut kinds = scan.kinds.iter();
-        kinds.any(|kind| kind(motion.quadrant()) == *motion)
+    let quadrants = scan.quadrant.as_slice();
+    let quadrants = if quadrants.is_empty() {
+        &Quadrant::ALL
+    } else {
+        quadrants
     };
-    let is_in = |motion: &Motion| {
-        let quadrant = scan.quadrant;
-        quadrant.is_none_or(|quadrant| motion.quadrant() == quadrant)
-    };
-    let missing = [
-        !scan.has_g,
-        scan.axis.is_none(),
-        scan.lacks_r || scan.kinds.len() > 1,
-        scan.quadrant.is_none(),
-    ];
+    let motions = |kind: &fn(Quadrant) -> Motion| quadrants.iter().copied().map(*kind);
     Some(Loose {
-        range: start..start + scan.end,
+        range: start..scan.end,
         numbers: scan.numbers().iter().map(digits).collect(),
         axis: scan.axis,
-        motions: Motion::all()
-            .filter(|motion| kind_of(motion) && is_in(motion))
-            .collect(),
-        marks: scan.marks,
-        missing: missing.into_iter().map(usize::from).sum(),
+        motions: scan.kinds.iter().flat_map(motions).collect(),
+        keys: scan.keys,
     })
 }
 
@@ -111,7 +97,6 @@ impl Loose {
             Some(CountingAxis::Y) => &[CountingAxis::Y],
             None => &[CountingAxis::X, CountingAxis::Y],
         };
-        let keys = self.marks + self.missing;
         for (numbers, unknown, more) in self.triples() {
             for axis in axes {
                 for motion in &self.motions {
@@ -125,7 +110,7 @@ impl Loose {
                             motion: *motion,
                         },
                         unknown,
-                        keys: keys + more,
+                        keys: self.keys + more,
                     });
                 }
             }

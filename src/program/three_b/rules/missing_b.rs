@@ -2,10 +2,8 @@
 
 use super::{BlockRule, Site, TextFix};
 use crate::finding::{Fault, FixKind, Rule};
-use crate::program::three_b::fault::Flaw;
-use crate::program::three_b::parse::{Item, read_line};
-use crate::program::three_b::words::Words;
 use crate::text::TextEdit;
+use std::ops::Range;
 
 pub(super) const RULE: BlockRule = BlockRule {
     rule: Rule::MissingB,
@@ -14,19 +12,18 @@ pub(super) const RULE: BlockRule = BlockRule {
 };
 
 fn fixes(site: &Site, _: &Fault) -> Vec<TextFix> {
-    let Some(line) = site.text.get(site.line.clone()) else {
+    let fields = &site.fields;
+    let numbers = [&fields.x, &fields.y, &fields.j];
+    let befores = [fields.first, fields.x.end, fields.y.end].into_iter();
+    let has_b = |range: Range<usize>| {
+        let text = site.text.get(range).unwrap_or_default();
+        memchr::memchr2(b'B', b'b', text).is_some()
+    };
+    let mut starts = befores.zip(numbers.map(|digits| digits.start));
+    let Some((_, at)) = starts.find(|(before, start)| !has_b(*before..*start)) else {
         return Vec::new();
     };
-    let mut found = None;
-    read_line(line, site.line.start, &Words::default(), |item| {
-        if let Item::Fault(fault) = item
-            && let Flaw::MissingB { at } = fault.flaw
-            && fault.range == site.range
-        {
-            found = Some(at);
-        }
-    });
-    let Some(at) = found else { return Vec::new() };
+    let line = site.text.get(site.line.clone()).unwrap_or_default();
     let is_lower = line.contains(&b'b') && !line.contains(&b'B');
     let edit = TextEdit::new(at..at, if is_lower { "b" } else { "B" });
     vec![TextFix::text(FixKind::InsertB, true, edit)]
