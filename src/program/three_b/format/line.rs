@@ -1,12 +1,11 @@
 //! One line: as the reader finds it, and in its new form.
 
 use super::Ends;
-use super::stand::Stated;
 use crate::geometry::{Point, Segment};
 use crate::program::edits::LineEdits;
 use crate::program::lookalikes::with_plain_marks;
 use crate::program::three_b::around::{StatedPoint, before_comment};
-use crate::program::three_b::block::{Block, PartArc};
+use crate::program::three_b::block::{Block, Node, PartArc};
 use crate::program::three_b::decode::decode;
 use crate::program::three_b::layout::{
     push_block_number, push_end_point, push_fields, push_to_comment_column,
@@ -18,6 +17,17 @@ use crate::program::three_b::words::{Word, Words};
 use crate::settings::Layout;
 use crate::text::{SourceText, TextEdit};
 use std::ops::Range;
+
+/// A stated end point, or the end of a block without one.
+#[derive(Clone, Copy)]
+pub(super) enum Stated {
+    /// It is the block's own.
+    Right(Node),
+    /// It is not, or nobody asks: it stays.
+    AsItStands,
+    /// There is none; the block's own, where it is known.
+    Absent(Option<Node>),
+}
 
 /// A line as the reader finds it, and what the way through the program adds.
 pub(super) struct Line {

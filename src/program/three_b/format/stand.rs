@@ -1,7 +1,7 @@
 //! The machine on its way through a program that is formatted, and the verdict on its stated end points.
 
 use super::Ends;
-use super::line::{Line, Part, What};
+use super::line::{Line, Part, Stated, What};
 use crate::geometry::Point;
 use crate::program::three_b::block::Node;
 use crate::program::three_b::encode::{point_of, snap as node_of};
@@ -10,17 +10,6 @@ use crate::settings::Layout;
 
 /// The tolerance for a stated end point, µm: 2, and 1 for each arc since the last one.
 const STATED_TOLERANCE: f64 = 2.0;
-
-/// A stated end point, or the end of a block without one.
-#[derive(Clone, Copy)]
-pub(super) enum Stated {
-    /// It is the block's own.
-    Right(Node),
-    /// It is not, or nobody asks: it stays.
-    AsItStands,
-    /// There is none; the block's own, where it is known.
-    Absent(Option<Node>),
-}
 
 /// The way through a program, line by line.
 pub(super) struct Walk {
