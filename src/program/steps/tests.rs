@@ -65,8 +65,8 @@ fn assert_parts_are_of_the_whole(document: &Document) -> Result<(), TestCaseErro
         }
     }
     // Where nothing moves, it stands as the step before has left it, wherever its cut begins.
-    let has_steps = !trace.steps.is_empty();
-    if has_steps && trace.steps.is_sorted_by_key(|step| step.range.start) {
+    let in_order = trace.steps.is_sorted_by_key(|step| step.range.start);
+    if !trace.steps.is_empty() && in_order {
         for line in 0..=unread.unwrap_or(text.line_count() - 1) {
             let range = text.line_range(line);
             let program = document.program();
@@ -139,9 +139,12 @@ fn assert_parts_are_of_the_whole(document: &Document) -> Result<(), TestCaseErro
             Some(stop) if stop <= nth => steps[stop..=nth].to_vec(),
             _ => steps[..=nth].to_vec(),
         });
-        let way = Way::of_steps(&own.unwrap_or_default(), writing);
-        let held = way_before(document.program(), offset);
-        prop_assert_eq!(held.pieces(), way.pieces());
+        // Where lines run again in another order, several cuts are before a place.
+        if in_order {
+            let way = Way::of_steps(&own.unwrap_or_default(), writing);
+            let held = way_before(document.program(), offset);
+            prop_assert_eq!(held.pieces(), way.pieces());
+        }
     }
     Ok(())
 }
