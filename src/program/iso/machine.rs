@@ -66,17 +66,9 @@ pub(crate) struct Trail {
 impl Trail {
     pub(crate) fn push(&mut self, made: &Move) {
         let along = apart(made.to, made.from);
-        let before = self.last[0].map(|before| loose(before.seen_from(along)));
-        self.last = [Some(loose(made.seen_from(made.to))), before];
+        let before = self.last[0].map(|before| before.seen_from(along));
+        self.last = [Some(made.seen_from(made.to)), before];
     }
-}
-
-/// The move so that it is the same anywhere: under G91 no centre is absolute.
-fn loose(mut made: Move) -> Move {
-    if let (true, Bend::Center { absolute, .. }) = (made.incremental, &mut made.bend) {
-        *absolute = [0, 0];
-    }
-    made
 }
 
 /// The effect of a line that moves the wire.

@@ -101,7 +101,7 @@ impl Reading {
 /// How an arc gives its centre.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Bend {
-    /// I and J in nm, as written, and their place as absolute coordinates.
+    /// I and J in nm, as written, and their place as absolute coordinates; the origin under G91, where no centre is absolute.
     Center { i: i64, j: i64, absolute: Place },
     /// R in nm; negative for more than a half turn.
     Radius(i64),
@@ -268,18 +268,16 @@ impl Move {
 
     /// The same move with `place` as the zero of the plane.
     pub(crate) fn seen_from(self, place: Place) -> Move {
-        let back = place.map(i64::wrapping_neg);
-        let mut moved = self.shifted(back);
-        if let Bend::Center { absolute, .. } = &mut moved.bend {
-            *absolute = added(*absolute, back);
-        }
-        moved
+        self.shifted(apart([0, 0], place))
     }
 
-    /// The same move from another start. A centre in absolute coordinates stays.
+    /// The same move elsewhere, with its centre.
     pub(crate) fn shifted(mut self, by: Place) -> Move {
         self.from = added(self.from, by);
         self.to = added(self.to, by);
+        if let (false, Bend::Center { absolute, .. }) = (self.incremental, &mut self.bend) {
+            *absolute = added(*absolute, by);
+        }
         self
     }
 }
@@ -288,11 +286,8 @@ impl Move {
 pub(crate) fn bend_about(center: Place, from: Place, incremental: bool, reading: &Reading) -> Bend {
     // An absolute centre counts from the start of the arc.
     let [i, j] = to_center(reading.rule(incremental), center, from, from);
-    Bend::Center {
-        i,
-        j,
-        absolute: center,
-    }
+    let absolute = if incremental { [0, 0] } else { center };
+    Bend::Center { i, j, absolute }
 }
 
 /// I and J for a centre, nm, where absolute ones count from `zero`.

@@ -9,7 +9,7 @@ use super::corner::{self, Turned, turned};
 use super::cut::{Cut, Definition, Foreign, Moves, Rare};
 use super::evidence::Evidence;
 use super::machine::{Behind, Machine, Trail, mark_of};
-use super::moves::{Course, Move, Place, Reading, apart};
+use super::moves::{Course, Move, Place, Reading};
 use super::shape::Shape;
 use super::summary::{Spur, Summary, Tight};
 use crate::finding::{Fault, Finding, Rule};
@@ -399,7 +399,7 @@ impl Run {
         }
         let odd = self.examine(&made, ahead);
         self.after.trail.push(&made);
-        let local = made.shifted(apart([0, 0], self.begin));
+        let local = made.seen_from(self.begin);
         match &mut self.sum {
             Some(sum) => sum.push(local, cap, range),
             None => self.sum = Some(Summary::begin(local, cap, range, !torn)),
@@ -424,7 +424,7 @@ impl Run {
             Course::Arc(arc) => {
                 if arc.radius * 1e3 < LARGEST_CORRECTION && made.is_cut() {
                     self.tight.push(Tight {
-                        arc: made.shifted(apart([0, 0], self.begin)),
+                        arc: made.seen_from(self.begin),
                         radius: arc.radius,
                         range,
                     });

@@ -31,6 +31,33 @@ fn lines_that_name_places_do_not_move_with_what_stands_before_them() {
 }
 
 #[test]
+fn a_contour_has_the_findings_of_its_moves_wherever_it_lies_and_however_its_centres_are_given() {
+    // Each has a bow that goes through the wall opposite; the wire enters the later ones far from the origin.
+    let told = |is_absolute: bool| {
+        let contour = |x: i32| {
+            let (i, j) = if is_absolute { (x + 10, 2) } else { (-4, 0) };
+            format!(
+                "G00 X{x}. Y0.\nG01 X{}.\nY10.\nX{}.\nY2.\nG02 X{}. I{i}. J{j}.\nG01 Y10.\nX{x}.\nY0.\n",
+                x + 20,
+                x + 14,
+                x + 6
+            )
+        };
+        let contours = [0, 100, 200, 300].map(contour).join("M00\n");
+        let text = format!("G92 X0. Y0.\nG90\n{contours}M02\n");
+        let mut document = read(&text);
+        let first = document.findings();
+        // One more line before them: they are taken on.
+        document.edit(0..0, "(plate)\n");
+        assert_as_afresh(&document, "with a line before");
+        (faults(&text, &Effective::default()), first.len())
+    };
+    let expected = [6, 16, 26, 36].map(|line| (line + 2, "path-crosses-itself"));
+    assert_eq!(told(true), (expected.to_vec(), 4));
+    assert_eq!(told(false), (expected.to_vec(), 4));
+}
+
+#[test]
 fn a_place_behind_a_line_that_cannot_be_read_does_not_move_with_what_stands_before_it() {
     // The wire's position is not known before it, so it makes no move; still it says where the wire is.
     let steps = "G01 X3. Y1.\n".repeat(30);
