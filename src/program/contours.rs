@@ -54,7 +54,7 @@ pub(in crate::program) trait Divided: Program {
 }
 
 /// Cuts that are one contour.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub(in crate::program) struct Contour {
     pub(crate) cuts: Range<usize>,
     /// The last of them is the tab of those before: all are judged as one. Else they return to the start together.
@@ -83,15 +83,10 @@ type Joined = Option<(usize, bool)>;
 #[derive(Clone, Debug, Default)]
 pub(in crate::program) struct Contours {
     list: Vec<Contour>,
-    /// By the first cut and the last that was looked at.
+    /// By the first cut, with all that were looked at.
     joined: FxHashMap<u64, (Vec<u64>, Joined)>,
+    /// By the first cut and the last.
     judged: FxHashMap<(u64, u64), Arc<Judged>>,
-}
-
-impl PartialEq for Contours {
-    fn eq(&self, other: &Contours) -> bool {
-        self.list == other.list
-    }
 }
 
 impl Contours {
@@ -104,23 +99,16 @@ impl Contours {
                 cut += 1;
                 continue;
             }
-            let ids = |cuts: &[u64]| {
-                let same = cuts.iter().enumerate();
-                same.into_iter().all(|(nth, id)| {
-                    cut + nth < program.cut_count() && program.id(cut + nth) == *id
-                })
+            let ids = |end: usize| (cut..end.min(program.cut_count())).map(|cut| program.id(cut));
+            let is_same =
+                |known: &(Vec<u64>, Joined)| ids(cut + known.0.len()).eq(known.0.iter().copied());
+            let look = || {
+                let (end, joined) = join(program, cut);
+                let joined = joined.map(|(last, is_tab)| (last - cut, is_tab));
+                (ids(end).collect(), joined)
             };
-            let known = before.joined.remove(&program.id(cut));
-            let (looked_at, joined) = known
-                .filter(|(looked_at, _)| ids(looked_at))
-                .unwrap_or_else(|| {
-                    let (end, joined) = join(program, cut);
-                    let ids = (cut..end.min(program.cut_count())).map(|cut| program.id(cut));
-                    (
-                        ids.collect(),
-                        joined.map(|(last, is_tab)| (last - cut, is_tab)),
-                    )
-                });
+            let known = before.joined.remove(&program.id(cut)).filter(is_same);
+            let (looked_at, joined) = known.unwrap_or_else(look);
             contours.joined.insert(program.id(cut), (looked_at, joined));
             let is_one = joined.filter(|(_, is_tab)| *is_tab || D::PIECES_ARE_ONE);
             let Some((last, ends_with_tab)) = is_one else {

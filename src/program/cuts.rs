@@ -66,8 +66,10 @@ pub(in crate::program) trait Reader: Sync {
 }
 
 /// The place of a cut.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug)]
 struct Lines {
+    /// Tells it apart from all others that were read.
+    id: u64,
     /// In the order in which they run, from 0.
     lines: Range<usize>,
     /// Byte of the text from which its places count.
@@ -85,6 +87,8 @@ pub(in crate::program) struct Cuts<C, S> {
     befores: Vec<S>,
     /// The state after the last.
     end: S,
+    /// How many have been read: each gets a number of its own.
+    read: u64,
 }
 
 impl<C, S> Deref for Cuts<C, S> {
@@ -113,6 +117,7 @@ impl<C: Send + Sync, S: Clone + PartialEq + Send + Sync> Cuts<C, S> {
             places: Vec::new(),
             befores: Vec::new(),
             end: begin,
+            read: 0,
         }
     }
 
@@ -191,6 +196,7 @@ impl<C: Send + Sync, S: Clone + PartialEq + Send + Sync> Cuts<C, S> {
         let count = language.line_count(text);
         loop {
             let (mut fresh, mut begun) = (Cuts::before(state.clone()), Vec::new());
+            fresh.read = self.read;
             let is_met = loop {
                 let is_past = |place: &Lines| place.lines.start < line || place.shares;
                 while self.places.get(to).is_some_and(is_past) {
@@ -222,6 +228,7 @@ impl<C: Send + Sync, S: Clone + PartialEq + Send + Sync> Cuts<C, S> {
             fresh.finish(language, text, &mut begun);
             let end = if is_met { to } else { self.list.len() };
             let met = from + fresh.len();
+            self.read = fresh.read;
             self.list.splice(from..end, fresh.list);
             self.places.splice(from..end, fresh.places);
             self.befores.splice(from..end, fresh.befores);
@@ -287,11 +294,12 @@ impl<C: Send + Sync, S: Clone + PartialEq + Send + Sync> Cuts<C, S> {
         };
         for (byte, before, cuts) in all {
             for (nth, (lines, cut)) in cuts.into_iter().enumerate() {
-                let shares = nth > 0;
+                self.read += 1;
                 self.places.push(Lines {
+                    id: self.read,
                     lines,
                     byte,
-                    shares,
+                    shares: nth > 0,
                 });
                 self.befores.push(before.clone());
                 self.list.push(cut);
@@ -303,6 +311,11 @@ impl<C: Send + Sync, S: Clone + PartialEq + Send + Sync> Cuts<C, S> {
 impl<C, S> Cuts<C, S> {
     pub(crate) fn iter_mut(&mut self) -> impl Iterator<Item = &mut C> {
         self.list.iter_mut()
+    }
+
+    /// Tells a cut apart from all others, and from what it was before an edit.
+    pub(crate) fn id(&self, cut: usize) -> u64 {
+        self.places.get(cut).map_or(0, |place| place.id)
     }
 
     /// The state in which the machine enters a cut.

@@ -68,7 +68,7 @@ pub(crate) fn trace(program: &dyn Program) -> Trace {
         steps_of(program, cut, before[cut])
     });
     Trace {
-        steps: of_cuts.concat(),
+        steps: of_cuts.into_iter().flatten().collect(),
         start,
         start_is_known,
         writing: program.writing(),

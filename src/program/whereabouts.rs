@@ -21,6 +21,8 @@ pub(crate) struct Whereabouts<'a> {
     steps: Vec<Step>,
     /// The last cut before each one that has steps; none before that is known to have some.
     stepped: Option<Vec<Option<usize>>>,
+    /// Where the machine starts; only where there are steps.
+    begin: Option<Option<Point>>,
 }
 
 impl<'a> Whereabouts<'a> {
@@ -31,6 +33,7 @@ impl<'a> Whereabouts<'a> {
             cut: None,
             steps: Vec::new(),
             stepped: None,
+            begin: None,
         }
     }
 
@@ -61,11 +64,11 @@ impl<'a> Whereabouts<'a> {
         if before.is_none() {
             before = match self.stepped_before(cut) {
                 Some(earlier) => self.steps_of(earlier).last().map(|step| step.end),
-                None => {
+                None => *self.begin.get_or_insert_with(|| {
                     let mut all = 0..program.cut_count();
-                    all.any(|cut| program.has_steps(cut))
-                        .then(|| program.begin().0)
-                }
+                    let has_steps = all.any(|cut| program.has_steps(cut));
+                    has_steps.then(|| program.begin().0)
+                }),
             };
         }
         Some(Stand {

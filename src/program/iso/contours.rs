@@ -3,7 +3,7 @@
 use super::block::Stop;
 use super::document::Document;
 use super::moves::Place;
-use super::summary::{Summary, WireSide};
+use super::summary::Summary;
 use crate::program::contours::Divided;
 use crate::program::path::{ControlOffset, Verdict, Way};
 use std::borrow::Cow;
@@ -24,14 +24,7 @@ pub(crate) struct Contour<'a> {
     pub(crate) flip: Option<(Place, Range<usize>)>,
 }
 
-/// Up to this many blocks are a fragment, which may well be meant to be open.
-const FRAGMENT: usize = 2;
-
 impl Contour<'_> {
-    pub(crate) fn is_fragment(&self) -> bool {
-        self.verdict.ends.blocks <= FRAGMENT
-    }
-
     /// The tolerance for its end at a place, µm.
     pub(crate) fn tolerance(&self) -> f64 {
         self.verdict.ends.tolerance()
@@ -42,7 +35,7 @@ impl Divided for Document {
     const PIECES_ARE_ONE: bool = false;
 
     fn id(&self, cut: usize) -> u64 {
-        self.cuts[cut].id
+        self.cuts.id(cut)
     }
 
     fn verdict(&self, cut: usize) -> Cow<'_, Verdict> {
@@ -82,15 +75,7 @@ impl Divided for Document {
     }
 
     fn control_offset(&self, cuts: &Range<usize>) -> Option<ControlOffset> {
-        let sum = self.sum_of(cuts)?;
-        let WireSide::One(side) = sum.side else {
-            return None;
-        };
-        let [first, second] = &sum.first;
-        Some(ControlOffset {
-            side,
-            correction: self.correction(second.offset.or(first.offset)),
-        })
+        self.sum_of(cuts)?.control_offset(&self.limits, &self.table)
     }
 }
 

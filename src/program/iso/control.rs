@@ -1,13 +1,13 @@
 //! How ISO text is read, cut by cut: the effect of a line depends on those before it.
 
 use super::corner;
-use super::cut::{Cut, Entry, Moves};
+use super::cut::{Cut, Entry};
 use super::evidence::Evidence;
 use super::limits::{Limits, Table, correction_in};
 use super::moves::{Move, Place, Reading, added, apart, micrometres};
 use super::order::Order;
 use super::read::{Placed, Run};
-use super::summary::WireSide;
+use super::summary::{Summary, WireSide};
 use crate::program::cuts::Reader;
 use crate::program::path::{ControlOffset, Found, Node, Verdict, Way};
 use crate::text::SourceText;
@@ -142,7 +142,7 @@ impl Reader for Control<'_> {
             moves.verdict = Verdict::of(&way);
             let start = micrometres(moves.sum.start()).coords;
             cut.bounds = Some(moves.verdict.bounds.moved(start));
-            let offset = || moves.control_offset(self.limits, self.table);
+            let offset = || moves.sum.control_offset(self.limits, self.table);
             let found = moves.sum.whole && !moves.sum.faulty;
             let found = found.then(|| Found::of(&way, offset()));
             moves.found = found.filter(|found| !found.is_clean()).map(Box::new);
@@ -179,13 +179,13 @@ impl Reader for Control<'_> {
     }
 }
 
-impl Moves {
-    /// With the correction of its first moves.
-    fn control_offset(&self, limits: &Limits, table: &Table) -> Option<ControlOffset> {
-        let WireSide::One(side) = self.sum.side else {
+impl Summary {
+    /// The offset that the control makes, with the correction of the first moves.
+    pub(super) fn control_offset(&self, limits: &Limits, table: &Table) -> Option<ControlOffset> {
+        let WireSide::One(side) = self.side else {
             return None;
         };
-        let [first, second] = &self.sum.first;
+        let [first, second] = &self.first;
         Some(ControlOffset {
             side,
             correction: correction_in(table, limits, second.offset.or(first.offset)),

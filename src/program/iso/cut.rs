@@ -78,8 +78,6 @@ pub(crate) struct Definition {
 /// Lines that have been run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Cut {
-    /// Tells it apart from all others that were read; 0 until it has a number.
-    pub(crate) id: u64,
     /// The moves that cut; also `None` where they are sound and nothing else is to be known of them.
     pub(crate) moves: Option<Box<Moves>>,
     /// There are moves that cut.

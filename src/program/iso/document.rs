@@ -6,7 +6,7 @@ use super::cut::{Cut, Entry, Heard};
 use super::evidence::{Evidence, UsualDecimals};
 use super::layout::{LOOKED_AT, is_parted};
 use super::leader::leader;
-use super::limits::{Limits, Table, correction_in};
+use super::limits::{Limits, Table, correction_in, stated_in};
 use super::machine::Machine;
 use super::moves::{Move, Reading};
 use super::order::{Order, labels, order};
@@ -33,8 +33,6 @@ const HEAD: usize = 3_000;
 pub struct Document {
     text: SourceText,
     pub(super) cuts: Cuts<Cut, Entry>,
-    /// How many cuts have been read: each gets a number of its own.
-    read: u64,
     reading: Reading,
     /// The first lines, which no control reads.
     leader: usize,
@@ -68,7 +66,6 @@ impl Document {
             leader: 0,
             text: SourceText::new(bytes),
             cuts: Cuts::before(Entry::of(Machine::default(), None)),
-            read: 0,
             reading: Evidence::default().reading(&limits),
             evidence: Evidence::default(),
             order: None,
@@ -123,8 +120,7 @@ impl Document {
 
     /// The same where the program itself states it.
     pub(super) fn stated_correction(&self, offset: Option<Offset>) -> Option<f64> {
-        let stated = self.table.get(&offset?)?;
-        Some((*stated as f64 / 1e3).abs())
+        stated_in(&self.table, offset)
     }
 
     /// Whether its words stand apart.
@@ -339,10 +335,6 @@ impl Document {
 
     /// Checks what depends on the program as a whole; what is known of cuts that were not run again is used again.
     fn look(&mut self) {
-        for cut in self.cuts.iter_mut().filter(|cut| cut.id == 0) {
-            self.read += 1;
-            cut.id = self.read;
-        }
         let before = std::mem::take(&mut self.contours);
         self.contours = Contours::of(self, before);
         let doubtful = self.doubts();

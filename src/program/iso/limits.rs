@@ -124,6 +124,11 @@ pub(crate) type Table = FxHashMap<Offset, i64>;
 
 /// The correction in a place of a table, µm: from there, else from the settings.
 pub(super) fn correction_in(table: &Table, limits: &Limits, offset: Option<Offset>) -> f64 {
-    let stated = offset.and_then(|offset| table.get(&offset));
-    stated.map_or(limits.correction * 1e3, |nm| (*nm as f64 / 1e3).abs())
+    stated_in(table, offset).unwrap_or(limits.correction * 1e3)
+}
+
+/// The same where the table states it.
+pub(super) fn stated_in(table: &Table, offset: Option<Offset>) -> Option<f64> {
+    let stated = table.get(&offset?)?;
+    Some((*stated as f64 / 1e3).abs())
 }

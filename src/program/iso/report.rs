@@ -321,13 +321,11 @@ impl<'a> Report<'a> {
             return;
         }
         let closes = cut.verdict.closes();
-        let is_fragment = cut.is_fragment();
+        let is_fragment = cut.verdict.ends.is_fragment();
         if !closes && sum.whole && !cut.ends_open {
-            let finding = Finding::of(cut.verdict.ends.not_closed(), cut.last_line.clone());
-            self.findings.push(match is_fragment {
-                true => finding.with(Severity::Information),
-                false => finding,
-            });
+            let last = cut.last_line.clone();
+            let finding = cut.verdict.ends.not_closed_at(last, is_fragment);
+            self.findings.push(finding);
         }
         let (_, next) = self.document.stops_behind(cut.cuts.end - 1);
         if closes

@@ -5,7 +5,7 @@
 //! on from that very point and then closes or meets the contour: the stop holds the part while its tab is cut.
 
 use super::way::{Node, Way, tolerance};
-use crate::finding::Fault;
+use crate::finding::{Fault, Finding, Severity};
 use crate::geometry::{Point, Segment, Vector};
 use std::ops::Range;
 
@@ -18,6 +18,9 @@ const LONGEST_WAY_OUT: usize = 12;
 
 /// Within this many blocks after a stop one must meet the open contour.
 const BEHIND_A_STOP: usize = 16;
+
+/// Up to this many blocks are a fragment.
+const FRAGMENT: usize = 2;
 
 /// The ends of a way, from its start: for nearly all ways they alone show that it closes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -98,6 +101,20 @@ impl Ends {
         let is_nearer = self.blocks >= 3 && from_first.norm() < from_start.norm();
         let by = if is_nearer { from_first } else { from_start };
         Fault::NotClosed { x: by.x, y: by.y }
+    }
+
+    /// Whether it may well be meant to be open.
+    pub(crate) fn is_fragment(&self) -> bool {
+        self.blocks <= FRAGMENT
+    }
+
+    /// The finding of an open way at its last block, of which a fragment is only told.
+    pub(crate) fn not_closed_at(&self, last: Range<usize>, is_fragment: bool) -> Finding {
+        let finding = Finding::of(self.not_closed(), last);
+        match is_fragment {
+            true => finding.with(Severity::Information),
+            false => finding,
+        }
     }
 
     /// How far the last block leads on from the start, to which the way had come back, µm: the wire goes on to the next contour, and the

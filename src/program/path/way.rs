@@ -130,9 +130,3 @@ impl Way {
         tolerance(self.arcs).max(self.writing.slack)
     }
 }
-
-impl AsRef<[Segment]> for Way {
-    fn as_ref(&self) -> &[Segment] {
-        &self.pieces
-    }
-}

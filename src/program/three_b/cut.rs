@@ -48,8 +48,6 @@ impl Deref for Local {
 /// The lines from one stop to the next.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Cut {
-    /// Tells it apart from all others that were read; 0 until it has a number.
-    pub(crate) id: u64,
     /// The last block or word of them is the stop.
     pub(crate) entries: Vec<Entry>,
     /// The stop, and whether it is the controller's own word; `None` for lines after the last.

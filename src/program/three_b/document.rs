@@ -35,8 +35,6 @@ pub struct Document {
     words: OwnWords,
     limits: Limits,
     cuts: Cuts<Cut, ()>,
-    /// How many cuts have been read: each gets a number of its own.
-    read: u64,
     view: Box<View>,
 }
 
@@ -108,7 +106,6 @@ impl Document {
             words,
             limits,
             cuts,
-            read: 0,
             view: Box::default(),
         };
         document.judge_again();
@@ -168,10 +165,6 @@ impl Document {
 
     /// Judges the program as a whole; what is known of cuts that were not read again is used again.
     fn judge_again(&mut self) {
-        for cut in self.cuts.iter_mut().filter(|cut| cut.id == 0) {
-            self.read += 1;
-            cut.id = self.read;
-        }
         let before = std::mem::take(&mut *self.view);
         self.view.end = self.end_word();
         self.view.last_block = self.last_block(self.view.end);

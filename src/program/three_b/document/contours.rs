@@ -18,7 +18,7 @@ impl Divided for Document {
     const PIECES_ARE_ONE: bool = true;
 
     fn id(&self, cut: usize) -> u64 {
-        self.cuts[cut].id
+        self.cuts.id(cut)
     }
 
     fn verdict(&self, cut: usize) -> Cow<'_, Verdict> {

@@ -5,7 +5,7 @@ use super::super::repair::FEWEST_BLAMED;
 use super::super::rules;
 use super::Document;
 use super::contours::OneContour;
-use crate::finding::{Axis, Fault, Finding, Severity};
+use crate::finding::{Axis, Fault, Finding};
 use crate::program::contours::Divided;
 use crate::program::numbering;
 use crate::program::steps::Program;
@@ -20,9 +20,6 @@ const CUTS_ABOUT: usize = 24;
 /// Searches that one core makes at a time.
 const FEW_SEARCHES: usize = 16;
 
-/// Up to this many blocks are a fragment, which may well be meant to be open.
-const FRAGMENT: usize = 2;
-
 /// The block to blame in an open contour, by its number in there, for each mark of what the search looks at.
 pub(super) type Blamed = FxHashMap<u64, Option<Box<(usize, Fault)>>>;
 
@@ -36,17 +33,13 @@ impl Document {
         for cut in open {
             let contour = cut..cut + 1;
             let own = &self.cuts[cut];
-            let is_fragment = self.view.end.is_none() || own.blocks as usize <= FRAGMENT;
+            let ends = own.verdict().ends;
+            let is_fragment = self.view.end.is_none() || ends.is_fragment();
             if own.rare().unread > 0 || (is_fragment && self.leads_out(cut)) {
                 continue;
             }
-            let fault = own.verdict().ends.not_closed();
             if let Some(last) = self.blocks_of(&contour).next_back() {
-                let finding = Finding::of(fault, self.range_of(last));
-                findings.push(match is_fragment {
-                    true => finding.with(Severity::Information),
-                    false => finding,
-                });
+                findings.push(ends.not_closed_at(self.range_of(last), is_fragment));
             }
             let may_be_one_field = own.rare().errors == 0 && own.blocks as usize >= FEWEST_BLAMED;
             if may_be_one_field && !is_fragment && !self.lacks_a_number(&contour) {
