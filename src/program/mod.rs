@@ -34,7 +34,6 @@ pub use document::{Document, Language};
 pub use format::Format;
 pub use layout::format;
 pub(crate) use layout::format_saying;
-pub use refactor::{Offer, Proposal};
-pub use refactorings::{offers, refactorings, scaled};
+pub use refactorings::{Offer, Proposal, offers, refactorings, scaled};
 pub(crate) use whereabouts::{Stand, Whereabouts};
 pub(crate) use write::{CutCorner, ProofError, ProvedProgram};

@@ -4,7 +4,7 @@ use super::convert::{Cuts, Dropped, cuts_to_write};
 use super::document::Document;
 use super::format::Format;
 use super::iso::taper::{Words, refuse_anywhere};
-use super::refactor::{Edits, Offer};
+use super::refactor::moves::Edits;
 use crate::settings::{Effective, Profile, shipped_profiles};
 use crate::text::TextEdit;
 use std::cell::LazyCell;
@@ -12,11 +12,14 @@ use std::rc::Rc;
 
 pub(super) const ID: &str = "refactor.rewrite.profile";
 
+/// The title, and how it is made.
+type Titled<'a> = (String, Box<dyn Fn() -> Edits + 'a>);
+
 /// One for each shipped profile and for that of the settings.
 pub(super) fn offers<'a>(
     document: &'a Document,
     settings: &'a Effective,
-) -> impl Iterator<Item = Offer<'a>> {
+) -> impl Iterator<Item = Titled<'a>> {
     let own = settings
         .profile
         .iter()
@@ -35,13 +38,11 @@ pub(super) fn offers<'a>(
             ..settings.clone()
         };
         let cuts = cuts.clone();
-        Offer::new(ID, title, move || {
-            written(
-                document,
-                (**cuts).as_ref().map_err(String::clone)?,
-                &settings,
-            )
-        })
+        let make = move || {
+            let cuts = (**cuts).as_ref().map_err(String::clone)?;
+            written(document, cuts, &settings)
+        };
+        (title, Box::new(make) as Box<dyn Fn() -> Edits + 'a>)
     })
 }
 

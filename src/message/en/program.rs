@@ -195,7 +195,6 @@ declare! {
     the_program_would_run_too_far_out => "the program would run too far out";
     the_correction_was_switched_on_for_another_contour => "the correction was switched on for another contour before";
     the_arcs_would_not_tell_how_i_and_j_are_meant => "the arcs would no longer tell how I and J are meant";
-    the_new_block_reads_otherwise => "the new block does not read as it was meant";
     the_block_does_not_run_along_its_piece => "the block does not run along its piece of the path";
     a_word_takes_the_coordinates(line) => "line {line}: a word takes the coordinates for a place of the machine";
     of_profile(name, why) => "profile {name}: {why}";

@@ -195,7 +195,6 @@ translate! {
     the_program_would_run_too_far_out => "程序会超出所能写的范围";
     the_correction_was_switched_on_for_another_contour => "补偿是在前面另一个轮廓处建立的";
     the_arcs_would_not_tell_how_i_and_j_are_meant => "从圆弧就看不出 I、J 的写法了";
-    the_new_block_reads_otherwise => "新程序段读出来与原意不同";
     the_block_does_not_run_along_its_piece => "程序段没有沿着它那段切割轨迹走";
     a_word_takes_the_coordinates(line) => "第 {line} 行：有代码把坐标当作机床位置";
     of_profile(name, why) => "profile {name}：{why}";

@@ -3,12 +3,11 @@
 use super::block::{Block, Motion};
 use super::document::Document;
 use super::machine::Machine;
-use super::moves::{Bend, CenterRule, Course, Move, Place, Reading, apart, to_center};
+use super::moves::{Bend, Move, Place, Reading, apart, to_center};
 use super::plain::words_in;
 use super::style::Style;
 use super::word::Token;
 use crate::finding::Side;
-use crate::geometry::Segment;
 use crate::text::{TextEdit, difference};
 use std::ops::Range;
 
@@ -47,38 +46,6 @@ impl Target {
             to: made.to,
             bend,
             side: made.side,
-        }
-    }
-
-    /// Whether two moves run along the same arc, or both straight.
-    pub(crate) fn is_along(&self, made: &Move, reading: &Reading) -> bool {
-        let bend = match self.bend {
-            Bent::Line => return !made.is_arc(),
-            Bent::Radius(radius) => Bend::Radius(radius),
-            Bent::Center(center) => {
-                let [i, j] = apart(center, made.from);
-                Bend::Center {
-                    i,
-                    j,
-                    absolute: center,
-                }
-            }
-        };
-        let meant = Move {
-            bend,
-            incremental: false,
-            ..*made
-        };
-        let plain = Reading {
-            absolute: CenterRule::StartToCenter,
-            ..*reading
-        };
-        match (made.course(reading), meant.course(&plain)) {
-            (Course::Arc(is), Course::Arc(meant)) => {
-                let middle = |arc| Segment::Arc(arc).point_at(0.5);
-                (middle(is) - middle(meant)).norm() <= MIDDLE_TOLERANCE
-            }
-            _ => false,
         }
     }
 }

@@ -8,27 +8,20 @@
 //! Lines with a comment between them stay: the comment marks the place. What the merged line leaves out lies within
 //! [`ASIDE`] of it.
 
-use super::{Content, Edits, Notation, Refactoring, Rewrite, Sheet};
+use super::moves::{Edits, Place, point};
+use super::proof::rewritten;
+use super::sheet::Sheet;
 use crate::geometry::Line;
 use std::ops::Range;
-
-pub(super) fn merge<N: Notation>() -> Refactoring<N> {
-    Refactoring {
-        id: "refactor.rewrite.merge",
-        title: |_| say!(merge_collinear_blocks).into(),
-        rewrite: merged,
-    }
-}
 
 /// The largest distance of a node from the line that replaces it, µm: half the diagonal of the grid, which is what
 /// snapping costs.
 const ASIDE: f64 = 0.75;
 
-fn merged<N: Notation>(sheet: &Sheet<'_, N>) -> Edits {
-    let content = sheet.content()?;
-    let selected = sheet.selected_rows(content);
-    let mut rewrite = Rewrite::new();
-    for contour in &content.contours {
+pub(in crate::program) fn merged(sheet: &Sheet<'_>) -> Edits {
+    let selected = sheet.selected_moves();
+    let mut rewrite = sheet.rewrite();
+    for contour in &sheet.contours {
         // Ways in and out end where the contour begins, whatever their direction.
         let own = contour.contour_steps();
         let parts = [
@@ -40,55 +33,48 @@ fn merged<N: Notation>(sheet: &Sheet<'_, N>) -> Edits {
             let end = part.end.min(selected.end);
             let mut index = part.start.max(selected.start);
             while index < end {
-                let run = run(sheet, content, index..end);
+                let run = run(sheet, index..end);
                 if run.len() > 1 {
-                    let ends = [content.rows[run.start].from, content.rows[run.end - 1].to];
-                    let whole = N::straight(sheet.at(content, run.start), ends)?;
-                    rewrite.rows.insert(run.start, whole);
-                    for left_out in run.start + 1..run.end {
-                        rewrite.rows.insert(left_out, Vec::new());
-                    }
+                    let ends = [sheet.moves[run.start].from, sheet.moves[run.end - 1].to];
+                    rewrite.moves[run.start] = Some(sheet.moves[run.start].straight(ends));
+                    rewrite.moves[run.start + 1..run.end].fill(None);
                 }
                 index = run.end;
             }
         }
     }
-    rewrite.edits(sheet, content)
+    rewritten(sheet, &rewrite)
 }
 
-/// The longest run of rows from the first one on that one line can replace.
-fn run<N: Notation>(
-    sheet: &Sheet<'_, N>,
-    content: &Content<N>,
-    rows: Range<usize>,
-) -> Range<usize> {
-    let start = rows.start;
+/// The longest run of moves from the first one on that one line can replace.
+fn run(sheet: &Sheet<'_>, moves: Range<usize>) -> Range<usize> {
+    let (start, from) = (moves.start, sheet.moves[moves.start].from);
     let mut end = start + 1;
-    let runs_on = |row: usize| N::runs_on(sheet.at(content, row), start);
-    if !runs_on(start) {
-        return start..end;
-    }
-    let from = content.rows[start].from;
-    while end < rows.end && !content.is_behind_pause(end) && runs_on(end) {
-        let to = content.rows[end].to;
-        let whole = Line {
-            start: Content::<N>::point(from),
-            end: Content::<N>::point(to),
-        };
-        let length = (to.x - from.x).abs().max((to.y - from.y).abs());
-        let mut last = 0.0;
-        // Every node on the way lies near the line, and none goes back.
-        let is_straight = (start..end).all(|index| {
-            let node = Content::<N>::point(content.rows[index].to);
-            let share = whole.share_of(node);
-            let forward = share > last && share < 1.0;
-            last = share;
-            forward && whole.distance_to(node) <= ASIDE
-        });
-        if length == 0 || length > N::longest(sheet.settings) || !is_straight {
-            break;
-        }
+    let is_line = |index: usize| !sheet.moves[index].is_arc();
+    let runs_on = |end: usize| {
+        is_line(end)
+            && sheet.printer.goes_on(end)
+            && !sheet.is_behind_pause(end)
+            && is_straight(sheet, start..end, from, sheet.moves[end].to)
+    };
+    while is_line(start) && end < moves.end && runs_on(end) {
         end += 1;
     }
     start..end
+}
+
+/// Whether every node between the moves lies near the line that would replace them and the next, and none goes back.
+fn is_straight(sheet: &Sheet<'_>, moves: Range<usize>, from: Place, to: Place) -> bool {
+    let [start, end] = [from, to].map(point);
+    let whole = Line { start, end };
+    let length = (to[0] - from[0]).abs().max((to[1] - from[1]).abs());
+    let mut last = 0.0;
+    let mut nodes = sheet.moves[moves].iter().map(|own| point(own.to));
+    let are_near = nodes.all(|node| {
+        let share = whole.share_of(node);
+        let forward = share > last && share < 1.0;
+        last = share;
+        forward && whole.distance_to(node) <= ASIDE
+    });
+    length > 0 && length <= sheet.printer.longest() && are_near
 }

@@ -8,49 +8,20 @@
 //! Every number stays as it is written; only axes, quadrants, letters and signs change. So the
 //! transformation is exact.
 
-use super::{Edits, Notation, Refactoring, Rewrite, Sheet, Transform};
+use super::moves::{Change, Edits};
+use super::proof::rewritten;
+use super::sheet::Sheet;
+use super::transform::Transform;
 
-pub(super) fn all<N: Notation>() -> [Refactoring<N>; 5] {
-    [
-        Refactoring {
-            id: "refactor.rewrite.mirror.x",
-            title: |_| say!(mirror_left_and_right).into(),
-            rewrite: |sheet| transformed(sheet, [-1, 0, 0, 1]),
-        },
-        Refactoring {
-            id: "refactor.rewrite.mirror.y",
-            title: |_| say!(mirror_up_and_down).into(),
-            rewrite: |sheet| transformed(sheet, [1, 0, 0, -1]),
-        },
-        Refactoring {
-            id: "refactor.rewrite.rotate.left",
-            title: |_| say!(rotate_by_90_counter_clockwise).into(),
-            rewrite: |sheet| transformed(sheet, [0, -1, 1, 0]),
-        },
-        Refactoring {
-            id: "refactor.rewrite.rotate.right",
-            title: |_| say!(rotate_by_90_clockwise).into(),
-            rewrite: |sheet| transformed(sheet, [0, 1, -1, 0]),
-        },
-        Refactoring {
-            id: "refactor.rewrite.rotate.half",
-            title: |_| say!(rotate_by_180).into(),
-            rewrite: |sheet| transformed(sheet, [-1, 0, 0, -1]),
-        },
-    ]
-}
-
-fn transformed<N: Notation>(sheet: &Sheet<'_, N>, [xx, xy, yx, yy]: [i64; 4]) -> Edits {
-    let transform = Transform { xx, xy, yx, yy };
-    let content = sheet.content()?;
-    let mut rewrite = Rewrite::new();
-    for row in 0..content.rows.len() {
-        let new = N::transformed(sheet.at(content, row), transform);
-        rewrite.rows.insert(row, vec![new]);
+pub(in crate::program) fn transformed(sheet: &Sheet<'_>, rows: [[i64; 2]; 2]) -> Edits {
+    let transform = Transform(rows);
+    let mut rewrite = sheet.rewrite();
+    for own in rewrite.moves.iter_mut().flatten() {
+        *own = own.transformed(transform);
     }
-    N::transform_words(sheet, transform, &mut rewrite)?;
-    let first = content.rows.first();
-    rewrite.start = first.map(|row| transform.of_node(row.from));
+    rewrite.words = sheet.words(&Change::Turn(transform))?;
+    let first = sheet.moves.first();
+    rewrite.start = first.map(|first| transform.of_place(first.from));
     rewrite.end = Some(transform.of_point(sheet.trace.end()));
-    rewrite.edits(sheet, content)
+    rewritten(sheet, &rewrite)
 }

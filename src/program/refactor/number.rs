@@ -1,20 +1,23 @@
 //! Number the blocks, or remove their numbers.
 
+use super::moves::Edits;
 use super::proof::same_way;
-use super::{Notation, Refactoring};
-use crate::program::numbering::{numbered, without_numbers};
+use crate::program::document::Document;
+use crate::program::numbering;
+use crate::settings::Effective;
 
-pub(super) fn all<N: Notation>() -> [Refactoring<N>; 2] {
-    [
-        Refactoring {
-            id: "refactor.rewrite.number",
-            title: |_| N::title_of_numbering().into(),
-            rewrite: |sheet| same_way(sheet, numbered(sheet.document)?),
-        },
-        Refactoring {
-            id: "refactor.rewrite.withoutNumbers",
-            title: |_| say!(leave_the_block_numbers_out).into(),
-            rewrite: |sheet| same_way(sheet, without_numbers(sheet.document)?),
-        },
-    ]
+pub(in crate::program) fn numbered(document: &Document, settings: &Effective) -> Edits {
+    let edits = match document {
+        Document::ThreeB(program) => numbering::numbered(program),
+        Document::Iso(program) => numbering::numbered(&**program),
+    };
+    same_way(document, settings, edits?)
+}
+
+pub(in crate::program) fn without_numbers(document: &Document, settings: &Effective) -> Edits {
+    let edits = match document {
+        Document::ThreeB(program) => numbering::without_numbers(program),
+        Document::Iso(program) => numbering::without_numbers(&**program),
+    };
+    same_way(document, settings, edits?)
 }

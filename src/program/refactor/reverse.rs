@@ -10,60 +10,63 @@
 //! Ways in and out stay where they are one way, there and back; leads that part (arcs that run along the contour at its
 //! start, an overlap) are reversed with it. An open path that counts is reversed where it is the whole program: it then begins at its other end.
 
-use super::{Change, Content, Edits, Notation, Refactoring, Rewrite, Sheet};
+use super::moves::{Change, Edits, Move, point};
+use super::proof::rewritten;
+use super::sheet::Sheet;
+use crate::finding::Side;
 use crate::program::path::{Cut, tolerance};
 use std::ops::Range;
 
-pub(super) fn reverse<N: Notation>() -> Refactoring<N> {
-    Refactoring {
-        id: "refactor.rewrite.reverse",
-        title: |_| say!(reverse_the_direction_of_the_contour).into(),
-        rewrite: reversed,
-    }
-}
-
-fn reversed<N: Notation>(sheet: &Sheet<'_, N>) -> Edits {
-    let content = sheet.content()?;
-    N::refuse(sheet, Change::Reverse)?;
-    let mut rewrite = Rewrite::new();
-    for contour in sheet.selected_contours(content) {
-        let is_all = content.contours.len() == 1 && !sheet.trace.writing.names_places;
-        let rows = if is_all && !contour.closed {
-            content.refuse_pause(contour)?;
-            rewrite.start = content.rows.last().map(|row| row.to);
+pub(in crate::program) fn reversed(sheet: &Sheet<'_>) -> Edits {
+    let mut rewrite = sheet.rewrite();
+    let mut reversed = Vec::new();
+    // What cannot be turned round at all is refused before any contour is.
+    sheet.words(&Change::Reverse(&[]))?;
+    for contour in sheet.selected_contours() {
+        let is_all = sheet.contours.len() == 1 && !sheet.names_places();
+        let own = if is_all && !contour.closed {
+            sheet.refuse_pause(contour)?;
+            rewrite.start = sheet.moves.last().map(|last| last.to);
             rewrite.end = Some(sheet.trace.start);
             contour.steps.clone()
         } else {
-            with_leads(content, contour, content.closed(contour)?)
+            with_leads(sheet, contour, sheet.closed(contour)?)
         };
-        for (place, row) in rows.clone().zip(rows.clone().rev()) {
-            let reversed = N::reversed(sheet.at(content, row))?;
-            rewrite.rows.insert(place, reversed);
+        for (place, back) in own.clone().zip(own.clone().rev()) {
+            rewrite.moves[place] = Some(sheet.moves[back].reversed());
         }
-        N::turn_round(sheet, content, contour, rows, &mut rewrite)?;
+        let all = contour.steps.clone();
+        for (new, old) in rewrite.moves[all.clone()].iter_mut().zip(&sheet.moves[all]) {
+            let side = old.side.map(Side::reversed);
+            *new = new.map(|new| Move { side, ..new });
+        }
+        let before = contour.steps.start.checked_sub(1);
+        let before = before.map_or(0, |before| sheet.moves[before].line + 1);
+        let lines = before..sheet.moves[own.end - 1].line + 1;
+        let mut of_contour = sheet.moves[contour.steps.clone()].iter();
+        reversed.push((lines, of_contour.any(|own| own.side.is_some())));
     }
-    rewrite.edits(sheet, content)
+    rewrite.words = sheet.words(&Change::Reverse(&reversed))?;
+    rewritten(sheet, &rewrite)
 }
 
-/// The rows of a contour, with its leads where these differ but come back to one place, else
-/// without them.
-fn with_leads<N: Notation>(content: &Content<N>, contour: &Cut, own: Range<usize>) -> Range<usize> {
-    let (rows, all) = (&content.rows, contour.steps.clone());
-    let [leads_in, leads_out] = [&rows[all.start..own.start], &rows[own.end..all.end]];
+/// The moves of a contour, with its leads where these differ but come back to one place, else without them.
+fn with_leads(sheet: &Sheet<'_>, contour: &Cut, own: Range<usize>) -> Range<usize> {
+    let (moves, all) = (&sheet.moves, contour.steps.clone());
+    let [leads_in, leads_out] = [&moves[all.start..own.start], &moves[own.end..all.end]];
     let (Some(first), Some(last)) = (leads_in.first(), leads_out.last()) else {
         return own;
     };
-    let place = |node| Content::<N>::point(node);
-    let near = tolerance(content.arcs());
+    let near = tolerance(sheet.arcs());
     let mut both = leads_in.iter().zip(leads_out.iter().rev());
     let is_one_way = leads_in.len() == leads_out.len()
         && both.all(|(there, back)| {
-            let middles = [&there.piece, &back.piece].map(|piece| piece.point_at(0.5));
+            let middles = [there.piece, back.piece].map(|piece| piece.point_at(0.5));
             (middles[0] - middles[1]).norm() <= 2.0 * near
         });
-    let comes_back = match content.names_places {
+    let comes_back = match sheet.names_places() {
         true => first.from == last.to,
-        false => (place(first.from) - place(last.to)).norm() <= near,
+        false => (point(first.from) - point(last.to)).norm() <= near,
     };
     if is_one_way || !comes_back { own } else { all }
 }

@@ -1,7 +1,6 @@
 //! What the tests of refactorings ask in every language. The cursor is `|` in a text; without one it is at its start.
 
-use super::Proposal;
-use crate::program::{Document, Language, refactorings, scaled};
+use crate::program::{Document, Language, Proposal, refactorings, scaled};
 use crate::settings::Effective;
 use crate::text::{TextEdit, edited};
 use proptest::prelude::*;

@@ -1,32 +1,21 @@
 //! Mirrors and quarter turns about the origin, which change axes and signs and no number.
 
 use crate::geometry::{Arc, Point, Segment, Vector};
-use crate::program::grid::Node;
 
 /// `x' = xx·x + xy·y`, `y' = yx·x + yy·y`, all of them 0, 1 or −1.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::program) struct Transform {
-    pub(super) xx: i64,
-    pub(super) xy: i64,
-    pub(super) yx: i64,
-    pub(super) yy: i64,
-}
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::program) struct Transform(pub(in crate::program) [[i64; 2]; 2]);
 
 impl Transform {
-    pub(crate) fn of_numbers(self, x: i64, y: i64) -> (i64, i64) {
-        (self.xx * x + self.xy * y, self.yx * x + self.yy * y)
-    }
+    /// Everything stays where it is.
+    pub(crate) const NONE: Transform = Transform([[1, 0], [0, 1]]);
 
-    pub(crate) fn of_node(self, node: Node) -> Node {
-        let (x, y) = self.of_numbers(node.x, node.y);
-        Node { x, y }
+    pub(crate) fn of_place(self, [x, y]: [i64; 2]) -> [i64; 2] {
+        self.0.map(|[along_x, along_y]| along_x * x + along_y * y)
     }
 
     fn of_vector(self, v: Vector) -> Vector {
-        Vector::new(
-            self.xx as f64 * v.x + self.xy as f64 * v.y,
-            self.yx as f64 * v.x + self.yy as f64 * v.y,
-        )
+        Vector::from(self.0.map(|[x, y]| x as f64 * v.x + y as f64 * v.y))
     }
 
     pub(crate) fn of_point(self, point: Point) -> Point {
@@ -50,21 +39,17 @@ impl Transform {
     }
 
     pub(crate) fn mirrors(self) -> bool {
-        self.xx * self.yy - self.xy * self.yx < 0
+        let [[xx, xy], [yx, yy]] = self.0;
+        xx * yy - xy * yx < 0
     }
 
     /// X becomes Y.
     pub(crate) fn swaps(self) -> bool {
-        self.xx == 0
+        self.0[0][0] == 0
     }
 
     /// The new sign of a coordinate, by its old axis.
     pub(crate) fn sign(self, axis: usize) -> i64 {
-        match (self.swaps(), axis) {
-            (false, 0) => self.xx,
-            (false, _) => self.yy,
-            (true, 0) => self.yx,
-            (true, _) => self.xy,
-        }
+        self.0.iter().map(|row| row[axis]).sum()
     }
 }

@@ -1,118 +1,111 @@
 //! The words of a program mirrored or turned: numbers stay as they are written, their letters and signs change.
 
-use super::{Iso, swapped_sides};
 use crate::program::iso::block::Block;
-use crate::program::iso::plain::words_in;
-use crate::program::iso::taper::{Words, refuse_anywhere};
+use crate::program::iso::document::Document;
+use crate::program::iso::plain::{words_at, words_in};
 use crate::program::iso::word::{Number, Token};
-use crate::program::refactor::{Rewrite, Sheet, Transform};
+use crate::program::refactor::moves::Edits;
+use crate::program::refactor::transform::Transform;
 use crate::text::TextEdit;
 use std::ops::Range;
 
-/// Puts the changed words into the rewrite.
-pub(super) fn turn_words(
-    sheet: &Sheet<'_, Iso>,
-    transform: Transform,
-    rewrite: &mut Rewrite<Iso>,
-) -> Result<(), String> {
-    refuse_anywhere(sheet.document, Words::Guide)?;
-    let text = sheet.document.text();
-    let edits = &mut rewrite.extra.words;
-    if transform.mirrors() {
-        edits.extend(swapped_sides(sheet.document, 0..text.line_count()));
+/// The G41 and G42 of some lines, each exchanged for the other.
+pub(super) fn swapped_sides(document: &Document, lines: Range<usize>) -> Vec<TextEdit> {
+    let mut edits = Vec::new();
+    for line in lines {
+        words_at(document.text(), line, |letter, number, range| {
+            let other = match (letter, number.whole()) {
+                (b'G', Some(41)) => "G42",
+                (b'G', Some(42)) => "G41",
+                _ => return,
+            };
+            edits.push(TextEdit::new(range, other));
+        });
     }
-    for line in 0..text.line_count() {
-        line_words(
-            sheet.document.line_bytes(line),
-            text.line_start(line),
-            transform,
-            edits,
-        )
-        .map_err(|reason| say!(line_by_number, line + 1, reason))?;
-    }
-    Ok(())
+    edits
 }
 
-/// The place of a number with its letter, and the replacement.
-type Turned = (Range<usize>, String);
+/// The changed words.
+pub(super) fn turned_words(document: &Document, transform: Transform) -> Edits {
+    let text = document.text();
+    let mut edits = match transform.mirrors() {
+        true => swapped_sides(document, 0..text.line_count()),
+        false => Vec::new(),
+    };
+    for line in 0..text.line_count() {
+        let of_line = line_words(document.line_bytes(line), transform)
+            .map_err(|reason| say!(line_by_number, line + 1, reason))?;
+        let start = text.line_start(line);
+        edits.extend(of_line.into_iter().map(|mut edit| {
+            edit.range = start + edit.range.start..start + edit.range.end;
+            edit
+        }));
+    }
+    Ok(edits)
+}
 
 /// The words of a line that change.
-fn line_words(
-    line: &[u8],
-    start: usize,
-    transform: Transform,
-    edits: &mut Vec<TextEdit>,
-) -> Result<(), String> {
+fn line_words(line: &[u8], transform: Transform) -> Edits {
+    const LETTERS: [u8; 4] = *b"XYIJ";
     let block = Block::of(line);
-    let (mut fault, mut is_wait) = (None, false);
-    // X and Y, I and J: place and text of the number without its sign.
-    let mut pairs: [[Option<Turned>; 2]; 2] = Default::default();
+    let (mut fault, mut is_wait, mut edits) = (None, false, Vec::new());
+    // Place and new number of X, Y, I and J.
+    let mut found: [Option<(Range<usize>, String)>; 4] = Default::default();
     words_in(line, |token, range| {
         let Token::Word { letter, number } = token else {
             return;
         };
-        let slot = match letter {
-            b'X' => (0, 0),
-            b'Y' => (0, 1),
-            b'I' => (1, 0),
-            b'J' => (1, 1),
-            b'G' => {
-                is_wait |= number.whole() == Some(4);
-                let motion = match (number.mantissa, number.decimals) {
-                    (2, 0) => "G03",
-                    (3, 0) => "G02",
-                    (51 | 52 | 141 | 142, 0) if transform.mirrors() => {
-                        fault = Some(say!(a_taper_would_not_be_kept).to_owned());
-                        return;
-                    }
-                    _ => return,
-                };
-                if transform.mirrors() {
-                    let place = start + range.start..start + range.end;
-                    edits.push(TextEdit::new(place, motion));
-                }
-                return;
+        if let Some(nth) = LETTERS.iter().position(|own| *own == letter) {
+            if found[nth].is_some() {
+                fault = Some(say!(a_letter_stands_twice, letter as char));
             }
-            _ => return,
-        };
-        if pairs[slot.0][slot.1].is_some() {
-            fault = Some(say!(a_letter_stands_twice, letter as char));
+            let digits = line.get(range.start + 1..range.end).unwrap_or_default();
+            found[nth] = Some((
+                range.clone(),
+                turned(digits, number, transform.sign(nth % 2)),
+            ));
         }
-        let digits = line.get(range.start + 1..range.end).unwrap_or_default();
-        pairs[slot.0][slot.1] = Some((range, turned(digits, number, transform.sign(slot.1))));
+        if letter != b'G' {
+            return;
+        }
+        is_wait |= number.whole() == Some(4);
+        match (number.mantissa, number.decimals) {
+            (2, 0) if transform.mirrors() => edits.push(TextEdit::new(range, "G03")),
+            (3, 0) if transform.mirrors() => edits.push(TextEdit::new(range, "G02")),
+            (51 | 52 | 141 | 142, 0) if transform.mirrors() => {
+                fault = Some(say!(a_taper_would_not_be_kept).to_owned());
+            }
+            _ => {}
+        }
     });
     if let Some(fault) = fault {
         return Err(fault);
     }
     if block.takes_coordinates && block.has_coordinates() {
-        return if is_wait {
-            Ok(())
-        } else {
-            Err(say!(a_word_takes_the_coordinates_for_a_place_of_the_machine).into())
+        return match is_wait {
+            true => Ok(edits),
+            false => Err(say!(a_word_takes_the_coordinates_for_a_place_of_the_machine).into()),
         };
     }
-    for (pair, names) in pairs.into_iter().zip([["X", "Y"], ["I", "J"]]) {
-        let name = |axis: usize| names[if transform.swaps() { 1 - axis } else { axis }];
-        let mut edit = |range: Range<usize>, name: &str, number: String| {
-            let place = start + range.start..start + range.end;
-            edits.push(TextEdit::new(place, format!("{name}{number}")));
-        };
-        match pair {
+    let mut names = LETTERS;
+    if transform.swaps() {
+        for pair in [[0, 1], [2, 3]] {
+            names.swap(pair[0], pair[1]);
             // Both keep their order in the line.
-            [Some((first, x)), Some((second, y))] if transform.swaps() => {
-                edit(first, names[0], y);
-                edit(second, names[1], x);
-            }
-            [first, second] => {
-                for (axis, word) in [first, second].into_iter().enumerate() {
-                    if let Some((range, number)) = word {
-                        edit(range, name(axis), number);
-                    }
-                }
+            if let [Some((first, _)), Some((second, _))] = pair.map(|nth| found[nth].clone()) {
+                found[pair[0]].as_mut().map(|own| own.0 = second);
+                found[pair[1]].as_mut().map(|own| own.0 = first);
             }
         }
     }
-    Ok(())
+    for (name, (range, number)) in names
+        .into_iter()
+        .zip(found)
+        .filter_map(|(n, f)| Some((n, f?)))
+    {
+        edits.push(TextEdit::new(range, format!("{}{number}", name as char)));
+    }
+    Ok(edits)
 }
 
 /// A number as it is written, with its sign turned where `sign` is −1.

@@ -5,30 +5,24 @@
 //!                                 B750000B0B750000GXL1
 //! ```
 
-use super::{ThreeB, encoded};
-use crate::program::refactor::{Edits, Refactoring, Rewrite, Sheet};
+use super::Blocks;
+use crate::program::refactor::moves::Edits;
+use crate::program::refactor::proof::rewritten;
+use crate::program::refactor::sheet::Sheet;
+use crate::program::three_b::Document;
 
-pub(super) const SPLIT: Refactoring<ThreeB> = Refactoring {
-    id: "refactor.rewrite.split",
-    title: |settings| say!(split_blocks_over, settings.largest_number()),
-    rewrite: split,
-};
-
-fn split(sheet: &Sheet<'_, ThreeB>) -> Edits {
-    let content = sheet.content()?;
-    let largest = sheet.settings.largest_number();
-    let mut rewrite = Rewrite::new();
-    for index in sheet.selected_rows(content) {
-        let row = sheet.at(content, index);
-        let block = &row.own.block;
-        if block.x.max(block.y).max(block.j) <= largest {
+pub(in crate::program) fn split(program: &Document, sheet: &Sheet<'_>) -> Edits {
+    let blocks = Blocks::of(program, &sheet.trace)?;
+    let mut rewrite = sheet.rewrite();
+    for index in sheet.selected_moves() {
+        let (own, block) = (sheet.moves[index], blocks.all[index].block);
+        if block.x.max(block.y).max(block.j) <= program.largest() {
             continue;
         }
-        if row.own.part.is_some() {
-            return Err(say!(a_4b_block_cannot_be_calculated_anew, row.line + 1));
+        if own.part.is_some() {
+            return Err(say!(a_4b_block_cannot_be_calculated_anew, own.line + 1));
         }
-        let news = encoded(row, &row.piece, [row.from, row.to], None)?;
-        rewrite.rows.insert(index, news);
+        rewrite.moves[index] = Some(own.fitted(&own.piece, [own.from, own.to]));
     }
-    rewrite.edits(sheet, content)
+    rewritten(sheet, &rewrite)
 }

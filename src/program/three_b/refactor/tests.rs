@@ -1,12 +1,12 @@
-use super::ThreeB;
 use crate::geometry::{Arc, Point, Segment, direction};
 use crate::program::Language;
 use crate::program::path::cuts;
-use crate::program::refactor::{Offer, offers, tests};
+use crate::program::refactor::tests;
 use crate::program::three_b::Document;
 use crate::program::three_b::block::Node;
 use crate::program::three_b::encode::{encode, point_of, snap};
 use crate::program::three_b::layout::push_fields;
+use crate::program::{Offer, offers};
 use crate::settings::Effective;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
@@ -224,8 +224,9 @@ fn the_correction_is_applied_to_the_parts_contour() {
 #[test]
 fn what_changes_nothing_is_not_offered() {
     let document = read("B5B0B5GXL1\nB0B5B5GYL2\nB5B5B5GYL3\nDD\n");
+    let document = crate::program::Document::ThreeB(document);
     let settings = Effective::default();
-    let all = offers::<ThreeB>(&document, &settings, 0..0, &|_| true).into_iter();
+    let all = offers(&document, &settings, 0..0, |_| true).into_iter();
     let ids: Vec<&str> = all.filter_map(Offer::tried).map(|it| it.id).collect();
     for absent in [
         "refactor.rewrite.merge",
