@@ -19,6 +19,19 @@ impl CutPath {
     }
 }
 
+/// A place of the table as the profile of the settings names it in a program; `None` where it names none, or another.
+fn named(offset: Offset, settings: &Effective) -> Option<Offset> {
+    let profile = settings.profile.as_ref().ok()?;
+    let read = iso::read_of_profile(profile, offset.index)?;
+    (read.index == offset.index).then_some(read)
+}
+
+/// The first of some places in a row.
+fn several(offsets: &[Offset]) -> String {
+    let names: Vec<String> = offsets.iter().take(5).map(Offset::to_string).collect();
+    names.join(", ")
+}
+
 impl Cuts {
     /// Why a program of a language does not find each correction where this one does: in lower case without a full
     /// stop.
@@ -29,27 +42,18 @@ impl Cuts {
             return Some(say!(line_by_number, line + 1, reason));
         }
         let offsets = self.offsets();
-        let several = |offsets: &[Offset]| {
-            let names: Vec<String> = offsets.iter().take(5).map(Offset::to_string).collect();
-            names.join(", ")
-        };
         match format {
             Format::FourB => (offsets.len() > 1)
                 .then(|| say!(one_correction_for_all_contours, several(&offsets))),
             Format::Iso => {
                 let profile = settings.profile.as_ref().ok()?;
-                let is_named = |offset: &&Offset| {
-                    iso::read_of_profile(profile, offset.index)
-                        .is_some_and(|read| read.index == offset.index)
-                };
-                if let Some(offset) = offsets.iter().find(|offset| !is_named(offset)) {
+                let mut all = offsets.iter();
+                if let Some(offset) = all.find(|offset| named(**offset, settings).is_none()) {
                     let reason = say!(its_contour_begin_names_no_register, offset.index);
                     return Some(say!(of_profile, profile.name, reason));
                 }
-                let is_same = |one: &&Offset| {
-                    let same = |other: &Offset| other.index == one.index && other != *one;
-                    offsets.iter().any(same)
-                };
+                let of_index = |index: u32| offsets.iter().filter(move |own| own.index == index);
+                let is_same = |own: &&Offset| of_index(own.index).count() > 1;
                 let same: Vec<Offset> = offsets.iter().filter(is_same).copied().collect();
                 (!same.is_empty()).then(|| say!(one_place_of_several_corrections, several(&same)))
             }
@@ -63,17 +67,11 @@ impl Cuts {
             return Vec::new();
         };
         let mut sentences = Vec::new();
-        let renamed = |offset: Offset| {
-            let read = iso::read_of_profile(profile, offset.index)?;
-            let is_other = read.index == offset.index && read.letter != offset.letter;
-            is_other.then(|| say!(a_correction_under_another_name, offset, read))
-        };
-        let renamed: Vec<String> = self
-            .offsets()
-            .into_iter()
-            .filter_map(renamed)
-            .take(8)
-            .collect();
+        let renamed = self.offsets().into_iter().filter_map(|offset| {
+            let read = named(offset, settings).filter(|read| *read != offset)?;
+            Some(say!(a_correction_under_another_name, offset, read))
+        });
+        let renamed: Vec<String> = renamed.take(8).collect();
         if !renamed.is_empty() {
             sentences.push(say!(the_corrections_have_other_names, renamed.join(", ")));
         }
@@ -90,13 +88,11 @@ impl Cuts {
         if format != Format::Iso {
             return format.write(&paths, 1e-3, settings, &mut |_, _| true);
         }
-        let profile = settings.profile.as_ref().ok();
-        let is_named = |register: &u32| {
-            let read = profile.and_then(|profile| iso::read_of_profile(profile, *register));
-            read.is_some_and(|read| read.index == *register)
-        };
         let kept = |cut: &CutPath| Carried {
-            register: cut.offset.map(|offset| offset.index).filter(is_named),
+            register: cut
+                .offset
+                .and_then(|offset| named(offset, settings))
+                .map(|named| named.index),
             correction: cut.offset.and_then(|offset| {
                 let name = offset.to_string();
                 let stated = self.corrections.iter().find(|(other, _)| *other == name);

@@ -3,7 +3,7 @@
 
 use super::moves::{Edits, Move, Numbers, Printed, Rewrite, point};
 use super::sheet::Sheet;
-use crate::finding::{Finding, Rule, Severity};
+use crate::finding::{Rule, Severity};
 use crate::program::document::Document;
 use crate::program::encode::{ASIDE_TOLERANCE, aside};
 use crate::program::numbering::numbered;
@@ -174,29 +174,29 @@ fn prove_lengths(
 /// An error where the new program has a kind of error that the old one lacks, or more errors. All that an offset loses is
 /// one error: scaled, a contour of which nothing is left may have a part that is.
 fn refuse_new_errors(before: &Document, after: &Document) -> Result<(), String> {
-    let kind = |rule: Rule| match rule {
-        Rule::LostPocket | Rule::OffsetCollapse => Rule::NarrowSlot,
-        rule => rule,
+    let is_loss = |rule: Rule| {
+        matches!(
+            rule,
+            Rule::LostPocket | Rule::OffsetCollapse | Rule::NarrowSlot
+        )
     };
     let errors = |document: &Document| -> Vec<Rule> {
-        let findings: Vec<Finding> = match document {
+        let findings = match document {
             Document::ThreeB(program) => program.findings(),
             Document::Iso(program) => program.plain_findings(),
         };
         let errors = findings.into_iter();
         let errors = errors.filter(|finding| finding.severity == Severity::Error);
-        let mut is_loss_known = false;
-        let is_first = |rule: &Rule| {
-            kind(*rule) != Rule::NarrowSlot || !std::mem::replace(&mut is_loss_known, true)
-        };
-        errors
-            .map(|finding| finding.rule)
-            .filter(is_first)
-            .collect()
+        let rules = errors.map(|finding| finding.rule);
+        let (losses, mut others): (Vec<Rule>, Vec<Rule>) = rules.partition(|rule| is_loss(*rule));
+        others.extend(losses.first());
+        others
     };
     let (before, after) = (errors(before), errors(after));
-    let is_new = |rule: &&Rule| !before.iter().any(|own| kind(*own) == kind(**rule));
-    match after.iter().find(is_new) {
+    let is_known = |rule: &Rule| {
+        before.contains(rule) || is_loss(*rule) && before.iter().any(|own| is_loss(*own))
+    };
+    match after.iter().find(|rule| !is_known(rule)) {
         Some(rule) => Err(say!(the_new_program_would_have_a_new_fault, rule.name())),
         None if after.len() > before.len() => {
             Err(say!(the_new_program_would_have_more_faults_than_this_one).into())
