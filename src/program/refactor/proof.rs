@@ -143,7 +143,9 @@ fn agree(blocks: &[Move], meant: &Move, sheet: &Sheet<'_>) -> Result<(), &'stati
         }
         share = next;
     }
-    let is_there = (at - point(meant.to)).norm() <= MISS * blocks.len() as f64;
+    // Kept numbers lead where they did, beside the place by what has been taken back of the drift.
+    let is_kept = matches!(meant.numbers, Numbers::Turned(_));
+    let is_there = is_kept || (at - point(meant.to)).norm() <= MISS * blocks.len() as f64;
     match is_there {
         true => Ok(()),
         false => Err(say!(the_block_does_not_run_along_its_piece)),
