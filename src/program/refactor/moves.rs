@@ -60,6 +60,8 @@ pub(in crate::program) struct Move {
     pub(crate) numbers: Numbers,
     /// The radius that a block of 4B states.
     pub(crate) part: Option<PartArc>,
+    /// It says how far it leads, not where it ends: a control that counts ends beside that.
+    pub(crate) counts: bool,
 }
 
 impl Move {
@@ -71,7 +73,7 @@ impl Move {
         let piece = self.piece.reversed();
         Move {
             numbers: Numbers::Reversed,
-            piece: between(&piece, self.to, self.from),
+            piece: self.between(&piece, [self.to, self.from]),
             from: self.to,
             to: self.from,
             ..self
@@ -87,7 +89,7 @@ impl Move {
     pub(crate) fn fitted(self, piece: &Segment, [from, to]: [Place; 2]) -> Move {
         Move {
             numbers: Numbers::Fitted,
-            piece: between(piece, from, to),
+            piece: self.between(piece, [from, to]),
             from,
             to,
             part: None,
@@ -109,24 +111,29 @@ impl Move {
             ..self
         }
     }
-}
 
-/// A piece between its places. An arc keeps its direction; its centre moves to the nearest place equally far from both
-/// ends, because snapping, scaling or removing drift has moved these by as much. Where that would lead elsewhere, as
-/// about two places of nearly a full circle, the arc stays as it is.
-fn between(piece: &Segment, from: Place, to: Place) -> Segment {
-    let (start, end) = (point(from), point(to));
-    let Segment::Arc(arc) = piece else {
-        return Segment::line(start, end);
-    };
-    let Some(center) = equally_far(arc.center, start, end) else {
-        return *piece;
-    };
-    let fitted = Segment::Arc(Arc::about(center, start, end, arc.sweep > 0.0));
-    let moved = (start - arc.start).norm().max((end - arc.end).norm());
-    match aside(&fitted, piece) <= ASIDE_TOLERANCE + moved {
-        true => fitted,
-        false => *piece,
+    /// A piece between its places. An arc keeps its direction, and its centre where the ends are stated. Else the centre
+    /// moves to the nearest place equally far from both ends, because snapping, scaling or removing drift has moved
+    /// these by as much. Where that would lead elsewhere, as about two places of nearly a full circle, the arc stays as
+    /// it is.
+    fn between(&self, piece: &Segment, ends: [Place; 2]) -> Segment {
+        let [start, end] = ends.map(point);
+        let Segment::Arc(arc) = piece else {
+            return Segment::line(start, end);
+        };
+        let about = |center: Point| Segment::Arc(Arc::about(center, start, end, arc.sweep > 0.0));
+        if !self.counts {
+            return about(arc.center);
+        }
+        let Some(center) = equally_far(arc.center, start, end) else {
+            return *piece;
+        };
+        let fitted = about(center);
+        let moved = (start - arc.start).norm().max((end - arc.end).norm());
+        match aside(&fitted, piece) <= ASIDE_TOLERANCE + moved {
+            true => fitted,
+            false => *piece,
+        }
     }
 }
 

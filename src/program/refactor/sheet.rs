@@ -58,6 +58,7 @@ impl<'a> Sheet<'a> {
                 is_rapid: step.kind == Kind::Rapid,
                 numbers: Numbers::Turned(Transform::NONE),
                 part: printer.part(like),
+                counts: !trace.writing.names_places,
             })
         });
         let moves: Option<Vec<Move>> = moves.collect();
