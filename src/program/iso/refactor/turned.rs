@@ -92,18 +92,17 @@ fn line_words(line: &[u8], transform: Transform) -> Edits {
         for pair in [[0, 1], [2, 3]] {
             names.swap(pair[0], pair[1]);
             // Both keep their order in the line.
-            if let [Some((first, _)), Some((second, _))] = pair.map(|nth| found[nth].clone()) {
-                found[pair[0]].as_mut().map(|own| own.0 = second);
-                found[pair[1]].as_mut().map(|own| own.0 = first);
+            let both = pair.map(|nth: usize| found[nth].clone());
+            if let [Some((first, one)), Some((second, other))] = both {
+                found[pair[0]] = Some((second, one));
+                found[pair[1]] = Some((first, other));
             }
         }
     }
-    for (name, (range, number)) in names
-        .into_iter()
-        .zip(found)
-        .filter_map(|(n, f)| Some((n, f?)))
-    {
-        edits.push(TextEdit::new(range, format!("{}{number}", name as char)));
+    for (name, word) in names.into_iter().zip(found) {
+        if let Some((range, number)) = word {
+            edits.push(TextEdit::new(range, format!("{}{number}", name as char)));
+        }
     }
     Ok(edits)
 }
