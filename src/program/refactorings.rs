@@ -214,8 +214,9 @@ pub fn scaled(
     settings: &Effective,
     factor: f64,
 ) -> Result<Vec<TextEdit>, String> {
-    match document.mills() {
-        true => Err(say!(it_is_milled).into()),
-        false => scale::scaled(&Sheet::new(document, settings, 0..0)?, factor),
+    if document.mills() {
+        return Err(say!(it_is_milled).into());
     }
+    scale::refuse(factor)?;
+    scale::scaled(&Sheet::new(document, settings, 0..0)?, factor)
 }

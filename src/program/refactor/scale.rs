@@ -24,12 +24,17 @@ pub(in crate::program) fn between_units(sheet: &Sheet<'_>, factor: f64) -> Edits
     }
 }
 
-/// The edits that scale a program. Errors: a factor that is far from 1, or with which a block vanishes or grows too long.
-pub(in crate::program) fn scaled(sheet: &Sheet<'_>, factor: f64) -> Edits {
-    if !FACTORS.contains(&factor) {
-        let (least, most) = (FACTORS.start(), FACTORS.end());
-        return Err(say!(the_factor_is_expected_between, factor, least, most));
+/// An error for a factor that is far from 1.
+pub(in crate::program) fn refuse(factor: f64) -> Result<(), String> {
+    let (least, most) = (FACTORS.start(), FACTORS.end());
+    match FACTORS.contains(&factor) {
+        true => Ok(()),
+        false => Err(say!(the_factor_is_expected_between, factor, least, most)),
     }
+}
+
+/// The edits that scale a program. Errors: a factor with which a block vanishes or grows too long.
+pub(in crate::program) fn scaled(sheet: &Sheet<'_>, factor: f64) -> Edits {
     let mut rewrite = sheet.rewrite();
     rewrite.words = sheet.words(&Change::Scale(factor))?;
     rewrite.factor = Some(factor);
