@@ -25,8 +25,10 @@ LOGS = ROOT / "target" / "tests"
 
 # Never longer than this without a word, in seconds.
 SILENCE = 30
-# What is shown of a part that failed: what it says of its failures, and how it ended.
-SHOWN = 60
+# How a part begins the line of a failure: our scripts, cargo, pytest.
+FAILURE = re.compile(r"^\s*(?:FAILED|SHORT|BROKEN|HOLDS|!!|not ok)\s+(.*)$|^test (\S+) \.\.\. FAILED$|^FAILED? (\S+::\S+)", re.M)
+# Lines that are shown of a part that failed: from each failure on, of so many failures, and at its end.
+FROM_FAILURE, FAILURES, AT_END = 12, 10, 40
 
 
 @dataclass
@@ -214,7 +216,7 @@ class Run:
             if not ended.log:
                 continue
             print(f"\n== {ended.part.name} failed {ended.why}; all that it printed: target/tests/{ended.part.name}.log")
-            print("\n".join(ended.log.splitlines()[-SHOWN:]))
+            print("\n".join(shown(ended.log.splitlines())))
         print("\ntime: " + ", ".join(f"{part.name} {self.results[part.name].seconds:.0f} s" for part in self.parts), end="")
         print(f", together {clock(time.monotonic() - self.began)}")
         for ended in failed:
@@ -226,9 +228,22 @@ class Run:
 
 def reasons(ended: Ended) -> list[str]:
     """One line for each failure, in the words of the part."""
-    found = re.findall(r"^(?:FAILED|SHORT|BROKEN|HOLDS|!!|not ok)\s+(.*)$|^test (\S+) \.\.\. FAILED$|^FAILED? (\S+::\S+)", ended.log, re.M)
+    found = FAILURE.findall(ended.log)
     lines = list(dict.fromkeys(next(text for text in texts if text).strip() for texts in found))
     return lines or [ended.why or f"see target/tests/{ended.part.name}.log"]
+
+
+def shown(log: list[str]) -> list[str]:
+    """The failures of a part where they stand in its log, then its end."""
+    at = [nth for nth, text in enumerate(log) if FAILURE.match(text)][:FAILURES]
+    last = max(len(log) - AT_END, 0)
+    wanted = sorted({nth for begin in at for nth in range(begin, min(begin + FROM_FAILURE, len(log)))} | set(range(last, len(log))))
+    lines = []
+    for before, nth in zip([-1, *wanted], wanted):
+        if nth > before + 1:
+            lines.append("   ...")
+        lines.append(log[nth])
+    return lines
 
 
 def clock(seconds: float) -> str:

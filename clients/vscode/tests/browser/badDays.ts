@@ -5,7 +5,7 @@ import { execFile } from "node:child_process";
 import { mkdir, readFile, writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import { promisify } from "node:util";
-import { type Checks, expectEqual, expectSoon, PATIENCE } from "./checks";
+import { actUntil, type Checks, expectEqual, expectSoon, PATIENCE } from "./checks";
 import { FILLET, large, lineOf } from "./drawings";
 import { Host } from "./host";
 import { FAKE_SERVER, WEDM } from "./paths";
@@ -28,7 +28,7 @@ async function missing(checks: Checks): Promise<void> {
     await writeFile(join(host.folder, ".vscode/settings.json"), JSON.stringify({ "wedm.server.path": path }));
   };
   try {
-    await window.open("plate.dxf");
+    await window.openText("plate.dxf");
     await checks.check("a server that is missing is said, with the way to get it", async () => {
       const notice = window.notification("neither beside the extension");
       await notice.waitFor();
@@ -92,12 +92,12 @@ async function killed(checks: Checks): Promise<void> {
   const line = lineOf(FILLET, BULGE);
   try {
     // A second text that is open, in a tab behind the first, with an edit that is not saved.
-    await window.open("second.dxf");
+    await window.openText("second.dxf");
     await window.squiggles.first().waitFor();
     await window.goToLine(line - 4, 1);
     await host.page.keyboard.press("Shift+End");
     await host.page.keyboard.type("19.93");
-    await window.open("plate.dxf");
+    await window.openText("plate.dxf");
     await window.squiggles.first().waitFor();
     await checks.check("a text that is changed by undo while a repair is on its way stays as it is", async () => {
       const server = await onlyServer(host.folder);
@@ -158,9 +158,9 @@ async function killed(checks: Checks): Promise<void> {
       await window.hidePanel();
     });
     await checks.check("a drawing over 50 MB is said to be too large, and is checked by its path", async () => {
-      await host.page.locator(".explorer-folders-view .monaco-list-row", { hasText: "large.dxf" }).first().dblclick();
+      const row = host.page.locator(".explorer-folders-view .monaco-list-row", { hasText: "large.dxf" }).first();
       const notice = window.notification("VS Code hands files over 50 MB to no extension");
-      await notice.waitFor();
+      await actUntil("the notice", () => row.dblclick(), () => notice.isVisible());
       await checks.shot("too-large");
       await notice.getByRole("button", { name: "Check It by Path" }).click();
       await window.notification("large.dxf: 1 error").waitFor({ timeout: PATIENCE });

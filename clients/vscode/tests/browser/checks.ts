@@ -46,9 +46,12 @@ export class Checks {
   }
 }
 
+type Holds = () => Promise<boolean>;
+type Seen = () => Promise<string>;
+
 /** Waits until something holds; `seen` tells what is there instead. */
-export async function expectSoon(what: string, holds: () => Promise<boolean>, seen: () => Promise<string> = () => Promise.resolve("not so")): Promise<void> {
-  const deadline = Date.now() + PATIENCE;
+export async function expectSoon(what: string, holds: Holds, seen: Seen = () => Promise.resolve("not so"), patience = PATIENCE): Promise<void> {
+  const deadline = Date.now() + patience;
   for (;;) {
     if (await holds().catch(() => false)) {
       return;
@@ -57,6 +60,23 @@ export async function expectSoon(what: string, holds: () => Promise<boolean>, se
       throw new Error(`expected ${what}, seen: ${await seen().catch(String)}`);
     }
     await new Promise((resolve) => setTimeout(resolve, 50));
+  }
+}
+
+/** Acts until something holds: a window that is laid out anew just then loses a key or a click, and a person does it again. */
+export async function actUntil(what: string, act: () => Promise<unknown>, holds: Holds, seen?: Seen): Promise<void> {
+  const deadline = Date.now() + PATIENCE;
+  for (let patience = 8_000; ; patience *= 2) {
+    await act();
+    const left = deadline - Date.now();
+    try {
+      await expectSoon(what, holds, seen, Math.min(patience, left));
+      return;
+    } catch (error) {
+      if (left <= patience) {
+        throw error;
+      }
+    }
   }
 }
 

@@ -2,7 +2,7 @@
 
 import { readFile } from "node:fs/promises";
 import { join } from "node:path";
-import { type Checks, expectEqual, expectSoon } from "./checks";
+import { actUntil, type Checks, expectEqual, expectSoon } from "./checks";
 import { PLATE } from "./drawings";
 import { Host } from "./host";
 import { PROJECT, WEDM } from "./paths";
@@ -16,15 +16,11 @@ export async function drawing(checks: Checks): Promise<void> {
   const window = new Window(host.page);
   checks.page = host.page;
   const kept = join(host.folder, "wedm.toml");
-  const open = async (name: string): Promise<void> => {
-    await host.page.locator(".explorer-folders-view .monaco-list-row", { hasText: name }).first().dblclick();
-    await window.tab(name);
-  };
   try {
     await checks.check("a file of the Explorer is opened", async () => {
       // VS Code asks no extension before it knows them: in the first moment everything is a text.
       await host.page.locator('.activitybar [aria-label*="Wire EDM"]').first().waitFor();
-      await open("small-radius.dxf");
+      await window.open("small-radius.dxf");
       await window.picture();
     });
     const page = await window.pictureOf("small-radius.dxf");
@@ -35,9 +31,9 @@ export async function drawing(checks: Checks): Promise<void> {
       await checks.shot("drawing");
     });
     await checks.check("a fault that is clicked says what and why, and shows what would repair it", async () => {
-      await window.clickDrawn(page.locator("svg .mark").first().locator(".badge"));
       const card = page.locator("#card");
-      await card.locator("h2", { hasText: "is below the correction 0.100 mm" }).waitFor();
+      const title = card.locator("h2", { hasText: "is below the correction 0.100 mm" });
+      await window.clickDrawnUntil(page.locator("svg .mark").first().locator(".badge"), "the card of the fault", () => title.isVisible());
       await card.locator(".primary", { hasText: "Fix: " }).waitFor();
       await page.locator("svg .ghost").waitFor({ state: "attached" });
       expectEqual("why", ((await card.locator("p").innerText()).length) > 40, true);
@@ -47,13 +43,11 @@ export async function drawing(checks: Checks): Promise<void> {
       for (let index = 0; index < 4; index += 1) {
         const badge = page.locator("svg .mark").nth(index).locator(".badge");
         await page.locator("#card .close").click();
-        await window.clickDrawn(badge);
-        await page.locator("#card .primary").waitFor();
+        await window.clickDrawnUntil(badge, "the card of the fault", () => page.locator("#card .primary").isVisible());
         expectEqual(`mark ${index + 1} is covered`, await window.overlap(page.locator("#card"), badge), false);
       }
       await page.locator("#card .close").click();
-      await window.clickDrawn(page.locator("svg .mark").first().locator(".badge"));
-      await page.locator("#card .primary").waitFor();
+      await window.clickDrawnUntil(page.locator("svg .mark").first().locator(".badge"), "the card of the fault", () => page.locator("#card .primary").isVisible());
     });
     await checks.check("Fix repairs it, as one edit of the document", async () => {
       await page.locator("#card .primary").click();
@@ -63,11 +57,11 @@ export async function drawing(checks: Checks): Promise<void> {
       await expectSoon("four faults again", async () => (await page.locator("svg .drawing .fault").count()) === 4);
     });
     await checks.check("the text is one click away", async () => {
-      await page.locator("#text").click();
-      await host.page.locator(".editor-group-container.active .view-lines .view-line").first().waitFor();
+      const line = host.page.locator(".editor-group-container.active .view-lines .view-line").first();
+      await actUntil("the text", () => page.locator("#text").click(), () => line.isVisible());
       await host.page.keyboard.press("Control+w");
     });
-    await open("plate.dxf");
+    await window.open("plate.dxf");
     const plate = await window.pictureOf("plate.dxf");
     await checks.check("the wire side of a contour is set in the picture and kept in wedm.toml", async () => {
       await expectSoon("why there is no path", async () => (await plate.locator("#alert").innerText()).includes("no wire path: "));

@@ -2,7 +2,7 @@
 
 import { readFile, rm, writeFile } from "node:fs/promises";
 import { join } from "node:path";
-import { type Checks, expectEqual, expectSoon } from "./checks";
+import { actUntil, type Checks, expectEqual, expectSoon } from "./checks";
 import { FILLET, lineOf, PLATE } from "./drawings";
 import { Host } from "./host";
 import { PROJECT, WEDM } from "./paths";
@@ -32,13 +32,12 @@ export async function picture(checks: Checks): Promise<void> {
       await checks.shot("picture");
     });
     await checks.check("a fault that is clicked in the picture is selected in the text", async () => {
-      await window.clickDrawn(page.locator("svg .mark").nth(1).locator(".badge"));
-      await window.expectLine(bulges[2] ?? 0);
+      await window.clickDrawnUntil(page.locator("svg .mark").nth(1).locator(".badge"), "the line of the fault", async () => (await window.line()) === bulges[2]);
       expectEqual("selected", await page.locator("svg .fault.selected").getAttribute("data-segment"), "4");
     });
     await checks.check("a line of the contour that is clicked is selected in the text", async () => {
-      await window.clickDrawn(page.locator('svg .contour[data-segment="1"]'));
-      await window.expectLine((bulges[0] ?? 0) + 2);
+      const beside = (bulges[0] ?? 0) + 2;
+      await window.clickDrawnUntil(page.locator('svg .contour[data-segment="1"]'), "the line of the contour", async () => (await window.line()) === beside);
       await expectSoon("segment 1 selected", async () => (await page.locator("svg .contour.selected").getAttribute("data-segment")) === "1");
     });
     await checks.check("the cursor in the text selects in the picture", async () => {
@@ -74,8 +73,7 @@ export async function picture(checks: Checks): Promise<void> {
       await expectSoon("everything in view", async () => (await view()).every((value, index) => Math.abs(value - (all[index] ?? 0)) < pixel), async () => `${(await view()).join(" ")}, not ${all.join(" ")}`);
     });
     await checks.check("a chip comes close enough to see the circle of the correction", async () => {
-      await page.locator("#faults .chip").first().click();
-      await page.locator("svg.close .correction.fine").first().waitFor();
+      await actUntil("the circle of the correction", () => page.locator("#faults .chip").first().click(), () => page.locator("svg.close .correction.fine").first().isVisible());
       await checks.shot("picture-close");
       await page.locator("#fit").click();
     });
@@ -85,8 +83,7 @@ export async function picture(checks: Checks): Promise<void> {
       await row.waitFor();
       expectEqual("row", (await row.innerText()).replaceAll(/\s+/g, ""), "4R0.040small-radius·3.200,0.983");
       await expectSoon("fifteen rows", async () => (await host.page.locator(".pane-body .monaco-list-row").count()) === 15);
-      await row.click();
-      await window.expectLine(bulges[2] ?? 0);
+      await actUntil("the line of the row", () => row.click(), async () => (await window.line()) === bulges[2]);
       await checks.shot("radii");
     });
     await checks.check("the list can be narrowed to the faults", async () => {

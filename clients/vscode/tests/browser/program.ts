@@ -4,7 +4,7 @@ import { execFile } from "node:child_process";
 import { readFile } from "node:fs/promises";
 import { join } from "node:path";
 import { promisify } from "node:util";
-import { type Checks, expectEqual, expectSoon } from "./checks";
+import { actUntil, type Checks, expectEqual, expectSoon } from "./checks";
 import { HOLE } from "./drawings";
 import { Host } from "./host";
 import { WEDM } from "./paths";
@@ -41,19 +41,16 @@ export async function program(checks: Checks): Promise<void> {
       await window.openOurs("fixable.3b");
       await window.squiggles.first().waitFor();
       await window.goToLine(2, 8);
-      await host.page.keyboard.press("Control+.");
-      await host.page.locator(".action-widget .monaco-list-row.action").first().waitFor();
+      await window.quickFix();
       await checks.shot("program-quick-fix");
       await host.page.keyboard.press("Enter");
       await window.squiggles.first().waitFor({ state: "hidden" });
-      await host.page.keyboard.press("Control+s");
-      await expectSoon("the program repaired", async () => (await readFile(join(host.folder, "fixable.3b"), "utf8")) === HOLE);
+      await window.save("the program repaired", async () => (await readFile(join(host.folder, "fixable.3b"), "utf8")) === HOLE);
     });
     await checks.check("a program is formatted in the layout that is set", async () => {
       await window.openOurs("loose.3b");
       await window.command("Format Document");
-      await host.page.keyboard.press("Control+s");
-      await expectSoon("the same blocks", async () => (await readFile(join(host.folder, "loose.3b"), "utf8")) === HOLE, () =>
+      await window.save("the same blocks", async () => (await readFile(join(host.folder, "loose.3b"), "utf8")) === HOLE, () =>
         readFile(join(host.folder, "loose.3b"), "utf8"),
       );
     });
@@ -67,7 +64,8 @@ export async function program(checks: Checks): Promise<void> {
     });
     await checks.check("lenses above the first block play the wire and open the picture", async () => {
       await window.openOurs("hole.3b");
-      await host.page.locator(".codelens-decoration a", { hasText: "Open picture" }).click();
+      const lens = host.page.locator(".codelens-decoration a", { hasText: "Open picture" });
+      await actUntil("the picture", () => lens.click(), () => host.page.locator("iframe.webview.ready:visible").isVisible());
       await window.picture();
       await checks.shot("lenses");
     });
@@ -75,13 +73,9 @@ export async function program(checks: Checks): Promise<void> {
       await window.openOurs("hole.3b");
       await host.page.locator(".view-lines", { hasText: "R 9.900, 360°" }).first().waitFor();
       await window.goToLine(2, 3);
-      await host.page.keyboard.press("Control+k");
-      await host.page.keyboard.press("Control+i");
-      await host.page.locator(".monaco-hover", { hasText: "counter-clockwise" }).first().waitFor();
-      await host.page.keyboard.press("Escape");
-      await host.page.keyboard.press("Control+Shift+o");
+      await window.hover("counter-clockwise");
       const outline = host.page.locator(".quick-input-widget .monaco-list-row");
-      await outline.filter({ hasText: "contour 1" }).first().waitFor();
+      await window.press("Control+Shift+o", outline.filter({ hasText: "contour 1" }).first());
       await outline.filter({ hasText: "lead-in" }).first().waitFor();
       await host.page.keyboard.press("Escape");
     });
@@ -113,8 +107,7 @@ export async function program(checks: Checks): Promise<void> {
       await window.goToLine(3);
       await expectSoon("line 3 selected", async () => (await page.locator("svg .selected").first().getAttribute("data-line")) === "2");
       await expectSoon("the wire at its beginning", async () => (await page.locator("#where").innerText()).includes("line 3"), () => page.locator("#where").innerText());
-      await window.clickPath(page, 'svg path[data-line="1"]');
-      await window.expectLine(2);
+      await actUntil("the cursor in line 2", () => window.clickPath(page, 'svg path[data-line="1"]'), async () => (await window.line()) === 2);
     });
     await checks.check("a program becomes a drawing again", async () => {
       await window.turnTo("hole.3b");

@@ -2,7 +2,7 @@
 
 import { mkdir, readFile, writeFile } from "node:fs/promises";
 import { join } from "node:path";
-import { type Checks, expectEqual, expectSoon } from "./checks";
+import { actUntil, type Checks, expectEqual, expectSoon } from "./checks";
 import { FILLET, lineOf } from "./drawings";
 import { Host } from "./host";
 import { Window } from "./window";
@@ -18,7 +18,7 @@ export async function text(checks: Checks): Promise<void> {
   checks.page = host.page;
   try {
     await checks.check("an arc too tight is underlined", async () => {
-      await window.open("plate.dxf");
+      await window.openText("plate.dxf");
       await window.squiggles.first().waitFor();
       expectEqual("squiggles", await window.squiggles.count(), 1);
       const label = await host.page.locator(".tabs-container .tab.active").getAttribute("aria-label");
@@ -34,9 +34,8 @@ export async function text(checks: Checks): Promise<void> {
     });
     await checks.check("sections and entities are the outline", async () => {
       await window.goToLine(1);
-      await host.page.keyboard.press("Control+Shift+o");
       const outline = host.page.locator(".quick-input-widget .monaco-list-row");
-      await outline.filter({ hasText: "ENTITIES" }).first().waitFor();
+      await window.press("Control+Shift+o", outline.filter({ hasText: "ENTITIES" }).first());
       await outline.filter({ hasText: "LWPOLYLINE" }).first().waitFor();
       await host.page.keyboard.press("Escape");
     });
@@ -50,46 +49,41 @@ export async function text(checks: Checks): Promise<void> {
       const inForce = "0.100 mm (default), opening, drawn in mm";
       await expectSoon(inForce, async () => (await window.status.innerText()).includes(inForce), () => window.status.innerText());
       await checks.shot("against");
-      await window.status.click();
-      await host.page.locator(".quick-input-widget input").fill("0.04");
+      const input = host.page.locator(".quick-input-widget input");
+      const ask = (): Promise<void> => actUntil("the question for the correction", () => window.status.click(), () => input.isVisible());
+      await ask();
+      await input.fill("0.04");
       await host.page.keyboard.press("Enter");
       await window.squiggles.first().waitFor({ state: "hidden" });
       await expectSoon("0.040 mm", async () => (await window.status.innerText()).includes("0.040 mm"), () => window.status.innerText());
-      await window.status.click();
-      await host.page.locator(".quick-input-widget input").fill("");
+      await ask();
+      await input.fill("");
       await host.page.keyboard.press("Enter");
       await window.squiggles.first().waitFor();
     });
     await checks.check("hover says what the number is", async () => {
       await window.goToLine(line, 3);
-      await host.page.keyboard.press("Control+k");
-      await host.page.keyboard.press("Control+i");
-      await host.page.locator(".monaco-hover", { hasText: "bulge" }).first().waitFor();
-      await host.page.keyboard.press("Escape");
+      await window.hover("bulge");
     });
     await checks.check("the quick fix is applied and saved, and nothing else is changed", async () => {
       await window.goToLine(line, 3);
-      await host.page.keyboard.press("Control+.");
-      const first = host.page.locator(".action-widget .monaco-list-row.action").first();
-      await first.waitFor();
+      const first = await window.quickFix();
       await checks.shot("quick-fix");
       expectEqual("first fix", (await first.innerText()).includes("R 0.101 mm"), true);
       await host.page.keyboard.press("Enter");
       await window.squiggles.first().waitFor({ state: "hidden" });
-      await host.page.keyboard.press("Control+s");
       const before = FILLET.split("\n");
       // Of a file that is being written only a part may be seen.
       const written = async (): Promise<string> => {
         const after = (await readFile(file, "utf8")).split("\n");
         return `${after.length - before.length} lines more, ${after.filter((text, index) => text !== before[index]).length} changed`;
       };
-      await expectSoon("two lines changed in the file", async () => (await written()) === "0 lines more, 2 changed", written);
+      await window.save("two lines changed in the file", async () => (await written()) === "0 lines more, 2 changed", written);
     });
     await checks.check("undo brings the old numbers and the finding back", async () => {
       await host.page.keyboard.press("Control+z");
       await window.squiggles.first().waitFor();
-      await host.page.keyboard.press("Control+s");
-      await expectSoon("the old file", async () => (await readFile(file, "utf8")) === FILLET);
+      await window.save("the old file", async () => (await readFile(file, "utf8")) === FILLET);
     });
     await checks.check("fix all repairs in one undo step", async () => {
       await window.command("Wire EDM: Fix All That Is Safe to Fix");
@@ -97,8 +91,7 @@ export async function text(checks: Checks): Promise<void> {
       await window.squiggles.first().waitFor({ state: "hidden" });
       await host.page.keyboard.press("Control+z");
       await window.squiggles.first().waitFor();
-      await host.page.keyboard.press("Control+s");
-      await expectSoon("the old file", async () => (await readFile(file, "utf8")) === FILLET);
+      await window.save("the old file", async () => (await readFile(file, "utf8")) === FILLET);
     });
     await checks.check("saving repairs, where that is set as the README says", async () => {
       await mkdir(join(host.folder, ".vscode"), { recursive: true });
@@ -115,11 +108,13 @@ export async function text(checks: Checks): Promise<void> {
     });
     await checks.check("tables, rules and their severities are completed in a wedm.toml", async () => {
       await writeFile(join(host.folder, "wedm.toml"), "");
-      await window.open("wedm.toml");
+      await window.openText("wedm.toml");
       const offered = host.page.locator(".suggest-widget.visible .monaco-list-row");
       const complete = async (typed: string, whole: string): Promise<void> => {
         await host.page.keyboard.type(typed, { delay: 50 });
-        await offered.filter({ hasText: whole }).first().waitFor();
+        const wanted = offered.filter({ hasText: whole }).first();
+        // What is offered while one types may come too late for that: then it is asked for.
+        await expectSoon(whole, () => wanted.isVisible(), undefined, 8_000).catch(() => window.press("Control+Space", wanted));
         await checks.shot(`settings-${whole}`);
         await host.page.keyboard.press("Enter");
         await offered.first().waitFor({ state: "hidden" });
@@ -131,9 +126,8 @@ export async function text(checks: Checks): Promise<void> {
       await host.page.keyboard.type("\n");
       await complete("small", "small-radius");
       await complete("warn", "warning");
-      await host.page.keyboard.press("Control+s");
       const written = (): Promise<string> => readFile(join(host.folder, "wedm.toml"), "utf8");
-      await expectSoon("the settings", async () => (await written()) === 'correction = 0.04\n[rules]\nsmall-radius = "warning"', written);
+      await window.save("the settings", async () => (await written()) === 'correction = 0.04\n[rules]\nsmall-radius = "warning"', written);
     });
   } finally {
     await host.stop();

@@ -93,8 +93,7 @@ export async function themes(checks: Checks): Promise<void> {
         await window.command("Wire EDM: Open as Picture");
         const page = await window.picture();
         await page.locator("svg .mark .badge").first().waitFor({ state: "attached" });
-        await window.clickDrawn(page.locator("svg .mark").first().locator(".badge"));
-        await page.locator("#card .primary").waitFor();
+        await window.clickDrawnUntil(page.locator("svg .mark").first().locator(".badge"), "the card of the finding", () => page.locator("#card .primary").isVisible());
         await checks.shot(`theme-${name}-card`);
         await expectNone(await faint(page));
         await host.page.keyboard.press("Control+w");

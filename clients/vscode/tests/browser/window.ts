@@ -2,7 +2,7 @@
 
 import { writeFile } from "node:fs/promises";
 import { join } from "node:path";
-import { expectSoon, PATIENCE } from "./checks";
+import { actUntil, expectSoon } from "./checks";
 import type { Frame, Locator, Page } from "playwright-core";
 
 export class Window {
@@ -11,23 +11,18 @@ export class Window {
   async open(name: string): Promise<void> {
     const row = this.page.locator(".explorer-folders-view .monaco-list-row", { hasText: name }).first();
     // A list that takes up new files may move under the pointer: then another row gets the second click.
-    for (let left = 3; ; left--) {
-      await row.dblclick();
-      try {
-        await this.tab(name, left > 0 ? 15_000 : PATIENCE);
-        break;
-      } catch (error) {
-        if (left === 0) {
-          throw error;
-        }
-      }
-    }
+    await actUntil(`${name} in front`, () => row.dblclick(), () => this.#front(name).isVisible());
+  }
+
+  /** Opens a file as a text. */
+  async openText(name: string): Promise<void> {
+    await this.open(name);
     await this.page.locator(".editor-group-container.active .view-lines .view-line").first().waitFor();
   }
 
-  /** Opens a file of ours and waits for the extension. */
+  /** Opens a file of ours as a text and waits for the extension. */
   async openOurs(name: string): Promise<void> {
-    await this.open(name);
+    await this.openText(name);
     await this.status.waitFor();
   }
 
@@ -41,8 +36,12 @@ export class Window {
   }
 
   /** Waits for the tab of a file in front: what a command has written it opens afterwards, over whatever is turned to before. */
-  async tab(name: string, timeout = PATIENCE): Promise<void> {
-    await this.page.locator(`.tabs-container .tab.active[data-resource-name="${name}"]`).first().waitFor({ timeout });
+  async tab(name: string): Promise<void> {
+    await this.#front(name).waitFor();
+  }
+
+  #front(name: string): Locator {
+    return this.page.locator(`.tabs-container .tab.active[data-resource-name="${name}"]`).first();
   }
 
   async command(title: string): Promise<void> {
@@ -55,6 +54,34 @@ export class Window {
     await this.#ask("Control+g", `:${line},${column}`);
     await this.page.keyboard.press("Enter");
     await this.page.locator(".quick-input-widget").waitFor({ state: "hidden" });
+  }
+
+  /** Presses keys until something is seen. */
+  async press(keys: string, seen: Locator): Promise<void> {
+    const pressed = async (): Promise<void> => {
+      for (const key of keys.split(" ")) {
+        await this.page.keyboard.press(key);
+      }
+    };
+    await actUntil(`what ${keys} shows`, pressed, () => seen.isVisible());
+  }
+
+  /** The hover over the word at the cursor says something; then it is closed. */
+  async hover(said: string): Promise<void> {
+    await this.press("Control+k Control+i", this.page.locator(".monaco-hover", { hasText: said }).first());
+    await this.page.keyboard.press("Escape");
+  }
+
+  /** Saves what is in front until the file holds what is expected. */
+  async save(what: string, holds: () => Promise<boolean>, seen?: () => Promise<string>): Promise<void> {
+    await actUntil(what, () => this.page.keyboard.press("Control+s"), holds, seen);
+  }
+
+  /** Opens the list of what could be done at the cursor; the first of it. */
+  async quickFix(): Promise<Locator> {
+    const first = this.page.locator(".action-widget .monaco-list-row.action").first();
+    await this.press("Control+.", first);
+    return first;
   }
 
   /** Types into the box that a key opens. A part that takes the focus just then closes it: it is opened again. */
@@ -167,6 +194,11 @@ export class Window {
     await this.page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
   }
 
+  /** Clicks what is drawn until something holds. */
+  async clickDrawnUntil(drawn: Locator, what: string, holds: () => Promise<boolean>): Promise<void> {
+    await actUntil(what, () => this.clickDrawn(drawn), holds);
+  }
+
   /** Clicks a third of the way along a path of the picture: the box of an arc is larger than what is drawn. */
   async clickPath(picture: Frame, selector: string): Promise<void> {
     const point = await picture.locator(selector).first().evaluate((path: SVGPathElement) => {
@@ -190,15 +222,13 @@ export class Window {
   async openContour(picture: Frame, handle: string): Promise<void> {
     const card = picture.locator("#card");
     const named = card.locator("h2, .link", { hasText: /^Contour \d/ }).first();
-    // Where the picture is laid out again just then the click goes beside the contour: then it is clicked again.
-    await expectSoon(`the card of contour ${handle}`, async () => {
+    const click = async (): Promise<void> => {
       if (await card.isVisible()) {
         await card.locator(".close").click();
       }
       await this.clickPath(picture, `svg .contour[data-handle="${handle}"]`);
-      await named.waitFor({ timeout: 3_000 });
-      return true;
-    });
+    };
+    await actUntil(`the card of contour ${handle}`, click, () => named.isVisible());
     const lead = card.locator(".link", { hasText: /^Contour \d/ });
     if ((await lead.count()) > 0) {
       await lead.click();
@@ -211,9 +241,5 @@ export class Window {
     await writeFile(join(folder, "wedm.toml"), settings);
     const shown = (): Promise<string> => this.status.innerText();
     await expectSoon(`the correction ${correction} mm in force`, async () => (await shown()).includes(`${correction} mm`), shown);
-  }
-
-  async expectLine(line: number): Promise<void> {
-    await expectSoon(`the cursor in line ${line}`, async () => (await this.line()) === line, async () => `line ${await this.line()}`);
   }
 }
