@@ -41,6 +41,18 @@ fn every_relative_link_leads_somewhere() {
     }
 }
 
+/// Both sides of a merge once stood in CHANGELOG.md.
+#[test]
+fn no_page_holds_both_sides_of_a_merge() {
+    for path in pages() {
+        let page = read(&path);
+        let mark = page
+            .lines()
+            .find(|line| line.starts_with("<<<<<<< ") || line.starts_with(">>>>>>> "));
+        assert_eq!(mark, None, "{}", path.display());
+    }
+}
+
 #[test]
 fn contributing_says_what_each_dependency_is_for() {
     let page = read(&root().join("CONTRIBUTING.md"));
