@@ -8,8 +8,8 @@ use rustc_hash::FxHashSet;
 use std::borrow::Cow;
 
 /// Rules whose safe repairs "fix all" makes before it makes arcs larger: otherwise only one of two identical lines
-/// would be moved.
-pub(super) const FIRST: [Rule; 2] = [Rule::DuplicateEntity, Rule::Overlap];
+/// would be moved, and the arcs of an open contour have no side.
+pub(super) const FIRST: [Rule; 3] = [Rule::DuplicateEntity, Rule::Overlap, Rule::OpenContour];
 
 /// The rules whose safe repairs it makes after that: only those of the first rule that has any.
 pub(super) const THEN: [Rule; 3] = [Rule::ShortSegment, Rule::Gap, Rule::ArcAsChords];

@@ -188,9 +188,12 @@ fn narrowest(one: &Wall, other: &Wall, same_contour: bool) -> Option<Slot> {
                 .then(|| (wall_side(a, from, toward), wall_side(b, to, -toward)))
         });
     }
-    let inside = |corner: &Corner, wall: &Segment| foot_inside(wall, corner.at);
+    let foot_on = |wall: &Wall, corner: &Corner| {
+        let foot = foot_inside(wall.geometry(), corner.at);
+        foot.filter(|foot| !(same_contour && is_opening(corner, *foot, wall)))
+    };
     for corner in one.corners() {
-        if let Some(foot) = inside(&corner, b) {
+        if let Some(foot) = foot_on(other, &corner) {
             consider(corner.at, foot, &|toward| {
                 (corner.is_nearest(toward)
                     && is_minimum(
@@ -213,7 +216,7 @@ fn narrowest(one: &Wall, other: &Wall, same_contour: bool) -> Option<Slot> {
         }
     }
     for corner in other.corners() {
-        if let Some(foot) = inside(&corner, a) {
+        if let Some(foot) = foot_on(one, &corner) {
             consider(foot, corner.at, &|toward| {
                 (corner.is_nearest(-toward)
                     && is_minimum(
@@ -228,6 +231,14 @@ fn narrowest(one: &Wall, other: &Wall, same_contour: bool) -> Option<Slot> {
     best.filter(|_| {
         !(same_contour && (is_mouth(one, other, limits) || is_mouth(other, one, limits)))
     })
+}
+
+/// Whether a place lies between the two ends of an open contour, nearer to the other end than to this one: that is the
+/// opening, which `open-contour` reports.
+fn is_opening(end: &Corner, foot: Point, wall: &Wall) -> bool {
+    let reach = (foot - end.at).norm();
+    let is_other = |other: Corner| other.is_free_end() && (other.at - foot).norm() <= reach;
+    end.is_free_end() && wall.corners().any(is_other)
 }
 
 /// True when the distance of two walls has a minimum or stays constant, where they are `width`

@@ -1,11 +1,13 @@
 //! `open-contour`: a contour that does not come back to its start.
 //!
-//! The wire has no side on an open contour, and nothing drops out of the plate. Fix: close it with a line.
+//! The wire has no side on an open contour, and nothing drops out of the plate. Fix: close it with a line; ends that
+//! lie near each other, and near no other one, are brought together.
 
+use super::ends::{end_moved, joined};
 use super::{ContourRule, Outlook};
-use crate::drawing::{Change, Geometry};
+use crate::drawing::{Change, ContourSegment, Geometry};
 use crate::finding::{Detail, Fix, FixKind, Place, Rule, Severity};
-use crate::geometry::Segment;
+use crate::geometry::{Point, cross};
 use crate::settings::{Compensation, Effective};
 
 pub(crate) const RULE: ContourRule = ContourRule {
@@ -42,15 +44,16 @@ fn places(outlook: &Outlook) -> Option<(Place, Vec<Place>)> {
     Some((outlook.place(last)?, first.into_iter().collect()))
 }
 
-fn ends(outlook: &Outlook) -> Option<(Segment, Segment)> {
+/// The last segment and the first one.
+fn ends(outlook: &Outlook) -> Option<(ContourSegment, ContourSegment)> {
     let last = outlook.segment(outlook.contour.len() as isize - 1)?;
-    Some((last.geometry, outlook.segment(0)?.geometry))
+    Some((last, outlook.segment(0)?))
 }
 
 fn detail(outlook: &Outlook) -> Option<Detail> {
     let (last, first) = ends(outlook)?;
     Some(Detail::OpenContour {
-        distance: (first.start() - last.end()).norm(),
+        distance: (first.geometry.start() - last.geometry.end()).norm(),
     })
 }
 
@@ -58,11 +61,11 @@ fn fixes(outlook: &Outlook) -> Vec<Fix> {
     let Some((last, first)) = ends(outlook) else {
         return Vec::new();
     };
-    let (from, to) = (last.end(), first.start());
+    let (from, to) = (last.geometry.end(), first.geometry.start());
     let length = (to - from).norm();
     let contour = outlook.contour;
     // Closing a single line with another would only cut it twice.
-    let encloses = contour.len() > 1 || last.as_arc().is_some();
+    let encloses = contour.len() > 1 || last.geometry.as_arc().is_some();
     let Some(piece) = contour
         .pieces
         .last()
@@ -97,9 +100,66 @@ fn fixes(outlook: &Outlook) -> Vec<Fix> {
         .map(|segment| segment.geometry.length())
         .sum();
     let preferred = length < (SHARE * along).max(JOINS * outlook.limits.tolerances.join);
-    vec![Fix {
+    let close = Fix {
         preferred,
         in_fix_all: false,
         ..Fix::new(FixKind::Close { length }, vec![change])
-    }]
+    };
+    // No wire passes an opening so narrow, and nothing else can have been meant.
+    let is_slip = length < SHARE * along && length < outlook.limits.correction;
+    let is_sure = || is_slip && are_alone(outlook, [from, to]);
+    let snapped = contour.len() > 1 && is_sure();
+    let snapped = snapped
+        .then(|| brought_together(outlook, &last, &first))
+        .flatten();
+    let snap = |changes| Fix::new(FixKind::Snap { distance: length }, changes);
+    snapped.map(snap).into_iter().chain([close]).collect()
+}
+
+/// The changes after which the last segment ends where the first one begins: straight ones keep their directions, where
+/// these meet near by.
+fn brought_together(
+    outlook: &Outlook,
+    last: &ContourSegment,
+    first: &ContourSegment,
+) -> Option<Vec<Change>> {
+    let drawing = outlook.drawing;
+    let corner = met(last, first).and_then(|corner| {
+        let both = [
+            end_moved(drawing, last, true, corner),
+            end_moved(drawing, first, false, corner),
+        ];
+        both.into_iter().collect()
+    });
+    corner.or_else(|| joined(drawing, last, first).map(|change| vec![change]))
+}
+
+/// Where two straight segments that follow each other would meet, no farther from either end than these are from each
+/// other.
+fn met(last: &ContourSegment, first: &ContourSegment) -> Option<Point> {
+    let (last, first) = (&last.geometry, &first.geometry);
+    if last.as_arc().is_some() || first.as_arc().is_some() {
+        return None;
+    }
+    let (from, to) = (last.end(), first.start());
+    let (along, on) = (last.end_tangent(), first.start_tangent());
+    let corner = from + along * (cross(to - from, on) / cross(along, on));
+    let reach = (to - from).norm();
+    let is_near = |end: Point| (corner - end).norm() <= reach;
+    (is_near(from) && is_near(to)).then_some(corner)
+}
+
+/// Whether the ends of no other open contour lie as near to one of these as a wire is wide.
+fn are_alone(outlook: &Outlook, ends: [Point; 2]) -> bool {
+    let reach = 2.0 * outlook.limits.correction;
+    let own = &outlook.contour.pieces;
+    outlook.drawing.entities().all(|(id, entity)| {
+        let of_contour = own.iter().any(|piece| piece.entity == id);
+        let near = |point: Point| ends.iter().any(|end| (point - end).norm() < reach);
+        of_contour
+            || !entity
+                .geometry
+                .ends()
+                .is_some_and(|(start, end)| near(start) || near(end))
+    })
 }

@@ -93,6 +93,101 @@ fn a_crossing_of_open_contours_is_told_by_their_openings() {
     }
 }
 
+/// Ends nearer to each other than the correction, and to nothing else, are one corner: it is where the sides meet, or where one of them ends.
+#[test]
+fn ends_that_lie_near_each_other_are_brought_together() {
+    let line = |[a, b, c, d]: [f64; 4]| Geometry::Line {
+        start: Point::new(a, b),
+        end: Point::new(c, d),
+    };
+    let rest = [[10.0, 6.0, 0.0, 6.0], [0.0, 6.0, 0.0, 0.0]];
+    let outline = |first: [f64; 4], second: [f64; 4]| {
+        let sides = [first, second, rest[0], rest[1]];
+        sides.map(line).to_vec()
+    };
+    // Its two sides at the opening; what lies beside it; where the corner is made, if "fix all" makes it.
+    type Side = [f64; 4];
+    type Case = (Side, Side, Option<Side>, Option<(f64, f64)>);
+    let cases: [Case; 7] = [
+        // Both go on in their directions, or end earlier.
+        (
+            [0.0, 0.0, 9.98, 0.0],
+            [10.0, 0.02, 10.0, 6.0],
+            None,
+            Some((10.0, 0.0)),
+        ),
+        (
+            [0.0, 0.0, 10.02, 0.0],
+            [10.0, -0.02, 10.0, 6.0],
+            None,
+            Some((10.0, 0.0)),
+        ),
+        (
+            [0.0, 0.0, 10.0, 0.0],
+            [10.02, 0.0, 10.0, 6.0],
+            None,
+            Some((10.02, 0.0)),
+        ),
+        // Sides that meet far away: one end moves onto the other.
+        (
+            [0.0, 0.0, 5.0, 0.0],
+            [5.0, 0.02, 10.0, 6.0],
+            None,
+            Some((5.0, 0.0)),
+        ),
+        // A wire passes, another end is near, or is it far away.
+        ([0.0, 0.0, 9.89, 0.0], [10.0, 0.0, 10.0, 6.0], None, None),
+        (
+            [0.0, 0.0, 9.98, 0.0],
+            [10.0, 0.02, 10.0, 6.0],
+            Some([10.1, 0.0, 15.0, 0.0]),
+            None,
+        ),
+        (
+            [0.0, 0.0, 9.98, 0.0],
+            [10.0, 0.02, 10.0, 6.0],
+            Some([10.3, 0.0, 15.0, 0.0]),
+            Some((10.0, 0.0)),
+        ),
+    ];
+    for (first, second, beside, corner) in cases {
+        let mut geometries = outline(first, second);
+        geometries.extend(beside.map(line));
+        let drawing = drawing_of(geometries, Some(Role::Opening));
+        let findings = analysed(&drawing).1;
+        let openings = 1 + usize::from(beside.is_some());
+        assert_eq!(
+            count(&findings, Rule::OpenContour),
+            openings,
+            "{findings:?}"
+        );
+        assert_eq!(count(&findings, Rule::NarrowSlot), 0, "{findings:?}");
+        let fixed = all_fixed(drawing);
+        let left = analysed(&fixed).1;
+        let closed = openings - usize::from(corner.is_some());
+        assert_eq!(
+            count(&left, Rule::OpenContour),
+            closed,
+            "{first:?} {second:?}: {left:?}"
+        );
+        let ends = fixed
+            .entities()
+            .filter_map(|(_, entity)| match entity.geometry {
+                Geometry::Line { end, .. } => Some(end),
+                _ => None,
+            });
+        let ends: Vec<Point> = ends.collect();
+        let is_made = |(x, y): (f64, f64)| {
+            ends.iter()
+                .any(|end| (end - Point::new(x, y)).norm() < 1e-4)
+        };
+        assert!(
+            corner.is_none_or(is_made),
+            "{first:?} {second:?}: no corner at {corner:?}"
+        );
+    }
+}
+
 /// An open contour is one finding: what only spoils a cut along it is a hint until it is closed.
 #[test]
 fn what_only_spoils_a_cut_is_a_hint_while_the_contour_is_open() {
