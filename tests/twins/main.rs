@@ -22,12 +22,12 @@ use written::{Move, Writing};
 /// nothing.
 const ALIKE: [(&str, [usize; 3]); 8] = [
     ("sound", [100, 100, 100]),
-    ("block twice", [90, 85, 0]),
+    ("block twice", [90, 95, 0]),
     ("block lost", [95, 85, 85]),
-    ("digit wrong", [100, 85, 85]),
+    ("digit wrong", [100, 90, 90]),
     ("digit lost", [100, 50, 50]),
     ("sign", [100, 85, 0]),
-    ("blocks exchanged", [100, 85, 85]),
+    ("blocks exchanged", [100, 95, 95]),
     ("arc turned", [100, 100, 100]),
 ];
 

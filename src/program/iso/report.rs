@@ -14,7 +14,7 @@ use super::moves::{Place as Spot, Reading, added, apart, meet, micrometres};
 use super::repair::found::Repair;
 use super::repair::{Troubles, cut_within};
 use super::summary::{Spur, Summary, WireSide};
-use crate::finding::{Detail, Fault, Finding, Place, Rule, Severity, Side};
+use crate::finding::{Detail, Fault, Finding, FixKind, Place, Rule, Severity, Side};
 use crate::geometry::cross;
 use crate::program::contours::Divided;
 use crate::program::path::tolerance;
@@ -147,6 +147,9 @@ fn suspects(document: &Document, troubles: &mut Troubles<'_>) -> Vec<Finding> {
     let repairs = found.of_cuts.iter().filter_map(first);
     let suspect = |repair: Repair| {
         let range = document.words_of(repair.line);
+        if repair.is_sure && repair.closes && matches!(repair.kind, FixKind::DeleteBlock) {
+            return Finding::of(Fault::TwinKeepsOpen, range);
+        }
         let fault = Fault::Suspect {
             found: repair.found,
             meant: repair.meant,

@@ -10,6 +10,7 @@ use super::super::layout::{layout_in, push_fields};
 use super::super::pieces::{Field, Piece, pieces};
 use super::super::rules::position_mismatch::Mismatched;
 use super::super::rules::{self, Site, TextFix, missing_end, position_mismatch, text_after_end};
+use super::super::words::Word;
 use super::sequence::place_before;
 use super::{At, Document};
 use crate::finding::{Detail, Fault, Finding, FixKind, Rule};
@@ -57,8 +58,23 @@ impl Document {
                 is_whole.then(|| missing_end::fixes(&self.text, range.end, word))
             }
             Fault::TextAfterEnd { .. } => {
-                let end = self.range_of(self.view.end?);
-                Some(text_after_end::fixes(&self.text, end.start))
+                let end = self.view.end?;
+                let mut behind = self.from(end).skip(1);
+                let ends_again = behind.any(|(_, entry)| entry.block().is_some())
+                    && behind.any(|(_, entry)| {
+                        matches!(
+                            entry.what,
+                            What::Word {
+                                word: Word::End,
+                                is_own: true
+                            }
+                        )
+                    });
+                Some(text_after_end::fixes(
+                    &self.text,
+                    self.range_of(end),
+                    ends_again,
+                ))
             }
             Fault::NotClosed { .. } => self.closing_fixes(range),
             Fault::DoubledNumber { .. }
