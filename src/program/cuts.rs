@@ -26,7 +26,7 @@ pub(in crate::program) trait Reader: Sync {
 
     /// Runs lines from one on, up to the end of a cut: what was run, the line behind it, and the state there.
     fn run(
-        &mut self,
+        &self,
         text: &SourceText,
         first: usize,
         before: &Self::State,
@@ -35,16 +35,6 @@ pub(in crate::program) trait Reader: Sync {
     /// What takes time and depends on nothing else. More cuts than one where some lie in the line in which the first ends:
     /// each with its lines.
     fn finish(&self, text: &SourceText, begun: Self::Begun) -> Vec<(Range<usize>, Self::Cut)>;
-
-    /// Takes back what running a cut has added to the whole: its lines are run again, or are gone.
-    fn forget(
-        &mut self,
-        _: &Self::Cut,
-        _: &SourceText,
-        _lines: Range<usize>,
-        _before: &Self::State,
-    ) {
-    }
 
     /// The reading of a line depends on no more than this many after it.
     const REACH: usize = 0;
@@ -101,7 +91,7 @@ impl<C, S> Deref for Cuts<C, S> {
 
 impl<C: Send + Sync, S: Clone + PartialEq + Send + Sync> Cuts<C, S> {
     /// Reads a whole text.
-    pub(crate) fn read<L>(language: &mut L, text: &SourceText, begin: S) -> Cuts<C, S>
+    pub(crate) fn read<L>(language: &L, text: &SourceText, begin: S) -> Cuts<C, S>
     where
         L: Reader<Cut = C, State = S>,
     {
@@ -125,7 +115,7 @@ impl<C: Send + Sync, S: Clone + PartialEq + Send + Sync> Cuts<C, S> {
     /// stood there.
     pub(crate) fn edit<L>(
         &mut self,
-        language: &mut L,
+        language: &L,
         text: &mut SourceText,
         (range, replacement): (Range<usize>, &str),
     ) -> usize
@@ -158,9 +148,6 @@ impl<C: Send + Sync, S: Clone + PartialEq + Send + Sync> Cuts<C, S> {
         }
         let to = places.partition_point(|place| place.lines.start <= last);
         let to = to.max(from);
-        for index in from..to {
-            self.forget(language, text, index);
-        }
         text.replace(start..end, replacement);
         for place in self.places.iter_mut().skip(to) {
             let moved = |line: usize| line + text.line_count() - old_count;
@@ -173,20 +160,11 @@ impl<C: Send + Sync, S: Clone + PartialEq + Send + Sync> Cuts<C, S> {
         from
     }
 
-    fn forget<L>(&self, language: &mut L, text: &SourceText, cut: usize)
-    where
-        L: Reader<Cut = C, State = S>,
-    {
-        if let Some(own) = self.list.get(cut) {
-            language.forget(own, text, self.lines(cut), self.state_before(cut));
-        }
-    }
-
-    /// Runs lines from one on in place of the cuts from `from` on, of which those before `to` are forgotten, until one that
+    /// Runs lines from one on in place of the cuts from `from` on, of which those before `to` are gone, until one that
     /// stands already begins in the state in which it was run.
     fn read_on<L>(
         &mut self,
-        language: &mut L,
+        language: &L,
         text: &SourceText,
         [mut from, mut to]: [usize; 2],
         (mut line, mut state): (usize, S),
@@ -200,7 +178,6 @@ impl<C: Send + Sync, S: Clone + PartialEq + Send + Sync> Cuts<C, S> {
             let is_met = loop {
                 let is_past = |place: &Lines| place.lines.start < line || place.shares;
                 while self.places.get(to).is_some_and(is_past) {
-                    self.forget(language, text, to);
                     to += 1;
                 }
                 if self
@@ -211,7 +188,6 @@ impl<C: Send + Sync, S: Clone + PartialEq + Send + Sync> Cuts<C, S> {
                     if self.take_on::<L>(to, &state) {
                         break true;
                     }
-                    self.forget(language, text, to);
                     to += 1;
                 }
                 if line >= count {

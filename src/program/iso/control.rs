@@ -2,7 +2,6 @@
 
 use super::corner;
 use super::cut::{Cut, Entry};
-use super::evidence::Evidence;
 use super::limits::{Limits, Table, correction_in};
 use super::moves::{Move, Place, Reading, added, apart, micrometres};
 use super::order::Order;
@@ -49,21 +48,11 @@ impl<'a> Sequence<'a> {
         read.unwrap_or_default()
     }
 
-    /// Those from one on, each with the byte at which it begins, counted from another.
-    pub(super) fn from(
-        self,
-        nth: usize,
-        base: usize,
-    ) -> impl Iterator<Item = (usize, &'a [u8])> + Clone {
-        (nth..self.count()).map(move |nth| {
-            let line = self.line(nth);
-            (self.text.line_start(line) - base, self.bytes(line))
-        })
+    /// Those behind one.
+    pub(super) fn behind(self, nth: usize) -> impl Iterator<Item = &'a [u8]> + use<'a> {
+        (nth + 1..self.count()).map(move |nth| self.bytes(self.line(nth)))
     }
 }
-
-/// Lines of a cut of which it is kept what they say of how numbers are meant.
-const LONG: usize = 64;
 
 /// How the lines of a program are read.
 pub(super) struct Control<'a> {
@@ -72,8 +61,6 @@ pub(super) struct Control<'a> {
     pub(super) table: &'a Table,
     pub(super) leader: usize,
     pub(super) order: Option<&'a Order>,
-    /// What all lines say of how numbers are meant.
-    pub(super) evidence: Evidence,
 }
 
 impl Control<'_> {
@@ -83,14 +70,6 @@ impl Control<'_> {
             leader: self.leader,
             order: self.order,
         }
-    }
-
-    fn ran(&self, text: &SourceText, lines: Range<usize>, before: &Entry) -> (Run, usize) {
-        let sequence = self.sequence(text);
-        let mut run = Run::new(before.machine(), self.reading);
-        let own = sequence.from(lines.start, sequence.base(lines.start));
-        let count = run.lines(own, lines.len());
-        (run, lines.start + count)
     }
 }
 
@@ -114,15 +93,13 @@ impl Reader for Control<'_> {
         self.sequence(text).base(line)
     }
 
-    fn run(&mut self, text: &SourceText, first: usize, before: &Entry) -> (Begun, usize, Entry) {
-        let lines = first..self.line_count(text);
-        let (run, behind) = self.ran(text, lines, before);
-        self.evidence.add(&run.evidence);
+    fn run(&self, text: &SourceText, first: usize, before: &Entry) -> (Begun, usize, Entry) {
+        let sequence = self.sequence(text);
+        let mut run = Run::new(sequence, before.machine(), self.reading);
+        let base = sequence.base(first);
+        let behind = run.lines(first..sequence.count(), base, &mut |_| {});
         let after = Entry::of(run.after, Some(before));
-        let is_long = behind - first > LONG;
-        let evidence = is_long.then_some(run.evidence);
-        let (mut cut, way) = run.finished();
-        cut.keep_evidence(evidence);
+        let (cut, way) = run.finished();
         let begun = Begun {
             lines: first..behind,
             cut,
@@ -151,16 +128,6 @@ impl Reader for Control<'_> {
         }
         cut.numbers.shrink_to_fit();
         vec![(lines, cut)]
-    }
-
-    /// What a long cut says is kept: running it again takes longer.
-    fn forget(&mut self, cut: &Cut, text: &SourceText, lines: Range<usize>, before: &Entry) {
-        match cut.evidence() {
-            Some(evidence) => self.evidence.take(evidence),
-            None => self
-                .evidence
-                .take(&self.ran(text, lines, before).0.evidence),
-        }
     }
 
     const REACH: usize = corner::REACH;

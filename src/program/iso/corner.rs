@@ -12,56 +12,35 @@ pub(crate) const REACH: usize = 64;
 /// Two cuts that turn by less than this have no corner, radians.
 const STRAIGHT: f64 = 1e-4;
 
-/// The effect of a line with a corner's word.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Turned {
-    /// The move up to where the corner begins; the whole move where there is no corner to make.
-    pub(crate) made: Move,
-    pub(crate) corner: Option<Move>,
-    /// How many lines after it were read.
-    pub(crate) looked_at: usize,
-    /// The next move keeps its place, however far the wire has been moved before.
+/// What was looked at behind the last line that ran.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Looked {
+    /// How many lines.
+    pub(crate) lines: usize,
+    /// What they do depends on where the wire stands before them.
     pub(crate) is_fixed: bool,
 }
 
-/// Makes the corner at the end of a move, towards the first one that `behind` makes. The machine, which has made the
-/// move, stands at the sharp corner as its coordinates say, and begins the next move where the corner ends.
+/// Makes the corner at the end of a move, towards the first one that `behind` makes: the move up to where the corner
+/// begins, and the corner; the whole move where there is none to make. The machine, which has made the move, stands at
+/// the sharp corner as its coordinates say, and begins the next move where the corner ends.
 pub(crate) fn turned<'a>(
     made: Move,
     machine: &mut Machine,
     behind: impl Iterator<Item = &'a [u8]>,
     reading: &Reading,
-) -> Turned {
-    let mut turned = Turned {
-        made,
-        corner: None,
-        looked_at: 0,
-        is_fixed: false,
+    looked: &mut Looked,
+) -> (Move, Option<Move>) {
+    let cut = made.corner.and_then(|corner| {
+        let next = next_move(*machine, behind, reading, |_| true, looked)?;
+        let size = reading.length(corner.size, machine.inch);
+        cut_off(&made, &next, &corner, size, reading)
+    });
+    let Some((short, own)) = cut else {
+        return (made, None);
     };
-    let Some(corner) = made.corner else {
-        return turned;
-    };
-    let next = next_move(*machine, behind, reading, |_| true);
-    turned.looked_at = next.looked_at;
-    let Some(behind) = next.made else {
-        return turned;
-    };
-    turned.is_fixed = next.is_fixed;
-    let size = reading.length(corner.size, machine.inch);
-    if let Some((short, own)) = cut_off(&made, &behind, &corner, size, reading) {
-        machine.cut_short = Some(apart(own.to, made.to));
-        (turned.made, turned.corner) = (short, Some(own));
-    }
-    turned
-}
-
-/// What follows a cut directly.
-pub(crate) struct Next {
-    pub(crate) made: Option<Move>,
-    /// How many lines were read.
-    pub(crate) looked_at: usize,
-    /// It depends on where the wire stands before it.
-    pub(crate) is_fixed: bool,
+    machine.cut_short = Some(apart(own.to, made.to));
+    (short, Some(own))
 }
 
 /// The next cut, if one follows directly; those that are not `wanted` are passed over.
@@ -70,36 +49,28 @@ pub(crate) fn next_move<'a>(
     behind: impl Iterator<Item = &'a [u8]>,
     reading: &Reading,
     wanted: impl Fn(&Move) -> bool,
-) -> Next {
-    let mut next = Next {
-        made: None,
-        looked_at: 0,
-        is_fixed: false,
-    };
-    for line in behind.take(REACH) {
-        next.looked_at += 1;
+    looked: &mut Looked,
+) -> Option<Move> {
+    for (nth, line) in behind.take(REACH).enumerate() {
+        looked.lines = looked.lines.max(nth + 1);
         let block = read_under(&mut machine.variables, line, 1, |_| {});
         if block.sets_position || block.call.is_some() || block.returns || block.stop.is_some() {
-            return next;
+            return None;
         }
         if block.empty {
             continue;
         }
         if let Some(made) = machine.run(&block, reading) {
-            next.is_fixed |= !made.incremental || machine.center.is_some();
-            if !made.is_cut() {
-                return next;
-            }
-            if wanted(&made) {
-                next.made = Some(made);
-                return next;
+            looked.is_fixed |= !made.incremental || machine.center.is_some();
+            if !made.is_cut() || wanted(&made) {
+                return Some(made).filter(Move::is_cut);
             }
         }
         if machine.lost != [false, false] {
-            return next;
+            return None;
         }
     }
-    next
+    None
 }
 
 /// The move up to where the corner begins, and the corner.

@@ -93,6 +93,8 @@ pub(crate) struct Cut {
     pub(crate) steps: u32,
     /// What few lines have.
     rare: Option<Box<Rare>>,
+    /// What its lines say of how numbers are meant.
+    pub(crate) evidence: Option<Box<Evidence>>,
     /// The decimals that its numbers have: a bit for each count of them.
     pub(crate) places: u8,
     /// There are lengths without a decimal point that are not 0, and with one.
@@ -128,8 +130,6 @@ pub(crate) struct Rare {
     pub(crate) first_center: Option<(u32, u32)>,
     /// The first words after the end.
     pub(crate) behind_end: Option<(u32, u32)>,
-    /// What the lines of a long one say of how numbers are meant.
-    evidence: Option<Box<Evidence>>,
 }
 
 /// The moves of a cut that cut, and what is known of them.
@@ -163,23 +163,12 @@ impl Cut {
             definitions: Vec::new(),
             first_center: None,
             behind_end: None,
-            evidence: None,
         };
         self.rare.as_deref().unwrap_or(&NONE)
     }
 
     pub(crate) fn keep(&mut self, rare: Rare) {
         self.rare = (rare != Rare::default()).then(|| Box::new(rare));
-    }
-
-    pub(super) fn keep_evidence(&mut self, evidence: Option<Evidence>) {
-        if let Some(evidence) = evidence {
-            self.rare.get_or_insert_default().evidence = Some(Box::new(evidence));
-        }
-    }
-
-    pub(super) fn evidence(&self) -> Option<&Evidence> {
-        self.rare().evidence.as_deref()
     }
 
     pub(crate) fn sum(&self) -> Option<&Summary> {

@@ -8,10 +8,11 @@ use super::layout::{LOOKED_AT, is_parted};
 use super::leader::leader;
 use super::limits::{Limits, Table, correction_in, stated_in};
 use super::machine::Machine;
-use super::moves::{Move, Reading};
+use super::moves::Reading;
 use super::order::{Order, labels, order};
-use super::read::{Run, words_of};
+use super::read::{Placed, Run, words_of};
 use super::repair::found::Repairs;
+use super::steps::Ran;
 use crate::program::contours::Contours;
 use crate::program::cuts::Cuts;
 use crate::program::path::Way;
@@ -180,37 +181,47 @@ impl Document {
         byte + start as usize..byte + end as usize
     }
 
-    /// Runs lines of a cut again.
-    fn run_again(&self, cut: usize, most: usize) -> Run {
-        let first = self.cuts.lines(cut).start;
-        let mut run = Run::new(self.cuts.state_before(cut).machine(), self.reading);
-        run.lines(self.sequence().from(first, self.cuts.byte(cut)), most);
+    /// Runs the lines of a cut again, up to one of them, and hands out what each does.
+    pub(super) fn run_again(
+        &self,
+        cut: usize,
+        end: usize,
+        each: &mut dyn FnMut(&Ran<'_>),
+    ) -> Run<'_> {
+        let before = self.cuts.state_before(cut).machine();
+        let mut run = Run::new(self.sequence(), before, self.reading);
+        run.lines(self.cuts.lines(cut).start..end, self.cuts.byte(cut), each);
         run
+    }
+
+    /// The moves of a cut that cut, from where the wire enters it.
+    fn placed(&self, cut: usize) -> Vec<Placed> {
+        let run = self.run_again(cut, self.cuts.lines(cut).end, &mut |_| {});
+        run.finished().1
     }
 
     /// The moves of a cut that cut, and the bytes of their words.
     pub(super) fn moves_of(&self, cut: usize) -> Vec<Heard> {
-        let (_, way) = self.run_again(cut, self.cuts.lines(cut).len()).finished();
         let at = self.cuts.state_before(cut).at;
-        let placed = |(made, range): (Move, _)| (made.shifted(at), self.bytes_in(cut, range));
-        way.into_iter().map(placed).collect()
+        let placed = |(made, range): Placed| (made.shifted(at), self.bytes_in(cut, range));
+        self.placed(cut).into_iter().map(placed).collect()
     }
 
     pub(super) fn way_in(&self, cut: usize) -> Way {
-        let (_, way) = self.run_again(cut, self.cuts.lines(cut).len()).finished();
-        way_of(way.iter().map(|(made, _)| made), &self.reading)
+        way_of(self.placed(cut).iter().map(|(made, _)| made), &self.reading)
     }
 
     /// The state before a line, with the wire's position, or behind it; and the cut in which it first runs, up to there. `None`
     /// for a line that does not run.
-    pub(super) fn run_up_to(&self, line: usize, behind: bool) -> Option<(usize, Run)> {
+    pub(super) fn run_up_to(&self, line: usize, behind: bool) -> Option<(usize, Run<'_>)> {
         let nth = match &self.order {
             None => line,
             Some(order) => order.of_line(line).next()?,
         };
         let cut = self.cuts.first_at(nth);
-        let first = self.cuts.get(cut).map(|_| self.cuts.lines(cut).start)?;
-        Some((cut, self.run_again(cut, nth - first + usize::from(behind))))
+        self.cuts.get(cut)?;
+        let end = nth + usize::from(behind);
+        Some((cut, self.run_again(cut, end, &mut |_| {})))
     }
 
     /// Replaces a range of bytes and runs again what it touched. Returns the first cut in which the machine may stand
@@ -229,17 +240,16 @@ impl Document {
             self.read_all();
             return 0;
         }
-        let mut control = Control {
+        let control = Control {
             reading: self.reading,
             limits: &self.limits,
             table: &self.table,
             leader: self.leader,
             order: None,
-            evidence: std::mem::take(&mut self.evidence),
         };
         let edit = (range, replacement);
-        let first = self.cuts.edit(&mut control, &mut self.text, edit);
-        self.evidence = control.evidence;
+        let first = self.cuts.edit(&control, &mut self.text, edit);
+        self.evidence = self.evidence_of_cuts();
         match leader(&self.text) == self.leader && !self.must_run_again() {
             true => {
                 self.look();
@@ -270,20 +280,32 @@ impl Document {
 
     /// Runs all lines.
     fn run(&mut self) {
-        let mut control = Control {
+        let control = Control {
             reading: self.reading,
             limits: &self.limits,
             table: &self.table,
             leader: self.leader,
             order: self.order.as_ref(),
-            evidence: Evidence {
-                inches: u32::from(self.limits.inch),
-                ..Evidence::default()
-            },
         };
         let begin = Entry::of(self.first_machine(), None);
-        self.cuts = Cuts::read(&mut control, &self.text, begin);
-        self.evidence = control.evidence;
+        self.cuts = Cuts::read(&control, &self.text, begin);
+        self.evidence = self.evidence_of_cuts();
+    }
+
+    /// What nothing but the settings says of how numbers are meant.
+    fn first_evidence(&self) -> Evidence {
+        Evidence {
+            inches: u32::from(self.limits.inch),
+            ..Evidence::default()
+        }
+    }
+
+    /// What all lines say of it.
+    fn evidence_of_cuts(&self) -> Evidence {
+        let mut evidence = self.first_evidence();
+        let of_cuts = self.cuts.iter().filter_map(|cut| cut.evidence.as_deref());
+        of_cuts.for_each(|own| evidence.add(own));
+        evidence
     }
 
     /// Reads all of the text.
@@ -315,19 +337,13 @@ impl Document {
     fn guess_reading(&mut self) {
         self.reading = Evidence::default().reading(&self.limits);
         for _ in 0..2 {
-            let mut run = Run::new(self.first_machine(), self.reading);
-            let mut evidence = Evidence {
-                inches: u32::from(self.limits.inch),
-                ..Evidence::default()
-            };
-            let mut lines = 0;
-            while lines < HEAD.min(self.text.line_count()) {
-                let before = run.after;
-                run = Run::new(before, self.reading);
-                lines += run
-                    .lines(self.sequence().from(lines, 0), HEAD - lines)
-                    .max(1);
+            let (mut machine, mut evidence) = (self.first_machine(), self.first_evidence());
+            let (mut line, end) = (0, HEAD.min(self.text.line_count()));
+            while line < end {
+                let mut run = Run::new(self.sequence(), machine, self.reading);
+                line = run.lines(line..end, 0, &mut |_| {});
                 evidence.add(&run.evidence);
+                machine = run.after;
             }
             self.reading = evidence.reading(&self.limits);
         }

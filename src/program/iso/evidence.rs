@@ -34,7 +34,7 @@ const LARGE_CORRECTION: i64 = 5;
 /// Beyond this many numbers without a point among others, the first stands for all.
 pub(crate) const FEW_BARE: u32 = 20;
 
-/// Counts over some lines of a program. They add up in any order, and can be taken out again.
+/// Counts over some lines of a program. They add up in any order.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Evidence {
     /// Coordinates, and those of them with a decimal point.
@@ -92,19 +92,18 @@ struct AgainstRules {
 
 impl AgainstRules {
     fn change(&mut self, other: &AgainstRules, change: fn(&mut u32, u32)) {
-        for (counts, more) in [
-            (&mut self.off, other.off),
-            (&mut self.far, other.far),
-            (&mut self.wide, other.wide),
-        ] {
-            each_of(counts, more, change);
-        }
+        let own = self
+            .off
+            .iter_mut()
+            .chain(&mut self.far)
+            .chain(&mut self.wide);
+        let its = other.off.iter().chain(&other.far).chain(&other.wide);
+        own.zip(its).for_each(|(count, by)| change(count, *by));
     }
 }
 
-fn each_of(counts: &mut [u32; 3], more: [u32; 3], change: fn(&mut u32, u32)) {
-    let pairs = counts.iter_mut().zip(more);
-    pairs.for_each(|(count, more)| change(count, more));
+fn add(count: &mut u32, more: u32) {
+    *count += more;
 }
 
 /// How many decimals the numbers with a point have.
@@ -145,18 +144,15 @@ const RULES: [CenterRule; 3] = [
 const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
 
 impl Arcs {
-    fn change(&mut self, other: &Arcs, change: fn(&mut u32, u32)) {
-        for (count, more) in [
-            (&mut self.all, other.all),
-            (&mut self.closed, other.closed),
-            (&mut self.beside, other.beside),
-        ] {
-            change(count, more);
-        }
-        each_of(&mut self.unclear, other.unclear, change);
-        each_of(&mut self.stated, other.stated, change);
-        self.of_all.change(&other.of_all, change);
-        self.of_beside.change(&other.of_beside, change);
+    fn add(&mut self, other: &Arcs) {
+        self.all += other.all;
+        self.closed += other.closed;
+        self.beside += other.beside;
+        let own = self.unclear.iter_mut().chain(&mut self.stated);
+        let its = other.unclear.iter().chain(&other.stated);
+        own.zip(its).for_each(|(count, more)| *count += more);
+        self.of_all.change(&other.of_all, add);
+        self.of_beside.change(&other.of_beside, add);
     }
 
     /// What speaks against a rule: misfits, centres far away, wide turns. Among full circles, which fit under any rule,
@@ -225,34 +221,20 @@ impl Arcs {
 impl Evidence {
     pub(crate) fn add(&mut self, other: &Evidence) {
         self.travel = self.travel.wrapping_add(other.travel);
-        self.change(other, |count, more| *count += more);
-    }
-
-    /// Takes out what has been added.
-    pub(crate) fn take(&mut self, other: &Evidence) {
-        self.travel = self.travel.wrapping_sub(other.travel);
-        self.change(other, |count, less| *count -= less);
-    }
-
-    fn change(&mut self, other: &Evidence, change: fn(&mut u32, u32)) {
-        for (count, by) in [
-            (&mut self.numbers, other.numbers),
-            (&mut self.with_point, other.with_point),
-            (&mut self.bare, other.bare),
-            (&mut self.long, other.long),
-            (&mut self.corrections, other.corrections),
-            (&mut self.at_least_small, other.at_least_small),
-            (&mut self.fine, other.fine),
-            (&mut self.inches, other.inches),
-            (&mut self.units, other.units),
-        ] {
-            change(count, by);
-        }
+        self.numbers += other.numbers;
+        self.with_point += other.with_point;
+        self.bare += other.bare;
+        self.long += other.long;
+        self.corrections += other.corrections;
+        self.at_least_small += other.at_least_small;
+        self.fine += other.fine;
+        self.inches += other.inches;
+        self.units += other.units;
         let own = self.places.iter_mut().chain(&mut self.ending_in_zero);
-        let others = other.places.into_iter().chain(other.ending_in_zero);
-        own.zip(others).for_each(|(count, by)| change(count, by));
-        self.absolute.change(&other.absolute, change);
-        self.incremental.change(&other.incremental, change);
+        let its = other.places.iter().chain(&other.ending_in_zero);
+        own.zip(its).for_each(|(count, more)| *count += more);
+        self.absolute.add(&other.absolute);
+        self.incremental.add(&other.incremental);
     }
 
     /// The most decimals of a number, up to 7.
@@ -334,7 +316,6 @@ impl Evidence {
             far,
             wide,
         };
-        let add = |count: &mut u32, more| *count += more;
         arcs.of_all.change(&own, add);
         let mut compared_centers = centers[..compared].iter().flatten();
         if arc.from == arc.to {

@@ -19,7 +19,7 @@ impl Code {
     }
 }
 
-impl Run {
+impl Run<'_> {
     /// What is said of a line that leads farther than any machine.
     pub(super) fn too_far(&self, block: &Block, range: (u32, u32)) -> Option<Finding> {
         let range = range.0 as usize..range.1 as usize;

@@ -234,7 +234,7 @@ impl Document {
 }
 
 /// The words of a line of its own that moves from where the machine stands to a place; `center` as I and J give it.
-pub(super) fn words_of_move(
+pub(crate) fn words_of_move(
     before: &Machine,
     style: &Style,
     motion: Motion,

@@ -3,7 +3,6 @@
 //! The meaning of numbers and arc centres differs from machine to machine and is found from the program itself, never
 //! assumed.
 
-mod ahead;
 pub(crate) mod block;
 mod code;
 mod contours;
@@ -21,7 +20,7 @@ pub(crate) mod labels;
 mod layout;
 mod leader;
 mod limits;
-mod line;
+pub(crate) mod line;
 pub(crate) mod machine;
 mod mill;
 pub(crate) mod moves;

@@ -2,15 +2,15 @@
 
 #![warn(clippy::indexing_slicing)]
 
-use super::ahead::Ahead;
-pub(crate) use super::ahead::Lines;
 use super::block::{Block, Note, Stop, read_under};
-use super::corner::{self, Turned, turned};
+use super::control::Sequence;
+use super::corner::{self, Looked, turned};
 use super::cut::{Cut, Definition, Foreign, Moves, Rare};
 use super::evidence::Evidence;
 use super::machine::{Behind, Machine, Trail, mark_of};
 use super::moves::{Course, Move, Place, Reading};
 use super::shape::Shape;
+use super::steps::Ran;
 use super::summary::{Spur, Summary, Tight};
 use crate::finding::{Fault, Finding, Rule};
 use crate::geometry::Side;
@@ -25,7 +25,10 @@ const LARGEST_CORRECTION: f64 = 5e6;
 pub(crate) type Placed = (Move, (u32, u32));
 
 /// Lines up to the end of a cut as they are run.
-pub(crate) struct Run {
+pub(crate) struct Run<'a> {
+    /// All lines, and the number of that which runs.
+    sequence: Sequence<'a>,
+    nth: usize,
     pub(crate) cut: Cut,
     pub(crate) rare: Rare,
     /// The state after the last of them.
@@ -39,13 +42,14 @@ pub(crate) struct Run {
     sum: Option<Summary>,
     tight: Vec<Tight>,
     spurs: Vec<Spur>,
-    /// The lines that were looked at beyond the last.
-    reach: usize,
+    looked: Looked,
 }
 
-impl Run {
-    pub(crate) fn new(before: Machine, reading: Reading) -> Run {
+impl<'a> Run<'a> {
+    pub(crate) fn new(sequence: Sequence<'a>, before: Machine, reading: Reading) -> Run<'a> {
         Run {
+            sequence,
+            nth: 0,
             cut: Cut::default(),
             rare: Rare::default(),
             after: before,
@@ -56,22 +60,35 @@ impl Run {
             sum: None,
             tight: Vec::new(),
             spurs: Vec::new(),
-            reach: 0,
+            looked: Looked::default(),
         }
     }
 
-    /// Runs lines, each with the byte at which it begins counted from that from which places count, up to the end of a cut,
-    /// at most `most`; returns how many.
-    pub(crate) fn lines<'a>(&mut self, mut lines: impl Lines<'a>, most: usize) -> usize {
-        let mut count = 0;
-        while count < most && !self.is_over() {
-            let Some((offset, line)) = lines.next() else {
-                break;
-            };
-            count += 1;
-            self.reach = self.reach.saturating_sub(1);
-            let known = self.rare.faults.len();
-            self.line(line, offset, &Ahead { lines: &lines });
+    /// Runs lines up to the end of a cut, and hands out what each does; places count from the byte `base`. Returns the
+    /// line behind the last.
+    pub(crate) fn lines(
+        &mut self,
+        lines: Range<usize>,
+        base: usize,
+        each: &mut dyn FnMut(&Ran<'_>),
+    ) -> usize {
+        self.nth = lines.start;
+        while self.nth < lines.end && !self.is_over() {
+            let line = self.sequence.line(self.nth);
+            let bytes = self.sequence.bytes(line);
+            let offset = self.sequence.text.line_start(line) - base;
+            self.looked.lines = self.looked.lines.saturating_sub(1);
+            let (known, variables) = (self.rare.faults.len(), self.after.variables);
+            if let Some((block, made)) = self.line(bytes, offset) {
+                each(&Ran {
+                    line,
+                    block: &block,
+                    variables,
+                    made,
+                    machine: &self.after,
+                });
+            }
+            self.nth += 1;
             if self.rare.faults.len() > known
                 && let Some(sum) = &mut self.sum
             {
@@ -79,7 +96,12 @@ impl Run {
             }
         }
         self.after.trail = Trail::default();
-        count
+        self.nth
+    }
+
+    /// The lines behind the one that runs.
+    fn behind(&self) -> impl Iterator<Item = &'a [u8]> + use<'a> {
+        self.sequence.behind(self.nth)
     }
 
     /// Something has ended moves that cut.
@@ -100,13 +122,16 @@ impl Run {
             tight,
             spurs,
             way,
-            reach,
+            looked,
+            evidence,
             ..
         } = self;
         cut.keep(rare);
+        cut.evidence = (evidence != Evidence::default()).then(|| Box::new(evidence));
+        cut.fixed |= looked.is_fixed;
         cut.cuts = sum.is_some();
         cut.places = places;
-        cut.ahead = reach as u32;
+        cut.ahead = looked.lines as u32;
         cut.ended = after.ended;
         cut.moves = sum.map(|sum| {
             Box::new(Moves {
@@ -190,11 +215,12 @@ impl Run {
         (block, leans, measures)
     }
 
-    fn line<'a>(&mut self, line: &[u8], offset: usize, ahead: &Ahead<'_, impl Lines<'a>>) {
+    /// Runs a line: its content, its move, and the corner that the control makes at its end; `None` where it does nothing.
+    fn line(&mut self, line: &[u8], offset: usize) -> Option<(Block, [Option<Move>; 2])> {
         let known_faults = self.rare.faults.len();
         let (block, leans, measures) = self.block(line, offset);
         if block.empty {
-            return;
+            return None;
         }
         let range = words_of(line, offset);
         self.cut.last_words = Some(range);
@@ -202,7 +228,7 @@ impl Run {
         self.cut.calls |= block.call.is_some();
         if self.after.ended {
             self.rare.behind_end.get_or_insert(range);
-            return;
+            return None;
         }
         let incremental = block.incremental.unwrap_or(self.after.incremental);
         self.evidence.numbers(&block, incremental);
@@ -223,6 +249,7 @@ impl Run {
             let sentence = say!(i_and_j_stand_beside_a_straight_cut);
             self.fault(Fault::said(Rule::CenterOnLine, sentence), range);
         }
+        let mut all = [None; 2];
         match steered {
             Some(steered) => {
                 // The move as its words say it: whether there is a corner before it depends on the
@@ -243,16 +270,10 @@ impl Run {
                 if is_free && !leans {
                     self.said(&block, &made, range);
                 }
-                let Turned {
-                    made,
-                    corner,
-                    is_fixed,
-                    ..
-                } = self.turned(made, range, ahead);
-                self.cut.fixed |= is_fixed;
-                self.made(made, range, torn, ahead);
-                if let Some(corner) = corner {
-                    self.made(corner, range, torn, ahead);
+                let (made, corner) = self.turned(made, range);
+                all = [Some(made), corner];
+                for made in all.into_iter().flatten() {
+                    self.made(made, range, torn);
                 }
             }
             None if self.after.torn => self.interrupt(false),
@@ -261,6 +282,7 @@ impl Run {
         if let Some(stop) = block.stop {
             self.stop(stop, steered.is_none() && behind == Behind::Stop, range);
         }
+        Some((block, all))
     }
 
     /// The number of a block, or where a program begins.
@@ -315,28 +337,24 @@ impl Run {
     }
 
     /// Makes the corner at the end of a move.
-    fn turned<'a>(
-        &mut self,
-        made: Move,
-        range: (u32, u32),
-        ahead: &Ahead<'_, impl Lines<'a>>,
-    ) -> Turned {
+    fn turned(&mut self, made: Move, range: (u32, u32)) -> (Move, Option<Move>) {
         if made.corner.is_none() {
-            return Turned {
-                made,
-                corner: None,
-                looked_at: 0,
-                is_fixed: false,
-            };
+            return (made, None);
         }
         self.cut.has_corners = true;
-        let turned = turned(made, &mut self.after, ahead.lines(), &self.reading);
-        self.reach = self.reach.max(turned.looked_at);
-        if turned.corner.is_none() {
+        let behind = self.behind();
+        let (made, corner) = turned(
+            made,
+            &mut self.after,
+            behind,
+            &self.reading,
+            &mut self.looked,
+        );
+        if corner.is_none() {
             let sentence = say!(the_word_for_a_corner_finds_none_here);
             self.fault(Fault::said(Rule::CornerWord, sentence), range);
         }
-        turned
+        (made, corner)
     }
 
     /// Whether a line repeats the last one with a move.
@@ -362,13 +380,7 @@ impl Run {
         }
     }
 
-    fn made<'a>(
-        &mut self,
-        made: Move,
-        range: (u32, u32),
-        torn: bool,
-        ahead: &Ahead<'_, impl Lines<'a>>,
-    ) {
+    fn made(&mut self, made: Move, range: (u32, u32), torn: bool) {
         self.cut.fixed |= !made.incremental || self.after.center.is_some();
         self.cut.steps += 1;
         if self.after.mills {
@@ -397,7 +409,7 @@ impl Run {
         if !made.goes_anywhere() {
             return;
         }
-        let odd = self.examine(&made, ahead);
+        let odd = self.examine(&made);
         self.after.trail.push(&made);
         let local = made.seen_from(self.begin);
         match &mut self.sum {
@@ -442,7 +454,7 @@ impl Run {
     }
 
     /// The odd joint, a spur or a reversed arc, at the beginning of a move.
-    fn examine<'a>(&mut self, made: &Move, ahead: &Ahead<'_, impl Lines<'a>>) -> Option<Fault> {
+    fn examine(&mut self, made: &Move) -> Option<Fault> {
         let reading = self.reading;
         let shape = |made: Move| Shape {
             made,
@@ -451,10 +463,10 @@ impl Run {
         let [before, came] = self.after.trail.last;
         let made = shape(made.at_origin());
         let joint = joint(came.map(shape), &shape(before?), made)?;
-        let next = corner::next_move(self.after, ahead.lines(), &reading, Move::goes_anywhere);
-        self.reach = self.reach.max(next.looked_at);
-        self.cut.fixed |= next.is_fixed;
-        let next = next.made.map(|next| shape(next.at_origin()));
+        let behind = self.behind();
+        let wanted = Move::goes_anywhere;
+        let next = corner::next_move(self.after, behind, &reading, wanted, &mut self.looked);
+        let next = next.map(|next| shape(next.at_origin()));
         joint.fault(next.as_ref())
     }
 }

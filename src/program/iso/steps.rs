@@ -1,11 +1,10 @@
 //! A running ISO program: the moves of its lines, the state at a line, and the cut in progress there.
 
-use super::block::{Block, Stop, read_under};
-use super::corner::turned;
+use super::block::{Block, Stop};
 use super::document::Document;
 use super::machine::Machine;
 use super::moves::{Move, Place, micrometres};
-use super::read::{Run, words_of};
+use super::read::Run;
 use super::variables::Variables;
 use crate::finding::{Rule, Severity};
 use crate::geometry::Point;
@@ -13,7 +12,6 @@ use crate::program::path::{Kind, Step, Trace, Writing};
 use crate::program::report::place_of;
 use crate::program::steps::{self, Program};
 use crate::text::SourceText;
-use std::ops::Range;
 
 /// A cut that has begun before some line and may go on in it, nm.
 #[derive(Clone, Copy, Debug)]
@@ -28,13 +26,11 @@ pub(crate) struct BegunCut {
 /// A line that runs, and its effect.
 pub(super) struct Ran<'a> {
     pub(super) line: usize,
-    /// Its words, bytes of the text.
-    words: Range<usize>,
     pub(super) block: &'a Block,
     /// What the lines before it say of the control's variables.
     pub(super) variables: Variables,
     /// Its move, and the corner that the control makes at its end.
-    made: [Option<Move>; 2],
+    pub(super) made: [Option<Move>; 2],
     /// The state after it.
     pub(super) machine: &'a Machine,
 }
@@ -58,37 +54,7 @@ impl Document {
 
     /// Hands out the lines of a cut that run.
     pub(super) fn run_lines(&self, cut: usize, each: &mut dyn FnMut(&Ran<'_>)) {
-        let mut machine = self.cuts.state_before(cut).machine();
-        let sequence = self.sequence();
-        for nth in self.cuts.lines(cut) {
-            let line = sequence.line(nth);
-            if machine.ended {
-                return;
-            }
-            let range = self.text().line_range(line);
-            let bytes = self.line_bytes(line);
-            let variables = machine.variables;
-            let block = read_under(&mut machine.variables, bytes, range.start, |_| {});
-            if block.empty {
-                continue;
-            }
-            let (made, corner) = match machine.run(&block, self.reading()) {
-                Some(made) => {
-                    let (made, corner) = self.turned(nth, made, &mut machine);
-                    (Some(made), corner)
-                }
-                None => (None, None),
-            };
-            let words = words_of(bytes, range.start);
-            each(&Ran {
-                line,
-                words: words.0 as usize..words.1 as usize,
-                block: &block,
-                variables,
-                made: [made, corner],
-                machine: &machine,
-            });
-        }
+        self.run_again(cut, self.cuts.lines(cut).end, each);
     }
 
     /// Hands out the moves in the order in which they run, each with its line and the state after it.
@@ -100,16 +66,6 @@ impl Document {
                 }
             });
         }
-    }
-
-    /// A move up to where the corner at its end begins, and that corner: the line that makes it is one of those that run.
-    fn turned(&self, nth: usize, made: Move, machine: &mut Machine) -> (Move, Option<Move>) {
-        if made.corner.is_none() {
-            return (made, None);
-        }
-        let behind = self.sequence().from(nth + 1, 0).map(|(_, line)| line);
-        let turned = turned(made, machine, behind, self.reading());
-        (turned.made, turned.corner)
     }
 
     /// True where the control makes corners of its own.
@@ -139,7 +95,7 @@ impl Document {
         self.begun(self.run_up_to(line, true)?)
     }
 
-    fn begun(&self, (cut, run): (usize, Run)) -> Option<BegunCut> {
+    fn begun(&self, (cut, run): (usize, Run<'_>)) -> Option<BegunCut> {
         let at = self.cuts.state_before(cut).at;
         let sum = run.finished().0.sum()?.shifted(at);
         let [first, _] = sum.first;
@@ -225,7 +181,7 @@ impl Program for Document {
         self.run_lines(cut, &mut |ran| {
             let mut said = |step| {
                 each(Step {
-                    range: ran.words.clone(),
+                    range: self.words_of(ran.line),
                     line: ran.line,
                     number: ran.block.number,
                     contour: *contour,
@@ -242,9 +198,10 @@ impl Program for Document {
                 Stop::Pause => Kind::Pause,
             };
             said(Step::stop(kind, micrometres(ran.machine.at)));
+            let start = self.words_of(ran.line).start;
             let is_last = self.cuts[cut]
                 .stop
-                .is_some_and(|(_, byte)| self.cuts.byte(cut) + byte as usize == ran.words.start);
+                .is_some_and(|(_, byte)| self.cuts.byte(cut) + byte as usize == start);
             let goes_on = is_last && self.contours.goes_on(cut);
             *contour += usize::from(stop == Stop::Pause && !goes_on);
         });

@@ -96,11 +96,11 @@ impl Document {
     pub fn read_with(bytes: Vec<u8>, settings: &Effective) -> Document {
         let text = SourceText::new(bytes);
         let (words, limits) = (OwnWords::of(settings), Limits::of(settings));
-        let mut reader = Lines {
+        let reader = Lines {
             words: words.words(),
             limits: &limits,
         };
-        let cuts = Cuts::read(&mut reader, &text, ());
+        let cuts = Cuts::read(&reader, &text, ());
         let mut document = Document {
             text,
             words,
@@ -136,12 +136,12 @@ impl Document {
     /// Replaces a range of bytes and rereads what it touched. Returns the first cut in which the machine may stand
     /// elsewhere than before.
     pub fn edit(&mut self, range: Range<usize>, replacement: &str) -> usize {
-        let mut reader = Lines {
+        let reader = Lines {
             words: self.words.words(),
             limits: &self.limits,
         };
         let edit = (range, replacement);
-        let first = self.cuts.edit(&mut reader, &mut self.text, edit);
+        let first = self.cuts.edit(&reader, &mut self.text, edit);
         let taken = std::mem::take(&mut self.view.taken);
         let begin = self.view.begins.first().copied();
         self.judge_again();
@@ -202,7 +202,7 @@ impl Reader for Lines<'_> {
         text.line_start(line)
     }
 
-    fn run(&mut self, text: &SourceText, first: usize, (): &()) -> (Self::Begun, usize, ()) {
+    fn run(&self, text: &SourceText, first: usize, (): &()) -> (Self::Begun, usize, ()) {
         let (cuts, behind) = cut::read(text, first, &self.words, self.limits);
         (cuts, behind, ())
     }
