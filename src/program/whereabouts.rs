@@ -19,8 +19,6 @@ pub(crate) struct Whereabouts<'a> {
     lost: Option<usize>,
     cut: Option<usize>,
     steps: Vec<Step>,
-    /// The last cut before each one that has steps; none before that is known to have some.
-    stepped: Option<Vec<Option<usize>>>,
     /// Where the machine starts; only where there are steps.
     begin: Option<Option<Point>>,
 }
@@ -32,7 +30,6 @@ impl<'a> Whereabouts<'a> {
             lost: None,
             cut: None,
             steps: Vec::new(),
-            stepped: None,
             begin: None,
         }
     }
@@ -62,7 +59,7 @@ impl<'a> Whereabouts<'a> {
         let own = self.steps_of(cut).iter().take_while(is_before).last();
         let mut before = own.map(|step| step.end);
         if before.is_none() {
-            before = match self.stepped_before(cut) {
+            before = match (0..cut).rev().find(|cut| program.has_steps(*cut)) {
                 Some(earlier) => self.steps_of(earlier).last().map(|step| step.end),
                 None => *self.begin.get_or_insert_with(|| {
                     let mut all = 0..program.cut_count();
@@ -75,21 +72,6 @@ impl<'a> Whereabouts<'a> {
             start: in_mm(before?),
             end: None,
         })
-    }
-
-    fn stepped_before(&mut self, cut: usize) -> Option<usize> {
-        let program = self.program;
-        let found = || {
-            let mut last = None;
-            let before = |cut| {
-                let before = last;
-                last = program.has_steps(cut).then_some(cut).or(last);
-                before
-            };
-            (0..program.cut_count()).map(before).collect()
-        };
-        let before = self.stepped.get_or_insert_with(found);
-        before.get(cut).copied().flatten()
     }
 
     fn steps_of(&mut self, cut: usize) -> &[Step] {

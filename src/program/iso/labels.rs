@@ -50,17 +50,9 @@ impl Document {
 
     /// The last block number before a line, and the step of the numbers there.
     pub(crate) fn numbers_before(&self, line: usize) -> Option<(u32, u32)> {
-        Document::last_numbers(line, |line| self.block(line).number)
-    }
-
-    /// The same, with the numbers of the lines supplied.
-    pub(super) fn last_numbers(
-        line: usize,
-        number_of: impl Fn(usize) -> Option<u32>,
-    ) -> Option<(u32, u32)> {
         let mut numbers = (line.saturating_sub(LOOKED_BACK)..line)
             .rev()
-            .filter_map(number_of)
+            .filter_map(|line| self.block(line).number)
             .filter(|number| *number < u32::MAX);
         let last = numbers.next()?;
         let step = numbers.next().and_then(|before| step(before, last));

@@ -168,6 +168,20 @@ impl Move {
         })
     }
 
+    /// The coordinate along an axis, nm, of the centre that has the other one of `center` and is as far from both ends;
+    /// `None` where the ends do not determine it.
+    pub(crate) fn center_along(&self, axis: usize, center: Place) -> Option<i64> {
+        let end = apart(self.to, self.from).map(|length| length as f64);
+        let other = 1 - axis;
+        if end[axis].abs() < MICROMETRE as f64 {
+            return None;
+        }
+        let square = end[0] * end[0] + end[1] * end[1];
+        let across = apart(center, self.from)[other] as f64 * end[other];
+        let place = (square / 2.0 - across) / end[axis];
+        (place.abs() < 1e13).then(|| self.from[axis].wrapping_add(place.round() as i64))
+    }
+
     /// The start's distance from the centre minus that of the end under a rule, nm. 0 where there is no centre.
     pub(crate) fn difference(&self, rule: CenterRule) -> f64 {
         self.center(rule).map_or(0.0, |center| {

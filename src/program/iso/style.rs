@@ -2,6 +2,10 @@
 
 mod of_document;
 
+use super::moves::{Place, micrometres};
+use crate::geometry::{Arc, Point};
+use crate::program::grid::{best_center, snap};
+
 /// How lengths are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Style {
@@ -43,6 +47,16 @@ impl Style {
         } else {
             length.wrapping_add(half)
         }) / self.step()
+    }
+
+    /// The centre, µm, of an arc between two places as it can be written: as far from both as possible.
+    pub(crate) fn center(&self, center: Point, from: Place, to: Place) -> Option<Place> {
+        let step = self.step();
+        let scale = 1e3 / step as f64;
+        let [from, to] = [from, to].map(|place| micrometres(place) * scale);
+        let arc = Arc::about(center * scale, from, to, true);
+        let node = best_center(&arc, snap(from)?, snap(to)?);
+        Some([node.x.checked_mul(step)?, node.y.checked_mul(step)?])
     }
 
     /// The number of a length in nm.

@@ -21,11 +21,24 @@ impl fmt::Display for Offset {
 impl Document {
     /// The values that the program puts into the table.
     pub(super) fn stated_table(&self) -> Table {
+        self.filled_table(|_, _, _| {})
+    }
+
+    /// The same; hands out each value that is not known, with its cut.
+    pub(super) fn filled_table(
+        &self,
+        mut unknown: impl FnMut(usize, &Definition, NoValue),
+    ) -> Table {
         let mut table = Table::default();
-        for definition in self.cuts.iter().flat_map(|cut| &cut.rare().definitions) {
-            match value(&table, definition, self.reading()) {
-                Ok(value) => _ = table.insert(definition.offset, value),
-                Err(_) => _ = table.remove(&definition.offset),
+        for (cut, own) in self.cuts.iter().enumerate() {
+            for definition in &own.rare().definitions {
+                match value(&table, definition, self.reading()) {
+                    Ok(value) => _ = table.insert(definition.offset, value),
+                    Err(why) => {
+                        table.remove(&definition.offset);
+                        unknown(cut, definition, why);
+                    }
+                }
             }
         }
         table
@@ -107,11 +120,7 @@ pub(super) enum NoValue {
 }
 
 /// The value for the table, nm.
-pub(super) fn value(
-    table: &Table,
-    definition: &Definition,
-    reading: &Reading,
-) -> Result<i64, NoValue> {
+fn value(table: &Table, definition: &Definition, reading: &Reading) -> Result<i64, NoValue> {
     definition.terms.iter().try_fold(0_i64, |sum, term| {
         let value = match term.value {
             Value::Number(number) => reading

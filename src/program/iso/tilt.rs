@@ -6,11 +6,9 @@
 //! the workpiece's.
 
 mod angle;
-mod stand;
 mod words;
 
 pub(crate) use angle::{Doubtful, STEEPEST};
-pub(super) use stand::Stand;
 pub(super) use words::{Upper, upper_words};
 
 use super::block::{Offset, read_line};
@@ -123,7 +121,7 @@ impl Document {
         if !foreign.any(|word| word.code.tilts()) {
             return None;
         }
-        let mut reader = Reader::new(self.reading(), self.limits.thickness);
+        let mut reader = Reader::new(*self.reading(), self.limits.thickness);
         let mut moves: Vec<Leaning> = Vec::new();
         for cut in 0..self.cuts.len() {
             self.run_lines(cut, &mut |ran| {
@@ -145,8 +143,9 @@ impl Document {
 }
 
 /// The state of everything that tilts the wire.
-struct Reader<'a> {
-    reading: &'a Reading,
+#[derive(Default)]
+pub(super) struct Reader {
+    reading: Reading,
     thickness: Option<f64>,
     /// The side to which the wire leans, and the line that set it.
     side: Option<(Side, usize)>,
@@ -164,24 +163,23 @@ struct Reader<'a> {
     doubtful: Option<Doubtful>,
 }
 
-impl<'a> Reader<'a> {
-    fn new(reading: &'a Reading, thickness: Option<f64>) -> Reader<'a> {
+impl Reader {
+    pub(super) fn new(reading: Reading, thickness: Option<f64>) -> Reader {
         Reader {
             reading,
             thickness,
-            side: None,
-            angle: None,
-            planes: [None; 2],
-            apart: [0, 0],
-            upper: None,
-            own: None,
-            unknown: None,
-            doubtful: None,
+            ..Reader::default()
         }
     }
 
+    /// True where the wire leans on a move after the lines so far.
+    pub(super) fn leans(&self) -> bool {
+        let is_aside = self.side.is_some() && self.angle != Some(0.0);
+        is_aside || self.apart != [0, 0] || self.upper.is_some()
+    }
+
     /// Executes a line; `machine` is the state after it.
-    fn read(&mut self, line: usize, bytes: &[u8], machine: &Machine) {
+    pub(super) fn read(&mut self, line: usize, bytes: &[u8], machine: &Machine) {
         self.own = None;
         let said = Words::of(bytes);
         let switches = said.side.is_some() || said.upright;
@@ -232,8 +230,8 @@ impl<'a> Reader<'a> {
             ..*machine
         };
         self.own = upper
-            .run(&block, self.reading)
-            .map(|made| made.segment(self.reading));
+            .run(&block, &self.reading)
+            .map(|made| made.segment(&self.reading));
         self.upper = Some(upper);
     }
 
@@ -242,7 +240,7 @@ impl<'a> Reader<'a> {
         let lean = self.lean(made);
         Leaning {
             line,
-            lower: made.segment(self.reading),
+            lower: made.segment(&self.reading),
             is_cut: made.is_cut(),
             side: made.side,
             offset: made.offset,
@@ -439,4 +437,31 @@ fn tilted_arc(one: &Leaning) -> Option<TiltedArc> {
         is_inside: one.side.is_some_and(|side| (side == Side::Left) == to_left),
         offset: one.offset,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_tilt_the_wire_until_others_stand_it_upright() {
+        for (lines, leans) in [
+            (&["G51 A3."][..], true),
+            (&["G52 T2."], true),
+            (&["G51"], true),
+            (&["G141 A1."], true),
+            (&["G51 A3.", "G50"], false),
+            (&["G51 A0."], false),
+            (&["G50"], false),
+            (&["U1. V0."], true),
+            (&["U1.", "U0."], false),
+            (&["T84", "M80", "A3."], false),
+            (&["X0. Y0. : X1. Y0."], true),
+        ] {
+            let mut reader = Reader::default();
+            let lines = lines.iter().map(|line| line.as_bytes());
+            lines.for_each(|line| reader.read(0, line, &Machine::default()));
+            assert_eq!(reader.leans(), leans);
+        }
+    }
 }

@@ -268,7 +268,7 @@ impl<'a> Lines<'a> {
             is_switched_off: false,
             goes_on: false,
             pauses: 0,
-            leading: Leading::default(),
+            leading: Leading::of(reading),
             number: 0,
             motion: None,
             made: ProvedProgram::default(),

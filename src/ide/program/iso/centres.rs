@@ -1,10 +1,9 @@
 //! The centre of an arc from its end.
 
 use super::completion::Offer;
-use crate::geometry::{Arc, Point, left_normal};
-use crate::program::grid::{best_center, snap};
+use crate::geometry::{Point, left_normal};
 use crate::program::iso::block::Motion;
-use crate::program::iso::moves::{CenterRule, Course, Move, Place, Reading, added, micrometres};
+use crate::program::iso::moves::{Course, Move, Reading, micrometres, to_center};
 use crate::program::iso::steps::BegunCut;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -29,38 +28,28 @@ impl Offer<'_> {
             return;
         }
         let reading = *self.document.reading();
-        let zero = self.machine.zero;
         let rule = reading.rule(made.incremental);
-        let coordinate = |center: Place, axis: usize| match rule {
-            CenterRule::StartToCenter => center[axis].wrapping_sub(made.from[axis]),
-            CenterRule::CenterToStart => made.from[axis].wrapping_sub(center[axis]),
-            CenterRule::Absolute => center[axis].wrapping_sub(zero[axis]),
-        };
-        let mut candidates =
-            candidates(&made, self.document.begun_cut(self.line).as_ref(), &reading);
-        let given = [block.i, block.j]
-            .map(|number| number.map(|number| reading.length(number, self.machine.inch)));
-        if let Some(axis) = given.iter().position(Option::is_some) {
+        let given = [block.i.is_some(), block.j.is_some()];
+        let candidates = match given.iter().position(|is_given| *is_given) {
             // If one of them is given, the other follows from it.
-            let place = given[axis].map(|length| match rule {
-                CenterRule::StartToCenter => made.from[axis].wrapping_add(length),
-                CenterRule::CenterToStart => made.from[axis].wrapping_sub(length),
-                CenterRule::Absolute => zero[axis].wrapping_add(length),
-            });
-            candidates = place
-                .and_then(|place| equidistant(&made, axis, place))
-                .into_iter()
-                .collect();
-        }
+            Some(axis) => {
+                let followed = made.center(rule).and_then(|mut center| {
+                    center[1 - axis] = made.center_along(1 - axis, center)?;
+                    Some((micrometres(center), ""))
+                });
+                followed.into_iter().collect()
+            }
+            None => candidates(&made, self.document.begun_cut(self.line).as_ref(), &reading),
+        };
         for (center, about) in candidates {
-            let Some(center) = self.on_grid(&made, center) else {
+            let Some(center) = self.style.center(center, made.from, made.to) else {
                 continue;
             };
-            let [i, j] = [coordinate(center, 0), coordinate(center, 1)]
+            let [i, j] = to_center(rule, center, made.from, self.machine.zero)
                 .map(|length| self.style.number(length));
             let text = match given {
-                [Some(_), _] => format!("J{j}"),
-                [_, Some(_)] => format!("I{i}"),
+                [true, _] => format!("J{j}"),
+                [_, true] => format!("I{i}"),
                 _ => format!("I{i} J{j}"),
             };
             // I and J replace R, at which the cursor is.
@@ -70,21 +59,6 @@ impl Offer<'_> {
                 self.push(text, about);
             }
         }
-    }
-
-    /// The centre that can be written, as equally far from both ends as possible.
-    fn on_grid(&self, made: &Move, center: Point) -> Option<Place> {
-        let step = self.style.step();
-        let scale = 1e3 / step as f64;
-        let [from, to] = [made.from, made.to].map(|place| snap(micrometres(place) * scale));
-        let arc = Arc::about(
-            center * scale,
-            micrometres(made.from) * scale,
-            micrometres(made.to) * scale,
-            true,
-        );
-        let node = best_center(&arc, from?, to?);
-        Some([node.x.checked_mul(step)?, node.y.checked_mul(step)?])
     }
 }
 
@@ -127,25 +101,4 @@ fn candidates(
         ));
     }
     found
-}
-
-/// The centre that is equally far from both ends of an arc, with one coordinate given in nm.
-fn equidistant(made: &Move, axis: usize, place: i64) -> Option<(Point, &'static str)> {
-    let other = 1 - axis;
-    let origin = made.from;
-    let chord = added(made.to, origin.map(i64::wrapping_neg)).map(|length| length as f64);
-    let along = place.wrapping_sub(origin[axis]) as f64;
-    if chord[other] == 0.0 {
-        return None;
-    }
-    let across =
-        ((chord[0] * chord[0] + chord[1] * chord[1]) / 2.0 - chord[axis] * along) / chord[other];
-    let mut center = [0.0; 2];
-    center[axis] = along;
-    center[other] = across;
-    let start = micrometres(origin);
-    Some((
-        Point::new(start.x + center[0] / 1e3, start.y + center[1] / 1e3),
-        "",
-    ))
 }

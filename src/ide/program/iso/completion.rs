@@ -6,6 +6,7 @@ use super::vocabulary::known;
 use crate::ide::{Completion, CompletionKind};
 use crate::program::iso::block::{Block, Compensation, Motion, read_line};
 use crate::program::iso::document::Document;
+use crate::program::iso::line::words_of_move;
 use crate::program::iso::machine::Machine;
 use crate::program::iso::moves::Move;
 use crate::program::iso::plain::{words, words_in};
@@ -312,22 +313,17 @@ impl Offer<'_> {
         let Some(BegunCut { from, to, .. }) = self.document.begun_cut(self.line) else {
             return;
         };
-        let Machine { at, zero, lost, .. } = self.machine;
-        let incremental = self.typed.block.incremental;
-        let base = match incremental.unwrap_or(self.machine.incremental) {
-            true => at,
-            false => zero,
-        };
+        let mut machine = self.machine;
+        machine.incremental = self.typed.block.incremental.unwrap_or(machine.incremental);
         for (target, about) in [
             (from, say!(line_back_to_where_the_cut_began)),
             (to, say!(line_to_the_end_of_the_way_in)),
         ] {
-            if target == at || lost != [false, false] {
+            if target == machine.at || machine.lost != [false, false] {
                 continue;
             }
-            let [x, y] = [0, 1].map(|axis| target[axis].wrapping_sub(base[axis]));
-            let (x, y) = (self.style.number(x), self.style.number(y));
-            let text = format!("{motion}X{x} Y{y}");
+            let words = words_of_move(&machine, &self.style, Motion::Line, target, None);
+            let text = format!("{motion}{}", words[1..].join(" "));
             // Checked by running it: the line leads there.
             let is_there = |made: Move| {
                 (0..2).all(|axis| (made.to[axis] - target[axis]).abs() <= self.style.step())

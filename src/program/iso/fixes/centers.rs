@@ -5,8 +5,7 @@ use super::super::line::{Bent, Target, line_to};
 use super::super::moves::{Bend, CenterRule, Move, Place, added, apart, distance, micrometres};
 use super::super::style::Style;
 use crate::finding::{CenterFix, FixKind, TextFix};
-use crate::geometry::{Arc, equally_far};
-use crate::program::grid::{best_center, snap};
+use crate::geometry::equally_far;
 use std::ops::Range;
 
 /// Centres that fit the ends of an arc: by another convention, a lost sign or a swap of I and J, else the nearest one.
@@ -80,12 +79,9 @@ fn nearest_center(
     own: Place,
     inch: bool,
 ) -> Option<(Place, f64)> {
-    let step = Style::of(document, inch).step();
-    let scale = 1e3 / step as f64;
-    let [from, to, center] = [made.from, made.to, own].map(|place| micrometres(place) * scale);
+    let [from, to, center] = [made.from, made.to, own].map(micrometres);
     let center = equally_far(center, from, to)?;
-    let node = best_center(&Arc::about(center, from, to, true), snap(from)?, snap(to)?);
-    let place = [node.x.checked_mul(step)?, node.y.checked_mul(step)?];
+    let place = Style::of(document, inch).center(center, made.from, made.to)?;
     let moved = distance(place, own);
     // Beyond that it is another arc, not a slip.
     (moved <= distance(place, made.from)).then_some((place, moved / 1e6))

@@ -3,12 +3,11 @@
 use super::scaled::{planes, positions};
 use super::turned::{swapped_sides, turned_words};
 use crate::finding::{Detail, Place as Where, Severity};
-use crate::geometry::{Arc, Segment};
-use crate::program::grid::{best_center, snap};
+use crate::geometry::Segment;
 use crate::program::iso::block::{Block, Motion};
 use crate::program::iso::document::Document;
 use crate::program::iso::line::{Bent, Line, MIDDLE_TOLERANCE, Target, prove, push_changed};
-use crate::program::iso::moves::{Bend, MICROMETRE, Move as Made, Place, Reading, micrometres};
+use crate::program::iso::moves::{Bend, MICROMETRE, Move as Made, Reading, micrometres};
 use crate::program::iso::plain::words_in;
 use crate::program::iso::style::Style;
 use crate::program::iso::taper::{Words as Taper, refuse, refuse_anywhere, refuse_where_it_leans};
@@ -84,10 +83,11 @@ impl<'a> Words<'a> {
             (Bent::Center(center), Numbers::Turned(transform)) => {
                 Bent::Center(transform.of_place(center))
             }
-            (Bent::Center(center), Numbers::Fitted) => Bent::Center(
-                self.center(meant, center, factor)
-                    .ok_or(say!(the_program_would_run_too_far_out))?,
-            ),
+            (Bent::Center(center), Numbers::Fitted) => {
+                let center = micrometres(center) * factor;
+                let center = self.style(meant.like).center(center, meant.from, meant.to);
+                Bent::Center(center.ok_or(say!(the_program_would_run_too_far_out))?)
+            }
             (Bent::Radius(radius), Numbers::Fitted) => {
                 Bent::Radius(self.radius(meant, (radius as f64 * factor).round() as i64)?)
             }
@@ -99,16 +99,6 @@ impl<'a> Words<'a> {
             bend,
             side: meant.side,
         })
-    }
-
-    /// The centre of a scaled arc, in the program's steps, that is most nearly as far from both ends.
-    fn center(&self, meant: &Move, center: Place, factor: f64) -> Option<Place> {
-        let step = self.step(meant.like);
-        let scale = 1e3 / step as f64;
-        let [from, to] = [meant.from, meant.to].map(|end| micrometres(end) * scale);
-        let arc = Arc::about(micrometres(center) * factor * scale, from, to, true);
-        let node = best_center(&arc, snap(from)?, snap(to)?);
-        Some([node.x.checked_mul(step)?, node.y.checked_mul(step)?])
     }
 
     /// The radius in the program's steps, if the arc then runs along its piece: near a half turn one step of R moves its

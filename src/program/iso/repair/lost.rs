@@ -5,7 +5,6 @@ use super::line::Line;
 use super::suspect::{Change, Slip, Suspect};
 use crate::geometry::{Point, Segment, Vector, left_normal};
 use crate::program::iso::block::Motion;
-use crate::program::iso::document::Document;
 use crate::program::iso::line::{with_word, words_of_move};
 use crate::program::iso::machine::Machine;
 use crate::program::iso::moves::{
@@ -74,10 +73,10 @@ impl Suspect<'_> {
     /// The number of a block before a line, where there is room for one.
     fn free_number(&self, line: usize) -> Option<u32> {
         let document = self.way.document;
-        let number_of = |line: usize| document.block(line).number;
-        let (last, step) = Document::last_numbers(line, number_of)?;
+        let (last, step) = document.numbers_before(line)?;
         let number = last.checked_add(step)?;
-        let next = number_of(line).or_else(|| document.number_behind(line));
+        let own = document.block(line).number;
+        let next = own.or_else(|| document.number_behind(line));
         next.is_none_or(|next| next > number).then_some(number)
     }
 

@@ -5,7 +5,7 @@ use crate::program::iso::block::Motion;
 use crate::program::iso::document::Document;
 use crate::program::iso::line::with_word;
 use crate::program::iso::machine::Machine;
-use crate::program::iso::moves::{Bend, Move, Place, to_center};
+use crate::program::iso::moves::{Move, Place, to_center};
 use crate::program::iso::plain::words_in;
 use crate::program::iso::style::Style;
 use crate::program::iso::word::{Number, Token, WordFault};
@@ -244,11 +244,8 @@ impl Words<'_> {
         let Some(center) = made.center(rule) else {
             return;
         };
-        let Bend::Center { .. } = made.bend else {
-            return;
-        };
         for (axis, letter) in [(0, b'I'), (1, b'J')] {
-            if let Some(place) = solved(made, center, axis) {
+            if let Some(place) = made.center_along(axis, center) {
                 let words = to_center(rule, [place; 2], made.from, self.before.zero);
                 self.set(letter, words[axis], take);
             }
@@ -283,21 +280,6 @@ impl Words<'_> {
         let text = format!("{space}{meant}");
         self.rewrite(at..at, &text, Sort::Calculated, CALCULATED - 1, take);
     }
-}
-
-/// The coordinate of an arc's centre along an axis, given the other one in `center`; `None` where the ends do not
-/// determine it.
-fn solved(made: &Move, center: Place, axis: usize) -> Option<i64> {
-    let other = 1 - axis;
-    let at = |place: Place, axis: usize| place[axis].wrapping_sub(made.from[axis]) as f64;
-    let end = [at(made.to, 0), at(made.to, 1)];
-    let along = end[axis];
-    if along.abs() < 1_000.0 {
-        return None;
-    }
-    let square = end[0] * end[0] + end[1] * end[1];
-    let place = (square / 2.0 - at(center, other) * end[other]) / along;
-    (place.abs() < 1e13).then(|| made.from[axis].wrapping_add(place.round() as i64))
 }
 
 /// A plain number.

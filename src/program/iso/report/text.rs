@@ -2,12 +2,11 @@
 
 use super::super::block::{Note, Stop, read_under};
 use super::super::evidence::FEW_BARE;
-use super::super::limits::Table;
 use super::super::moves::{FARTHEST_MM, micrometres};
 use super::super::numbers::number_word;
 use super::super::order::MOST_CALLS;
 use super::super::plain::{word_at, words_at};
-use super::super::table::{NoValue, value};
+use super::super::table::NoValue;
 use super::Report;
 use super::passes::SWITCH_REACH;
 use crate::finding::{Detail, Fault, NotJudged, Rule, Severity};
@@ -146,27 +145,19 @@ impl Report<'_> {
 
     /// Values for the table that depend on places which the program does not fill, or are beyond any machine.
     pub(super) fn definitions(&mut self) {
-        let mut table = Table::default();
-        for (index, cut) in self.document.cuts.iter().enumerate() {
-            for definition in &cut.rare().definitions {
-                match value(&table, definition, self.reading) {
-                    Ok(value) => _ = table.insert(definition.offset, value),
-                    Err(why) => {
-                        table.remove(&definition.offset);
-                        let range = self.document.bytes_in(index, definition.range);
-                        let word = self.shown(&range);
-                        let fault = match why {
-                            NoValue::Unfilled => Fault::UnknownValue { word },
-                            NoValue::TooFar => {
-                                let sentence = say!(word_beyond_any_machine, word, FARTHEST_MM);
-                                Fault::said(Rule::TooManyDigits, sentence)
-                            }
-                        };
-                        self.add(range, fault);
-                    }
+        let document = self.document;
+        document.filled_table(|cut, definition, why| {
+            let range = document.bytes_in(cut, definition.range);
+            let word = self.shown(&range);
+            let fault = match why {
+                NoValue::Unfilled => Fault::UnknownValue { word },
+                NoValue::TooFar => {
+                    let sentence = say!(word_beyond_any_machine, word, FARTHEST_MM);
+                    Fault::said(Rule::TooManyDigits, sentence)
                 }
-            }
-        }
+            };
+            self.add(range, fault);
+        });
     }
 
     /// Numbers without a decimal point among numbers with one: each where they are few, else the first.

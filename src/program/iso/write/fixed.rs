@@ -5,21 +5,30 @@ use super::Lines;
 use crate::finding::Side;
 use crate::program::grid::Node;
 use crate::program::iso::block::{Note, Stop, read_line};
-use crate::program::iso::moves::micrometres;
+use crate::program::iso::moves::{Reading, micrometres};
 use crate::program::iso::read::words_of;
-use crate::program::iso::tilt::Stand;
+use crate::program::iso::tilt::Reader;
 use crate::program::iso::unfollowed::Frame;
 use crate::program::write::Proved;
 
 /// What the lines of a profile so far do to the moves after them.
 #[derive(Default)]
 pub(super) struct Leading {
-    stand: Stand,
+    upper: Reader,
     /// The line after which the wire leans.
     leans: Option<String>,
     frame: Frame,
     /// The line after which moves lead elsewhere, and the word of it that does that.
     turns: Option<(String, String)>,
+}
+
+impl Leading {
+    pub(super) fn of(reading: Reading) -> Leading {
+        Leading {
+            upper: Reader::new(reading, None),
+            ..Leading::default()
+        }
+    }
 }
 
 impl Lines<'_> {
@@ -85,7 +94,8 @@ impl Lines<'_> {
                 self.motion = None;
             }
             let leading = &mut self.leading;
-            match leading.stand.leans_after(text.as_bytes()) {
+            leading.upper.read(0, text.as_bytes(), &self.machine);
+            match leading.upper.leans() {
                 true => drop(leading.leans.get_or_insert_with(|| text.clone())),
                 false => leading.leans = None,
             }
