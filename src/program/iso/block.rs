@@ -168,7 +168,7 @@ impl Note {
     /// A value for a place of the control's table, where it is one.
     fn of_table(letter: u8, place: Number, terms: Option<Vec<Term>>, range: Range<usize>) -> Note {
         let terms = terms.filter(|_| matches!(letter, b'D' | b'H'));
-        match index(place).zip(terms) {
+        match place.index().zip(terms) {
             Some((index, terms)) => Note::Definition {
                 offset: Offset { letter, index },
                 terms,
@@ -352,9 +352,9 @@ impl Reader {
                 Some(99) => block.returns = true,
                 _ => note(Note::foreign(letter, number, range)),
             },
-            b'P' => self.p = Some((index(number), range)),
+            b'P' => self.p = Some((number.index(), range)),
             // Of a number that counts nothing the machine alone knows the meaning.
-            b'N' | b'O' | b'D' | b'H' | b'L' => match index(number) {
+            b'N' | b'O' | b'D' | b'H' | b'L' => match number.index() {
                 Some(index) => block.count(letter, index),
                 None => note(Note::foreign(letter, number, range)),
             },
@@ -367,11 +367,6 @@ impl Reader {
             _ => note(Note::foreign(letter, number, range)),
         }
     }
-}
-
-/// A number that counts: whole, and not below 0.
-pub(super) fn index(number: Number) -> Option<u32> {
-    u32::try_from(number.whole()?).ok()
 }
 
 impl Block {

@@ -292,12 +292,8 @@ impl Cursor<'_> {
             let value = match self.peek().map(|byte| byte.to_ascii_uppercase()) {
                 Some(place @ (b'D' | b'H')) => {
                     self.at += 1;
-                    let index = self
-                        .number(place)
-                        .ok()
-                        .flatten()
-                        .and_then(Number::whole)
-                        .and_then(|whole| u32::try_from(whole).ok());
+                    let number = self.number(place).ok().flatten();
+                    let index = number.and_then(Number::index);
                     index.map(|index| Value::Place {
                         letter: place,
                         index,

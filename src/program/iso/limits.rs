@@ -95,14 +95,17 @@ fn known_words(settings: &Effective) -> BTreeSet<Code> {
     SHIPPED_WORDS.iter().copied().chain(own).collect()
 }
 
+/// A line of a profile, as a control may read it.
+pub(super) fn example_of(line: &str, register: &str) -> String {
+    let line = line.replace("{register}", register);
+    line.replace("{side}", "G41").replace(['{', '}'], " ")
+}
+
 /// The words of a profile's lines that depend on the machine.
 fn words_of_profile(profile: &Profile) -> Vec<Code> {
     let mut codes = Vec::new();
     for line in lines_of(profile) {
-        let line = line
-            .replace("{register}", &profile.register)
-            .replace("{side}", "G41");
-        read_line(line.replace(['{', '}'], " ").as_bytes(), 1, |note| {
+        read_line(example_of(line, &profile.register).as_bytes(), 1, |note| {
             if let Note::Foreign { code, .. } = note {
                 codes.push(code);
             }

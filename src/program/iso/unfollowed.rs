@@ -3,7 +3,7 @@
 
 #![warn(clippy::indexing_slicing)]
 
-use super::block::{Block, Code, index};
+use super::block::{Block, Code};
 use super::document::Document;
 use super::names::{Unfollowed, is_harmless, meaning};
 use super::plain::{text_of, words_under};
@@ -159,7 +159,7 @@ impl Line<'_> {
         match letter {
             b'C' | b'E' | b'F' | b'I' | b'J' | b'N' | b'O' | b'R' | b'S' | b'T' | b'U' | b'V'
             | b'W' | b'X' | b'Y' | b'Z' => None,
-            b'D' | b'H' => index(number).is_none().then_some(Unfollowed::Correction),
+            b'D' | b'H' => number.index().is_none().then_some(Unfollowed::Correction),
             _ if is_of_call => None,
             b'L' if block.has_coordinates() => Some(Unfollowed::Repeat),
             b'L' | b'P' => Some(Unfollowed::Call),
@@ -176,7 +176,7 @@ impl Line<'_> {
             Token::Word {
                 letter: b'L',
                 number,
-            } => index(*number).is_none(),
+            } => number.index().is_none(),
             Token::Word { letter, .. } => !b"NOMPGFXYD".contains(letter),
             Token::Foreign => !text.starts_with(['#', ':']),
             _ => false,

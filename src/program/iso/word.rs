@@ -22,6 +22,11 @@ impl Number {
         let factor = 10_i64.checked_pow(u32::from(self.decimals))?;
         (self.mantissa % factor == 0).then_some(self.mantissa / factor)
     }
+
+    /// A number that counts: whole, and not below 0.
+    pub(crate) fn index(self) -> Option<u32> {
+        u32::try_from(self.whole()?).ok()
+    }
 }
 
 /// One item of a line.

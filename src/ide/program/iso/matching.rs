@@ -1,6 +1,7 @@
 //! Words that belong together: where the correction begins and ends, a call and what it calls, both
 //! ends of a tape.
 
+use super::at_byte;
 use crate::program::iso::block::{Block, Compensation, read_line};
 use crate::program::iso::document::Document;
 use crate::program::iso::plain::{word_at, words};
@@ -14,19 +15,14 @@ use std::ops::Range;
 pub(super) fn partner(document: &Document, offset: usize) -> Option<(Range<usize>, Range<usize>)> {
     let text = document.text();
     let line = text.line_of(offset);
-    let range = text.line_range(line);
-    let bytes = text.bytes().get(range.clone())?;
-    let mut own = None;
-    words(bytes, range.start, |token, range| {
-        if matches!(token, Token::Word { .. } | Token::Tape)
-            && range.start <= offset
-            && offset <= range.end
-            && (own.is_none() || offset < range.end)
-        {
-            own = Some((token, range));
+    let (bytes, start) = (text.line(line), text.line_start(line));
+    let mut tokens = Vec::new();
+    words(bytes, start, |token, range| {
+        if matches!(token, Token::Word { .. } | Token::Tape) {
+            tokens.push((token, range));
         }
     });
-    let (token, range) = own?;
+    let (token, range) = at_byte(tokens, offset)?;
     match token {
         Token::Word {
             letter: b'G',
@@ -48,7 +44,7 @@ pub(super) fn partner(document: &Document, offset: usize) -> Option<(Range<usize
             letter: b'M' | b'P',
             ..
         } => {
-            let block = read_line(bytes, range.start, |_| {});
+            let block = read_line(bytes, start, |_| {});
             if let Some(number) = block.call {
                 let line = document.called_line(number)?;
                 return Some((range, label_in(document, line, number)?));
@@ -97,8 +93,7 @@ fn switched(
 /// The N or O word of a line.
 fn label_in(document: &Document, line: usize, wanted: u32) -> Option<Range<usize>> {
     word_at(document.text(), line, |letter, number| {
-        matches!(letter, b'N' | b'O')
-            && number.whole().and_then(|whole| u32::try_from(whole).ok()) == Some(wanted)
+        matches!(letter, b'N' | b'O') && number.index() == Some(wanted)
     })
 }
 

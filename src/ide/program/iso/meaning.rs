@@ -77,7 +77,7 @@ pub(crate) fn meaning(document: &Document, word: Range<usize>) -> Option<String>
 
 /// A place of the control's table; `None` where the number does not name a place.
 fn offset(letter: u8, index: Number) -> Option<Offset> {
-    let index = u32::try_from(index.whole()?).ok()?;
+    let index = index.index()?;
     Some(Offset { letter, index })
 }
 

@@ -92,6 +92,18 @@ impl Language for Document {
     }
 }
 
+/// Of things in some ranges, in their order, that at a byte; between two that touch, the second one.
+fn at_byte<T>(all: Vec<(T, Range<usize>)>, offset: usize) -> Option<(T, Range<usize>)> {
+    let touches = |range: &Range<usize>| range.start <= offset && offset <= range.end;
+    let mut touching = all.into_iter().filter(|(_, range)| touches(range));
+    let first = touching.next()?;
+    Some(
+        touching
+            .find(|(_, range)| offset < range.end)
+            .unwrap_or(first),
+    )
+}
+
 /// True where a line has the word.
 fn holds(line: &[u8], letter: u8, number: i64) -> bool {
     let is_it = |its: u8, own: crate::program::iso::word::Number| {

@@ -1,11 +1,12 @@
 //! Names in a program: lines by their number, and rows of the control's tables. Where a name is defined, and where it
 //! is used.
 
+use super::at_byte;
 use crate::ide::occurrence::{Occurrence, Role};
 use crate::program::iso::block::read_line;
 use crate::program::iso::document::Document;
 use crate::program::iso::plain::words;
-use crate::program::iso::word::{Number, Token};
+use crate::program::iso::word::Token;
 use std::ops::Range;
 
 /// This many lines are searched for rows of a program's own tables when the user points at a word:
@@ -40,21 +41,11 @@ impl Name {
 pub(super) fn name_at(document: &Document, offset: usize) -> Option<Name> {
     let text = document.text();
     let line = text.line_of(offset);
-    let mut found = None;
-    each_in(
-        text.bytes().get(text.line_range(line))?,
-        text.line_start(line),
-        |name, range, _| {
-            // Between two words that touch, the second one counts.
-            if range.start <= offset
-                && offset <= range.end
-                && (found.is_none() || offset < range.end)
-            {
-                found = Some(name);
-            }
-        },
-    );
-    found
+    let mut names = Vec::new();
+    each_in(text.line(line), text.line_start(line), |name, range, _| {
+        names.push((name, range));
+    });
+    Some(at_byte(names, offset)?.0)
 }
 
 /// Every place of a name, in the order of the text, at most `limit`; `None` when the answer is no
@@ -107,7 +98,7 @@ fn each_in(line: &[u8], offset: usize, mut each: impl FnMut(Name, Range<usize>, 
             letter: b'N' | b'O',
             number,
         } => {
-            if let Some(number) = whole(number) {
+            if let Some(number) = number.index() {
                 each(Name::Line(number), range, Role::Defines);
             }
         }
@@ -115,12 +106,12 @@ fn each_in(line: &[u8], offset: usize, mut each: impl FnMut(Name, Range<usize>, 
             letter: b'P',
             number,
         } => {
-            if let Some(number) = whole(number).filter(|number| call == Some(*number)) {
+            if let Some(number) = number.index().filter(|number| call == Some(*number)) {
                 each(Name::Line(number), range, Role::Uses);
             }
         }
         Token::Word { letter, number } if is_of_table(letter) => {
-            if let Some(index) = whole(number) {
+            if let Some(index) = number.index() {
                 each(Name::Row { letter, index }, range, Role::Uses);
             }
         }
@@ -128,7 +119,7 @@ fn each_in(line: &[u8], offset: usize, mut each: impl FnMut(Name, Range<usize>, 
             if is_of_table(letter) =>
         {
             let of_row = line.get(range.start - offset..range.end - offset);
-            let Some((row, of_row)) = whole(index).zip(of_row) else {
+            let Some((row, of_row)) = index.index().zip(of_row) else {
                 return;
             };
             // The word before the sign is the name; places after it are used.
@@ -174,8 +165,4 @@ fn places_in(sum: &[u8]) -> Vec<(u8, u32, Range<usize>)> {
 /// Corrections, conditions of the generator, machining conditions.
 fn is_of_table(letter: u8) -> bool {
     matches!(letter, b'D' | b'H' | b'C' | b'E')
-}
-
-fn whole(number: Number) -> Option<u32> {
-    u32::try_from(number.whole()?).ok()
 }

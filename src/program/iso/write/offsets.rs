@@ -3,6 +3,7 @@
 use super::Lines;
 use crate::program::grid::Node;
 use crate::program::iso::block::{Block, Offset};
+use crate::program::iso::limits::example_of;
 use crate::program::write::Proved;
 use crate::settings::Profile;
 
@@ -21,13 +22,7 @@ pub(crate) struct Carried {
 /// program that they come from names the place of a number.
 pub(crate) fn read_of_profile(profile: &Profile, register: u32) -> Option<Offset> {
     let word = numbered(&profile.register, register);
-    let offset = |line: &String| {
-        let line = line
-            .replace("{side}", "G41")
-            .replace("{register}", &word)
-            .replace(['{', '}'], " ");
-        Block::of(line.as_bytes()).offset
-    };
+    let offset = |line: &String| Block::of(example_of(line, &word).as_bytes()).offset;
     profile.contour_begin.iter().filter_map(offset).next_back()
 }
 
