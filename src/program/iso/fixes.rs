@@ -8,7 +8,7 @@ use super::line::words_of_move;
 use super::machine::Machine;
 use super::moves::{Place, distance, meet};
 use super::plain::{plain, word_at};
-use super::repair::{is_plainly_twice, is_trouble, line_of};
+use super::repair::{is_plainly_twice, is_trouble};
 use super::steps::BegunCut;
 use super::style::Style;
 use crate::finding::{Detail, Fault, Finding, FixKind, Rule, TextFix};
@@ -42,7 +42,7 @@ fn searched(document: &Document, finding: &Finding) -> Option<Vec<TextFix>> {
     if finding.rule != Rule::SuspectBlock && !is_trouble(finding) {
         return None;
     }
-    let line = line_of(document, finding)?;
+    let line = document.text().line_of(finding.place.in_text()?.start);
     let mut of_cuts = document.repairs().of_cuts.iter();
     let (_, repairs) = of_cuts.find(|(lines, _)| lines.contains(&line))?;
     let found = repairs

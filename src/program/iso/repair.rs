@@ -6,7 +6,6 @@
 mod around;
 mod beside;
 pub(super) mod found;
-mod line;
 mod lost;
 mod suspect;
 mod troubles;
@@ -31,8 +30,7 @@ use std::hash::{Hash, Hasher};
 use std::ops::Range;
 use std::sync::Arc;
 use suspect::{Change, Suspect};
-pub(super) use troubles::Troubles;
-pub(crate) use troubles::{is_trouble, line_of};
+pub(super) use troubles::{is_trouble, troubles, within};
 use way::Way;
 
 /// Cuts of more moves cost too long to search.
@@ -58,13 +56,13 @@ impl Document {
     /// The slips that may explain the faults, by the lines of the cuts that they stand in.
     pub(super) fn repairs(&self) -> &Repairs {
         self.repairs.get_or_init(|| {
-            let others = self.report().finish();
-            Arc::new(repairs(self, &mut Troubles::of(self, &others)))
+            let troubles = troubles(&self.report().finish());
+            Arc::new(repairs(self, &troubles))
         })
     }
 
-    /// The same, with the faults that a slip may explain given.
-    pub(super) fn repairs_of(&self, troubles: &mut Troubles<'_>) -> &Repairs {
+    /// The same, with the first bytes of the findings that a slip may explain given.
+    pub(super) fn repairs_of(&self, troubles: &[usize]) -> &Repairs {
         self.repairs
             .get_or_init(|| Arc::new(repairs(self, troubles)))
     }
@@ -78,11 +76,10 @@ impl Document {
 }
 
 /// Searches the faulty cuts.
-fn repairs(document: &Document, troubles: &mut Troubles<'_>) -> Repairs {
+fn repairs(document: &Document, troubles: &[usize]) -> Repairs {
     let (mut found, mut passed) = (Repairs::default(), Vec::<Range<usize>>::new());
-    let text = document.text();
-    while let Some(trouble) = troubles.next() {
-        let line = text.line_of(trouble);
+    for trouble in troubles {
+        let line = document.text().line_of(*trouble);
         let known = found.of_cuts.iter().map(|(lines, _)| lines);
         if known.chain(&passed).any(|lines| lines.contains(&line)) {
             continue;
@@ -101,7 +98,7 @@ fn repairs(document: &Document, troubles: &mut Troubles<'_>) -> Repairs {
         };
         let lines = way.lines();
         // A single slip does not cause so many faults.
-        if troubles.within(&lines).len() > MOST_TROUBLES {
+        if within(document, troubles, &lines).len() > MOST_TROUBLES {
             found.of_cuts.push((lines, Vec::new()));
             continue;
         }
@@ -246,10 +243,11 @@ impl Suspect<'_> {
         );
         let before = self.way.rows.first().map(|row| row.before);
         let about = format!(
-            "{before:?}{:?}{usual:?}{:?}{:?}",
+            "{before:?}{:?}{usual:?}{:?}{:?}{}",
             document.reading(),
             self.styles,
-            self.beside
+            self.beside,
+            self.pieces.others_are_mirrored()
         );
         about.hash(&mut hasher);
         hasher.finish()

@@ -3,7 +3,6 @@
 mod arcs;
 mod passes;
 mod text;
-mod told;
 
 use super::block::Code;
 use super::contours::Contour;
@@ -12,14 +11,14 @@ use super::document::Document;
 use super::limits::{Limits, Table};
 use super::moves::{Place as Spot, Reading, added, apart, meet, micrometres};
 use super::repair::found::Repair;
-use super::repair::{Troubles, cut_within};
+use super::repair::{cut_within, troubles, within};
 use super::summary::{Spur, Summary, WireSide};
 use crate::finding::{Detail, Fault, Finding, FixKind, Place, Rule, Severity, Side};
 use crate::geometry::cross;
 use crate::program::contours::Divided;
 use crate::program::path::tolerance;
 use crate::program::repair::gate::Tried;
-use crate::program::report::{self, place_of};
+use crate::program::report::{self, Found, place_of};
 use crate::settings::{CenterRule, SideSetting};
 use crate::text::SourceText;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -140,9 +139,9 @@ impl Document {
 }
 
 /// The blocks that may explain the findings by one slip, unless they have a finding already.
-fn suspects(document: &Document, troubles: &mut Troubles<'_>) -> Vec<Finding> {
+fn suspects(document: &Document, troubles: &[usize]) -> Vec<Finding> {
     let found = document.repairs_of(troubles);
-    let is_said = |line: usize| !troubles.within(&(line..line + 1)).is_empty();
+    let is_said = |line: usize| !within(document, troubles, &(line..line + 1)).is_empty();
     let first = |(_, repairs): &(Range<usize>, Vec<Repair>)| repairs.first().cloned();
     let repairs = found.of_cuts.iter().filter_map(first);
     let suspect = |repair: Repair| {
@@ -165,6 +164,30 @@ fn suspects(document: &Document, troubles: &mut Troubles<'_>) -> Vec<Finding> {
         .filter(|repair| repair.explains && !repair.closes_anywhere() && !is_said(repair.line))
         .map(suspect)
         .collect()
+}
+
+impl report::Report for Document {
+    type Source = Finding;
+
+    fn found(&self) -> impl Iterator<Item = Found<Finding>> {
+        let mut all = self.plain_findings();
+        let troubles = troubles(&all);
+        all.extend(suspects(self, &troubles));
+        all.into_iter().map(|finding| Found {
+            rule: finding.rule,
+            severity: finding.severity,
+            place: place_of(&finding),
+            source: finding,
+        })
+    }
+
+    fn worded(&self, source: Finding) -> Option<Finding> {
+        Some(source)
+    }
+
+    fn plain(&self) -> Vec<Finding> {
+        self.plain_findings()
+    }
 }
 
 impl Tried for Document {

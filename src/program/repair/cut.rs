@@ -3,6 +3,7 @@
 use super::gap::{SMOOTH, is_one_line};
 use crate::geometry::{Point, Segment, Vector, turn};
 use crate::program::path::{Node, Way, Writing, closing};
+use std::ops::Range;
 
 /// A block of a cut, or a line of one that moves the wire.
 #[derive(Clone, Copy, Debug, Default)]
@@ -46,17 +47,10 @@ pub(super) const SAME: f64 = 3.0;
 /// The ends of a way out lie this near those of the way in, µm.
 const MIRRORED: f64 = 3.0;
 
-impl Piece {
-    pub(crate) fn along(curve: Segment) -> Piece {
-        let by = curve.end() - curve.start();
-        Piece {
-            curve: Some(curve.moved(Point::origin() - curve.start())),
-            by,
-            machine: by,
-            ..Piece::default()
-        }
-    }
+/// The fewest pieces of a cut that has leads, or passes.
+pub(in crate::program) const FEWEST_WITH_LEADS: usize = 4;
 
+impl Piece {
     pub(crate) fn is_arc(&self) -> bool {
         self.curve.is_some_and(|curve| curve.as_arc().is_some())
     }
@@ -140,14 +134,34 @@ pub(in crate::program) struct Pieces {
     /// Nothing contradicts it, and it is reported all the same, as where it crosses itself.
     pub(crate) is_tangled: bool,
     pub(crate) writing: Writing,
+    /// The cuts before and behind it: perhaps its other passes.
+    pub(crate) others: Vec<Vec<Piece>>,
 }
 
 impl Pieces {
     /// All pieces, with others in the place of `count` ones.
     pub(crate) fn with(&self, index: usize, count: usize, pieces: &[Piece]) -> Vec<Piece> {
-        let (before, rest) = self.all.split_at(index.min(self.all.len()));
-        let behind = rest.get(count..).unwrap_or_default();
+        self.part_with(0..self.all.len(), index, count, pieces)
+    }
+
+    /// The same of a part of them.
+    pub(super) fn part_with(
+        &self,
+        part: Range<usize>,
+        index: usize,
+        count: usize,
+        pieces: &[Piece],
+    ) -> Vec<Piece> {
+        let before = self.all.get(part.start..index).unwrap_or_default();
+        let behind = self.all.get(index + count..part.end).unwrap_or_default();
         [before, pieces, behind].concat()
+    }
+
+    /// The other cuts, as far as they have leads, go out as they came in.
+    pub(crate) fn others_are_mirrored(&self) -> bool {
+        let with_leads = |other: &&Vec<Piece>| other.len() >= FEWEST_WITH_LEADS;
+        let mut others = self.others.iter().filter(with_leads).peekable();
+        others.peek().is_some() && others.all(|other| is_mirrored(other.iter()))
     }
 
     pub(crate) fn before(&self, index: usize) -> Option<&Piece> {
@@ -186,8 +200,7 @@ impl Pieces {
         let first = index.saturating_sub(2);
         let last = (index + count + 2).min(self.all.len());
         let own = self.all.get(first..last).unwrap_or_default();
-        let (head, rest) = own.split_at((index - first).min(own.len()));
-        let new = [head, pieces, rest.get(count..).unwrap_or_default()].concat();
+        let new = self.part_with(first..last, index, count, pieces);
         let is = self.against_within(first, &new);
         let had = self.against_within(first, own);
         was.less(had).plus(is)
@@ -278,8 +291,7 @@ impl Pieces {
         let first = index.saturating_sub(1);
         let last = (index + count + 1).min(self.all.len());
         let own = self.all.get(first..last).unwrap_or_default();
-        let (head, rest) = own.split_at((index - first).min(own.len()));
-        let new = [head, pieces, rest.get(count..).unwrap_or_default()].concat();
+        let new = self.part_with(first..last, index, count, pieces);
         let is_first = first == 0;
         let is_last = last == self.all.len();
         let [is, was] = [
@@ -326,9 +338,7 @@ fn joints(pieces: &[Piece], is_first: bool, is_last: bool) -> Joints {
 const SQUARE: f64 = 0.002;
 
 /// True where the way out is the way in backwards.
-pub(in crate::program) fn is_mirrored<'a>(
-    pieces: impl DoubleEndedIterator<Item = &'a Piece>,
-) -> bool {
+pub(super) fn is_mirrored<'a>(pieces: impl DoubleEndedIterator<Item = &'a Piece>) -> bool {
     let mut pieces = pieces.filter(|piece| piece.curve.is_some());
     let (Some(first), Some(last)) = (pieces.next(), pieces.next_back()) else {
         return false;

@@ -25,8 +25,11 @@ use rustc_hash::FxHashMap;
 const FINALISTS: usize = 200;
 const MOST_READ: usize = 200_000;
 
-/// Changes of blocks this far apart may lead the same way.
+/// Changes of blocks this far apart may lead the same way, and lead as the others do beyond so many blocks.
 const FARTHEST: usize = 8;
+
+/// Where nothing is sure, no more slips are compared: a few are handed out.
+const COMPARED: usize = 16 * HANDED_OUT;
 
 /// The repairs of a cut, the most likely one first.
 pub(in crate::program) fn search<C: Cut>(cut: &C) -> Vec<Repair<C::Meant>> {
@@ -243,6 +246,9 @@ impl<'a, C: Cut> Search<'a, C> {
         let least = self.found.first().map_or(0, |best| best.left);
         self.found.retain(|candidate| candidate.left == least);
         self.is_complete &= self.found.iter().filter(|one| one.is_text()).count() <= FINALISTS;
+        if !self.is_complete {
+            self.found.truncate(COMPARED);
+        }
         self.drop_crossing();
         let mut kept = self.with_different_ways();
         let sure = match least {
@@ -271,33 +277,49 @@ impl<'a, C: Cut> Search<'a, C> {
     /// Of slips with the same way the plainest stays.
     fn with_different_ways(&mut self) -> Vec<Candidate<C::Meant>> {
         let mut kept: Vec<Candidate<C::Meant>> = Vec::new();
-        // Each with the block that is changed, and the place among those that are kept.
-        let mut leads: Vec<([usize; 2], Vec<[Vector; 2]>)> = Vec::new();
+        // The places among those that are kept of those that others are compared with.
+        let mut known: Vec<usize> = Vec::new();
         for candidate in std::mem::take(&mut self.found) {
-            let slip = &candidate.slip;
-            let index = slip.change.index();
+            let index = candidate.slip.change.index();
+            let apart = |place: &usize| kept[*place].slip.change.index().abs_diff(index);
             // A block more or less leads the same way only beside the one that may be wrong.
-            let is_beside = |(known, _): &([usize; 2], _)| index.abs_diff(known[0]) <= 1;
-            if !candidate.is_text() && leads.len() >= HANDED_OUT && !leads.iter().any(is_beside) {
+            let is_beside = |place: &usize| apart(place) <= 1;
+            if !candidate.is_text() && known.len() >= HANDED_OUT && !known.iter().any(is_beside) {
                 kept.push(candidate);
                 continue;
             }
-            let own = lead(&self.pieces.with(index, slip.count, &slip.pieces));
             // Blocks farther apart that are changed lead differently, however often a line goes on.
-            let is_about = |(known, _): &&([usize; 2], _)| index.abs_diff(known[0]) <= FARTHEST;
-            let mut alike = leads.iter().filter(is_about);
-            match alike.find(|(_, known)| are_alike(known, &own, SAME)) {
-                Some(([_, place], known)) => {
-                    let is_equal = !candidate.is_text() || are_alike(known, &own, 1.0);
-                    kept[*place].has_double |= !is_equal;
+            let about = known.iter().filter(|place| apart(place) <= FARTHEST);
+            let is_one_way =
+                |place: usize, within| self.are_one_way(&kept[place].slip, &candidate.slip, within);
+            match about.copied().find(|place| is_one_way(*place, SAME)) {
+                Some(place) => {
+                    let is_equal = !candidate.is_text() || is_one_way(place, 1.0);
+                    kept[place].has_double |= !is_equal;
                 }
                 None => {
-                    leads.push(([index, kept.len()], own));
+                    known.push(kept.len());
                     kept.push(candidate);
                 }
             }
         }
         kept
+    }
+
+    /// Whether two slips lead the same way.
+    fn are_one_way(&self, one: &Slip<C::Meant>, other: &Slip<C::Meant>, within: f64) -> bool {
+        let [(first, end), (its_first, its_end)] = [one, other].map(|slip| {
+            let index = slip.change.index();
+            (index, index + slip.count)
+        });
+        let part = first.min(its_first).saturating_sub(FARTHEST)
+            ..(end.max(its_end) + FARTHEST).min(self.pieces.all.len());
+        let [own, its] = [one, other].map(|slip| {
+            let (index, part) = (slip.change.index(), part.clone());
+            let all = self.pieces.part_with(part, index, slip.count, &slip.pieces);
+            lead(&all)
+        });
+        are_alike(&own, &its, within)
     }
 
     /// Ways that cross themselves come last where the present one does, else they are none.

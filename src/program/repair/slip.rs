@@ -111,11 +111,6 @@ pub(in crate::program) trait Cut {
         0
     }
 
-    /// The other cuts of the program go out as they came in.
-    fn others_are_mirrored(&self) -> bool {
-        false
-    }
-
     /// Whether lost blocks are offered.
     fn offers_lost(&self) -> bool;
 

@@ -183,7 +183,7 @@ impl<C: Cut> Search<'_, C> {
             parts_leads: pieces.closes
                 && count >= 3
                 && !is_pair
-                && (self.is_mirrored || self.cut.others_are_mirrored())
+                && (self.is_mirrored || pieces.others_are_mirrored())
                 && !runs_on(with.iter()),
             is_near: is_near || is_inexact,
             evidence,

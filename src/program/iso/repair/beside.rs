@@ -1,10 +1,7 @@
 //! The other cuts of a program as evidence: a move that another pass has, too, is hardly wrong.
 
-use crate::program::repair::cut::{Piece, is_mirrored};
+use crate::program::repair::cut::{FEWEST_WITH_LEADS, Piece};
 use std::collections::BTreeMap;
-
-/// The least moves of a cut that has passes, or leads.
-const FEWEST: usize = 4;
 
 /// From its start to its end and its middle, µm.
 type Shape = [i64; 4];
@@ -15,7 +12,6 @@ pub(super) struct Beside {
     counts: BTreeMap<Shape, usize>,
     /// The moves of the cut itself are among them: its passes have no stop between them.
     holds_own: bool,
-    pub(super) are_mirrored: bool,
 }
 
 fn shape(piece: &Piece) -> Option<Shape> {
@@ -33,11 +29,8 @@ fn backwards(piece: &Piece) -> Option<Shape> {
 impl Beside {
     /// Those that may be passes of a cut; or itself, where it `holds_own`.
     pub(super) fn of(own: &[Piece], others: &[Vec<Piece>], holds_own: bool) -> Beside {
-        let leads = others.iter().filter(|other| other.len() >= FEWEST);
         let mut beside = Beside {
             holds_own,
-            are_mirrored: leads.clone().count() > 0
-                && leads.clone().all(|way| is_mirrored(way.iter())),
             ..Beside::default()
         };
         let is_pass = |other: &&Vec<Piece>| !holds_own && other.len().abs_diff(own.len()) <= 1;
@@ -51,7 +44,7 @@ impl Beside {
         }
         // Nearly all of it is as in another pass.
         let unlike = beside.unlike(own, true);
-        if own.len() < FEWEST || 4 * unlike > own.len() || unlike == 0 {
+        if own.len() < FEWEST_WITH_LEADS || 4 * unlike > own.len() || unlike == 0 {
             beside.counts.clear();
         }
         beside

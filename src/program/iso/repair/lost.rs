@@ -1,8 +1,8 @@
 //! Blocks that may have been lost before a line: one that closes the cut, and a line tangent to an arc.
 
 use super::found::Meant;
-use super::line::Line;
 use super::suspect::{Change, Slip, Suspect};
+use super::way::Line;
 use crate::geometry::{Point, Segment, Vector, left_normal};
 use crate::program::iso::block::Motion;
 use crate::program::iso::line::{with_word, words_of_move};

@@ -3,8 +3,7 @@
 use super::around::with_numbers_kept;
 use super::beside::Beside;
 use super::found::Meant;
-use super::line::Line;
-use super::way::{Way, words_of};
+use super::way::{Line, Way, words_of};
 use super::words::{self, Words};
 use crate::geometry::{Segment, Vector};
 use crate::program::iso::block::Compensation;
@@ -51,7 +50,10 @@ impl<'a> Suspect<'a> {
             against,
             styles: [false, true].map(|inch| Style::of(way.document, inch)),
             beside: Beside::of(&pieces.all, others, holds_own),
-            pieces,
+            pieces: Pieces {
+                others: others.to_vec(),
+                ..pieces
+            },
             way,
         }
     }
@@ -231,10 +233,6 @@ impl Cut for Suspect<'_> {
     fn likeness(&self, index: usize, count: usize, pieces: &[Piece]) -> i32 {
         let own = self.pieces.all.get(index..index + count);
         self.beside.likeness(own.unwrap_or_default(), pieces)
-    }
-
-    fn others_are_mirrored(&self) -> bool {
-        self.beside.are_mirrored
     }
 
     fn offers_lost(&self) -> bool {

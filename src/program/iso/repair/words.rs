@@ -1,6 +1,6 @@
 //! The readings of a line that are one slip away: typing and transmission errors, each undone.
 
-use super::line::Line;
+use super::way::Line;
 use crate::program::iso::block::Motion;
 use crate::program::iso::document::Document;
 use crate::program::iso::line::with_word;

@@ -17,7 +17,7 @@ use super::entry::travel_of;
 use super::rules::Limits;
 use crate::geometry::{Point, Segment, Vector};
 use crate::program::grid::Node;
-use crate::program::repair::cut::{Piece, Pieces, Stated, is_mirrored};
+use crate::program::repair::cut::{Piece, Pieces, Stated};
 use crate::program::repair::rule::search;
 use crate::program::repair::slip::{self, Cut, Ends, Sort};
 
@@ -29,9 +29,6 @@ pub(super) const BLOCKS: std::ops::RangeInclusive<usize> = 1..=1000;
 
 /// Contours of fewer blocks could be closed by too many changes.
 pub(super) const FEWEST_BLAMED: usize = 4;
-
-/// The fewest blocks of a cut that has leads.
-const FEWEST_WITH_LEADS: usize = 4;
 
 /// Characters of a block.
 const BLOCK_KEYS: i32 = 20;
@@ -121,14 +118,6 @@ pub(super) fn repairs(path: &Path<'_>, scope: Scope) -> Vec<Repair> {
     search(&suspect)
 }
 
-/// Whether the way out of some blocks is their way in backwards; `None` of a cut that has no leads.
-pub(super) fn has_mirrored_leads(blocks: &[Block]) -> Option<bool> {
-    let (first, last) = blocks.first().zip(blocks.last())?;
-    let ends = [first, last].map(piece_of);
-    let between = Piece::along(Segment::line(Point::origin(), Point::new(1.0, 0.0)));
-    (blocks.len() >= FEWEST_WITH_LEADS).then(|| is_mirrored([ends[0], between, ends[1]].iter()))
-}
-
 struct Suspect<'a> {
     path: &'a Path<'a>,
     scope: Scope,
@@ -137,9 +126,6 @@ struct Suspect<'a> {
     is_sound: bool,
     is_open: bool,
     is_four_b: bool,
-    others_are_mirrored: bool,
-    /// The cuts beside it that may be its other passes.
-    beside: Vec<Vec<Turning>>,
     /// How wide X, Y and J are written.
     widths: [usize; 3],
 }
@@ -260,17 +246,13 @@ impl Cut for Suspect<'_> {
     /// Another pass has the same motions.
     fn likeness(&self, index: usize, count: usize, pieces: &[Piece]) -> i32 {
         let length = self.pieces.all.len() + pieces.len() - count;
-        let is_own = |other: &Vec<Turning>| {
-            other.len() == length && {
+        let is_own = |other: &Vec<Piece>| {
+            other.len() == length && length > 1 && {
                 let all = self.pieces.with(index, count, pieces);
-                other.iter().copied().eq(all.iter().map(turning))
+                other.iter().map(turning).eq(all.iter().map(turning))
             }
         };
-        i32::from(self.beside.iter().any(is_own))
-    }
-
-    fn others_are_mirrored(&self) -> bool {
-        self.others_are_mirrored
+        i32::from(self.pieces.others.iter().any(is_own))
     }
 
     fn offers_lost(&self) -> bool {
@@ -306,6 +288,11 @@ impl<'a> Suspect<'a> {
             number: path.number,
             step: path.step,
             closes: !path.is_jump,
+            others: path
+                .beside
+                .iter()
+                .map(|blocks| blocks.iter().map(piece_of).collect())
+                .collect(),
             ..Pieces::default()
         };
         let mut against = pieces.against();
@@ -323,26 +310,13 @@ impl<'a> Suspect<'a> {
             }
         }
         against = pieces.against();
-        let is_pass = |blocks: &&Vec<Block>| blocks.len().abs_diff(count) <= 1 && count > 1;
-        let turnings = |blocks: &Vec<Block>| -> Vec<Turning> {
-            let all = blocks.iter().map(|block| turning(&piece_of(block)));
-            all.collect()
-        };
-        let beside = path.beside.iter().filter(is_pass).map(turnings).collect();
-        let leads: Vec<bool> = path
-            .beside
-            .iter()
-            .filter_map(|blocks| has_mirrored_leads(blocks))
-            .collect();
         Suspect {
             path,
             scope,
             is_sound: against.count() == 0,
             is_open: against.is_open,
             is_four_b: path.blocks.iter().any(|own| own.part.is_some()),
-            others_are_mirrored: !leads.is_empty() && leads.iter().all(|mirrored| *mirrored),
             widths: slips::widths(path.blocks),
-            beside,
             pieces,
         }
     }
