@@ -2,7 +2,6 @@
 
 use super::block::Stop;
 use super::document::Document;
-use super::moves::Place;
 use super::summary::Summary;
 use crate::program::contours::Divided;
 use crate::program::path::{ControlOffset, Verdict, Way};
@@ -15,13 +14,8 @@ pub(crate) struct Contour<'a> {
     pub(crate) cuts: Range<usize>,
     pub(crate) sum: Summary,
     pub(crate) verdict: &'a Verdict,
-    /// The line that begins it, and the one that ends it.
-    pub(crate) first_line: Range<usize>,
-    pub(crate) last_line: Range<usize>,
     /// Another stop follows the one after it without a move between: an open contour is meant to end there.
     pub(crate) ends_open: bool,
-    /// Where the wire was first sent to the other side, and the line that did so.
-    pub(crate) flip: Option<(Place, Range<usize>)>,
 }
 
 impl Contour<'_> {
@@ -82,8 +76,8 @@ impl Divided for Document {
 impl Document {
     /// The moves of a cut, summed up, in their place.
     pub(super) fn sum_at(&self, cut: usize) -> Option<Summary> {
-        let at = self.cuts.state_before(cut).at;
-        self.cuts.get(cut)?.sum().map(|sum| sum.shifted(at))
+        let (at, byte) = (self.cuts.state_before(cut).at, self.cuts.byte(cut));
+        self.cuts.get(cut)?.sum().map(|sum| sum.shifted(at, byte))
     }
 
     fn sum_of(&self, cuts: &Range<usize>) -> Option<Summary> {
@@ -119,15 +113,10 @@ impl Document {
             .moves
             .as_ref()
             .filter(|_| cuts.start == cut)?;
-        let last = cuts.end - 1;
         let ends_open = self
             .cuts
-            .get(last + 1)
+            .get(cuts.end)
             .is_some_and(|behind| behind.pauses_again);
-        let line = |cut: usize, line: fn(&Summary) -> (u32, u32)| {
-            let sum = self.cuts[cut].sum();
-            sum.map_or(0..0, |sum| self.bytes_in(cut, line(sum)))
-        };
         let verdict = match known {
             Some(known) => known.verdict(),
             None => &moves.verdict,
@@ -135,19 +124,8 @@ impl Document {
         Some(Contour {
             sum: self.sum_of(&cuts)?,
             verdict,
-            first_line: line(cut, |sum| sum.range),
-            last_line: line(last, |sum| sum.last_range),
             ends_open,
-            flip: self.flip_of(&cuts),
             cuts,
-        })
-    }
-
-    /// Where the wire is first sent to the other side within one of these cuts.
-    fn flip_of(&self, cuts: &Range<usize>) -> Option<(Place, Range<usize>)> {
-        cuts.clone().find_map(|cut| {
-            let (at, line) = self.sum_at(cut)?.flip?;
-            Some((at, self.bytes_in(cut, line)))
         })
     }
 }

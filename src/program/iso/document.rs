@@ -1,18 +1,17 @@
 //! ISO text as an open document: its lines, their effects, and what an edit leaves unchanged.
 
 use super::block::{Block, Offset};
-use super::control::{Control, Sequence, way_of};
+use super::control::{Control, way_of};
 use super::cut::{Cut, Entry, Heard};
 use super::evidence::{Evidence, UsualDecimals};
 use super::layout::{LOOKED_AT, is_parted};
 use super::leader::leader;
 use super::limits::{Limits, Table, correction_in, stated_in};
-use super::machine::Machine;
+use super::machine::{Machine, Ran};
 use super::moves::Reading;
-use super::order::{Order, labels, order};
+use super::order::{Order, Sequence, labels, order};
 use super::read::{Placed, Run, words_of};
 use super::repair::found::Repairs;
-use super::steps::Ran;
 use crate::program::contours::Contours;
 use crate::program::cuts::Cuts;
 use crate::program::path::Way;

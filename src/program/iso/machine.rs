@@ -103,6 +103,29 @@ impl Steered {
     }
 }
 
+/// A line that runs, and its effect.
+pub(super) struct Ran<'a> {
+    pub(super) line: usize,
+    pub(super) block: &'a Block,
+    /// What the lines before it say of the control's variables.
+    pub(super) variables: Variables,
+    /// Its move, and the corner that the control makes at its end.
+    pub(super) made: [Option<Move>; 2],
+    /// The state after it.
+    pub(super) machine: &'a Machine,
+}
+
+impl Ran<'_> {
+    pub(super) fn moves(&self) -> impl Iterator<Item = Move> {
+        self.made.into_iter().flatten()
+    }
+
+    /// A step for each move, and one for a stop.
+    pub(super) fn step_count(&self) -> usize {
+        self.moves().count() + usize::from(self.block.stop.is_some())
+    }
+}
+
 impl Machine {
     /// Executes a line. Returns its move; none where the wire stands still, or its position is unknown.
     pub(crate) fn run(&mut self, block: &Block, reading: &Reading) -> Option<Move> {

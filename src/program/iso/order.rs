@@ -61,6 +61,48 @@ impl Order {
     }
 }
 
+/// The lines of a text in the order in which they run.
+#[derive(Clone, Copy)]
+pub(super) struct Sequence<'a> {
+    pub(super) text: &'a SourceText,
+    /// The first lines, which are not read.
+    pub(super) leader: usize,
+    /// Where it is not that of the text.
+    pub(super) order: Option<&'a Order>,
+}
+
+impl<'a> Sequence<'a> {
+    pub(super) fn count(&self) -> usize {
+        let of_text = self.text.line_count();
+        self.order.map_or(of_text, Order::count)
+    }
+
+    /// The line of the text that runs as one of these.
+    pub(super) fn line(&self, nth: usize) -> usize {
+        self.order.map_or(nth, |order| order.line(nth))
+    }
+
+    /// Byte from which places count in a cut that begins with one of them: the first of the text where lines run in another
+    /// order.
+    pub(super) fn base(&self, nth: usize) -> usize {
+        match self.order {
+            None => self.text.line_start(nth),
+            Some(_) => 0,
+        }
+    }
+
+    /// The bytes of a line of the text; none of the leader.
+    pub(super) fn bytes(&self, line: usize) -> &'a [u8] {
+        let read = (line >= self.leader).then(|| self.text.line(line));
+        read.unwrap_or_default()
+    }
+
+    /// Those behind one.
+    pub(super) fn behind(self, nth: usize) -> impl Iterator<Item = &'a [u8]> + use<'a> {
+        (nth + 1..self.count()).map(move |nth| self.bytes(self.line(nth)))
+    }
+}
+
 /// Follows the calls of a program that has some.
 pub(crate) fn order(text: &SourceText) -> Order {
     let most_lines = MOST_LINES + 2 * text.line_count();

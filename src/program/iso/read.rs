@@ -3,14 +3,13 @@
 #![warn(clippy::indexing_slicing)]
 
 use super::block::{Block, Note, Stop, read_under};
-use super::control::Sequence;
 use super::corner::{self, Looked, turned};
 use super::cut::{Cut, Definition, Foreign, Moves, Rare};
 use super::evidence::Evidence;
-use super::machine::{Behind, Machine, Trail, mark_of};
+use super::machine::{Behind, Machine, Ran, Trail, mark_of};
 use super::moves::{Course, Move, Place, Reading};
+use super::order::Sequence;
 use super::shape::Shape;
-use super::steps::Ran;
 use super::summary::{Spur, Summary, Tight};
 use crate::finding::{Fault, Finding, Rule};
 use crate::geometry::Side;

@@ -3,6 +3,7 @@
 mod arcs;
 mod passes;
 mod text;
+mod told;
 
 use super::block::Code;
 use super::contours::Contour;
@@ -10,15 +11,14 @@ use super::cut::Cut;
 use super::document::Document;
 use super::limits::{Limits, Table};
 use super::moves::{Place as Spot, Reading, added, apart, meet, micrometres};
-use super::repair::found::Repair;
-use super::repair::{cut_within, troubles, within};
+use super::repair::cut_within;
 use super::summary::{Spur, Summary, WireSide};
-use crate::finding::{Detail, Fault, Finding, FixKind, Place, Rule, Severity, Side};
+use crate::finding::{Detail, Fault, Finding, Place, Rule, Severity, Side};
 use crate::geometry::cross;
 use crate::program::contours::Divided;
 use crate::program::path::tolerance;
 use crate::program::repair::gate::Tried;
-use crate::program::report::{self, Found, place_of};
+use crate::program::report::{self, place_of};
 use crate::settings::{CenterRule, SideSetting};
 use crate::text::SourceText;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -135,58 +135,6 @@ impl Document {
             )
         };
         (0..self.cuts.len()).map(doubt).collect()
-    }
-}
-
-/// The blocks that may explain the findings by one slip, unless they have a finding already.
-fn suspects(document: &Document, troubles: &[usize]) -> Vec<Finding> {
-    let found = document.repairs_of(troubles);
-    let is_said = |line: usize| !within(document, troubles, &(line..line + 1)).is_empty();
-    let first = |(_, repairs): &(Range<usize>, Vec<Repair>)| repairs.first().cloned();
-    let repairs = found.of_cuts.iter().filter_map(first);
-    let suspect = |repair: Repair| {
-        let range = document.words_of(repair.line);
-        if repair.is_sure && repair.closes && matches!(repair.kind, FixKind::DeleteBlock) {
-            return Finding::of(Fault::TwinKeepsOpen, range);
-        }
-        let fault = Fault::Suspect {
-            found: repair.found,
-            meant: repair.meant,
-            closes: repair.closes,
-        };
-        let severity = match repair.is_sure {
-            true => Rule::SuspectBlock.default_severity(),
-            false => Severity::Information,
-        };
-        Finding::of(fault, range).with(severity)
-    };
-    repairs
-        .filter(|repair| repair.explains && !repair.closes_anywhere() && !is_said(repair.line))
-        .map(suspect)
-        .collect()
-}
-
-impl report::Report for Document {
-    type Source = Finding;
-
-    fn found(&self) -> impl Iterator<Item = Found<Finding>> {
-        let mut all = self.plain_findings();
-        let troubles = troubles(&all);
-        all.extend(suspects(self, &troubles));
-        all.into_iter().map(|finding| Found {
-            rule: finding.rule,
-            severity: finding.severity,
-            place: place_of(&finding),
-            source: finding,
-        })
-    }
-
-    fn worded(&self, source: Finding) -> Option<Finding> {
-        Some(source)
-    }
-
-    fn plain(&self) -> Vec<Finding> {
-        self.plain_findings()
     }
 }
 
@@ -341,6 +289,7 @@ impl<'a> Report<'a> {
     /// those with which it may belong together.
     fn judge(&mut self, cut: &Contour<'_>, all: &[Contour<'_>]) {
         let sum = &cut.sum;
+        let [first_line, last_line] = sum.ends();
         self.spurs(cut);
         if sum.open && !self.is_whole() {
             // A cut that was not read completely tells nothing about the whole.
@@ -349,7 +298,7 @@ impl<'a> Report<'a> {
         let closes = cut.verdict.closes();
         let is_fragment = cut.verdict.ends.is_fragment();
         if !closes && sum.whole && !cut.ends_open {
-            let last = cut.last_line.clone();
+            let last = last_line.clone();
             let finding = cut.verdict.ends.not_closed_at(last, is_fragment);
             self.findings.push(finding);
         }
@@ -358,7 +307,7 @@ impl<'a> Report<'a> {
             && next < self.document.cuts.len()
             && let Some(length) = cut.verdict.ends.lead_on()
         {
-            self.add(cut.last_line.clone(), Fault::LeadsOn { length });
+            self.add(last_line, Fault::LeadsOn { length });
         }
         self.off_too_early(cut);
         let has_passes = self.passes(cut);
@@ -379,7 +328,7 @@ impl<'a> Report<'a> {
                 SideSetting::Punch => inside,
                 _ => false,
             };
-            let range = || self.switch_range(cut.first_line.start);
+            let range = || self.switch_range(first_line.start);
             let mut inside = is_inside(orientation);
             if is_wrong(inside) {
                 inside = self.area_with_tab(cut, all).map_or(inside, is_inside);
@@ -396,14 +345,14 @@ impl<'a> Report<'a> {
                 self.add(range(), Fault::EntrySide { side });
             }
         }
-        if let Some((place, line)) = &cut.flip {
+        if let Some((place, (start, _))) = sum.flip {
             // The next pass, back along the same contour, has the wire on its other side.
             let begins = [sum.first[0].from, sum.first[0].to];
             if !begins
                 .iter()
-                .any(|begin| meet(*begin, *place, cut.tolerance()))
+                .any(|begin| meet(*begin, place, cut.tolerance()))
             {
-                self.side_change(line.clone());
+                self.side_change(start as usize);
             }
         }
         self.tight_arcs(cut, orientation);
@@ -453,8 +402,8 @@ impl<'a> Report<'a> {
     }
 
     /// A G41 that becomes G42 within a cut, at the word that does so.
-    fn side_change(&mut self, line: Range<usize>) {
-        let range = self.switch_range(line.start);
+    fn side_change(&mut self, start: usize) {
+        let range = self.switch_range(start);
         let side = if self
             .text
             .bytes()

@@ -1,11 +1,10 @@
 //! A running ISO program: the moves of its lines, the state at a line, and the cut in progress there.
 
-use super::block::{Block, Stop};
+use super::block::Stop;
 use super::document::Document;
-use super::machine::Machine;
+use super::machine::{Machine, Ran};
 use super::moves::{Move, Place, micrometres};
 use super::read::Run;
-use super::variables::Variables;
 use crate::finding::{Rule, Severity};
 use crate::geometry::Point;
 use crate::program::path::{Kind, Step, Trace, Writing};
@@ -21,29 +20,6 @@ pub(crate) struct BegunCut {
     pub(crate) to: Place,
     pub(crate) last: Move,
     pub(crate) moves: u32,
-}
-
-/// A line that runs, and its effect.
-pub(super) struct Ran<'a> {
-    pub(super) line: usize,
-    pub(super) block: &'a Block,
-    /// What the lines before it say of the control's variables.
-    pub(super) variables: Variables,
-    /// Its move, and the corner that the control makes at its end.
-    pub(super) made: [Option<Move>; 2],
-    /// The state after it.
-    pub(super) machine: &'a Machine,
-}
-
-impl Ran<'_> {
-    pub(super) fn moves(&self) -> impl Iterator<Item = Move> {
-        self.made.into_iter().flatten()
-    }
-
-    /// A step for each move, and one for a stop.
-    fn step_count(&self) -> usize {
-        self.moves().count() + usize::from(self.block.stop.is_some())
-    }
 }
 
 impl Document {
@@ -97,7 +73,7 @@ impl Document {
 
     fn begun(&self, (cut, run): (usize, Run<'_>)) -> Option<BegunCut> {
         let at = self.cuts.state_before(cut).at;
-        let sum = run.finished().0.sum()?.shifted(at);
+        let sum = run.finished().0.sum()?.shifted(at, 0);
         let [first, _] = sum.first;
         sum.open.then_some(BegunCut {
             from: first.from,

@@ -2,6 +2,7 @@
 
 use super::moves::{Move, Place, added, apart};
 use crate::geometry::Side;
+use std::ops::Range;
 
 /// Consecutive moves that cut, without a rapid or a stop between.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,7 +79,12 @@ impl Summary {
         self.side = joined(self.side, step.side.map_or(WireSide::None, WireSide::One));
     }
 
-    /// Appends the moves behind a stop; the ranges stay those of the beginning.
+    /// The lines that begin it and end it, where its bytes are those of the text.
+    pub(crate) fn ends(&self) -> [Range<usize>; 2] {
+        [self.range, self.last_range].map(|(start, end)| start as usize..end as usize)
+    }
+
+    /// Appends the moves behind a stop.
     pub(crate) fn append(&mut self, next: &Summary) {
         // The area of the continuation was relative to its own beginning.
         let (origin, its) = (self.start(), next.start());
@@ -96,6 +102,8 @@ impl Summary {
             next.last
         };
         self.moves += next.moves;
+        self.last_range = next.last_range;
+        self.flip = self.flip.or(next.flip);
         self.switched_on += next.switched_on;
         self.whole &= next.whole;
         self.faulty |= next.faulty;
@@ -103,14 +111,14 @@ impl Summary {
         self.side = joined(self.side, next.side);
     }
 
-    /// The same elsewhere.
-    pub(crate) fn shifted(mut self, by: Place) -> Summary {
+    /// The same elsewhere, so many bytes on.
+    pub(crate) fn shifted(mut self, by: Place, bytes: usize) -> Summary {
         for step in self.first.iter_mut().chain(&mut self.last) {
             *step = step.shifted(by);
         }
-        if let Some((at, _)) = &mut self.flip {
-            *at = added(*at, by);
-        }
+        let behind = |(start, end): (u32, u32)| (start + bytes as u32, end + bytes as u32);
+        self.flip = self.flip.map(|(at, line)| (added(at, by), behind(line)));
+        (self.range, self.last_range) = (behind(self.range), behind(self.last_range));
         self
     }
 }

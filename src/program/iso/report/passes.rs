@@ -271,7 +271,7 @@ impl Report<'_> {
             correction: self.document.stated_correction(first.offset),
             nodes: [vec![first.to, second.to], ends].concat(),
             twice_area: cut.sum.twice_area as f64 / 1e6,
-            from: cut.first_line.start,
+            from: cut.sum.range.0 as usize,
             off: None,
         })
     }
@@ -285,7 +285,8 @@ impl Report<'_> {
         };
         let is_pass = cut.sum.switched_on == 1 && first.switches == Some(true);
         if is_pass && cut.sum.moves > 3 && cut.sum.last.iter().any(|step| is_last(&step)) {
-            let range = self.code_before(cut.last_line.clone(), &[40]);
+            let [_, last_line] = cut.sum.ends();
+            let range = self.code_before(last_line, &[40]);
             self.add(range, Fault::SwitchedOffEarly);
         }
     }

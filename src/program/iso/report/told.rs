@@ -1,0 +1,60 @@
+//! All findings before they are worded, with the blocks that may explain them.
+
+use super::super::document::Document;
+use super::super::repair::found::Repair;
+use super::super::repair::{troubles, within};
+use crate::finding::{Fault, Finding, FixKind, Rule, Severity};
+use crate::program::report::{Found, Report, place_of};
+use std::ops::Range;
+
+impl Report for Document {
+    type Source = Finding;
+
+    fn found(&self) -> impl Iterator<Item = Found<Finding>> {
+        let mut all = self.plain_findings();
+        let troubles = troubles(&all);
+        all.extend(suspects(self, &troubles));
+        all.into_iter().map(|finding| Found {
+            rule: finding.rule,
+            severity: finding.severity,
+            place: place_of(&finding),
+            source: finding,
+        })
+    }
+
+    fn worded(&self, source: Finding) -> Option<Finding> {
+        Some(source)
+    }
+
+    fn plain(&self) -> Vec<Finding> {
+        self.plain_findings()
+    }
+}
+
+/// The blocks that may explain the findings by one slip, unless they have a finding already.
+fn suspects(document: &Document, troubles: &[usize]) -> Vec<Finding> {
+    let found = document.repairs_of(troubles);
+    let is_said = |line: usize| !within(document, troubles, &(line..line + 1)).is_empty();
+    let first = |(_, repairs): &(Range<usize>, Vec<Repair>)| repairs.first().cloned();
+    let repairs = found.of_cuts.iter().filter_map(first);
+    let suspect = |repair: Repair| {
+        let range = document.words_of(repair.line);
+        if repair.is_sure && repair.closes && matches!(repair.kind, FixKind::DeleteBlock) {
+            return Finding::of(Fault::TwinKeepsOpen, range);
+        }
+        let fault = Fault::Suspect {
+            found: repair.found,
+            meant: repair.meant,
+            closes: repair.closes,
+        };
+        let severity = match repair.is_sure {
+            true => Rule::SuspectBlock.default_severity(),
+            false => Severity::Information,
+        };
+        Finding::of(fault, range).with(severity)
+    };
+    repairs
+        .filter(|repair| repair.explains && !repair.closes_anywhere() && !is_said(repair.line))
+        .map(suspect)
+        .collect()
+}
