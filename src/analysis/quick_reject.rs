@@ -33,7 +33,6 @@ impl Analysis {
         let rechained =
             chains.update_parts(edited, &touched, &|id| part_of(edited, &self.settings, id));
         let new = rechained.new.iter().filter_map(|&key| chains.get(key));
-        let chained = new.clone().map(|contour| contour.pieces.len()).sum();
         let mut open = new
             .filter(|contour| self.is_open(edited, contour))
             .peekable();
@@ -60,7 +59,7 @@ impl Analysis {
         };
         // One piece that is not a double is enough.
         let mut plainly = open.filter(|contour| contour.pieces.iter().any(lies_alone));
-        plainly.nth(told_before).map(|_| chained)
+        plainly.nth(told_before).map(|_| rechained.chained)
     }
 
     /// True for a contour of several entities that is open and has no side on which the wire runs.

@@ -74,7 +74,13 @@ struct Chain {
 pub struct Rechained {
     pub gone: Vec<Key>,
     pub(crate) new: Vec<Key>,
+    /// How many entities have been chained again, those of contours that are as they were among them.
+    pub(crate) chained: usize,
 }
+
+/// Contours without a touched entity that are chained again with their group, by their first piece: one that comes out as it was
+/// keeps its key. In a map in which all borders meet, nearly all do.
+type Before = FxHashMap<EntityId, (Key, Arc<Chain>)>;
 
 impl Chains {
     /// Chains every entity of `drawing` for which `is_cut` holds; `join` is the join tolerance in drawing units.
@@ -113,7 +119,7 @@ impl Chains {
             chains.ends_of[id.0 as usize] = ends;
         }
         let entities = told.into_iter().map(|(id, part, _)| (id, part));
-        chains.chain(drawing, entities.unzip());
+        chains.chain(drawing, entities.unzip(), &Before::default());
         chains
     }
 
@@ -267,7 +273,8 @@ impl Chains {
         ends.grow(self.ends_of.len());
         let mut fresh = Vec::new();
         for id in distinct
-            .into_iter()
+            .iter()
+            .copied()
             .filter(|&id| drawing.get(id).is_some() && is_cut(id))
         {
             entities.insert(id);
@@ -295,6 +302,7 @@ impl Chains {
             self.contour_of[id.0 as usize] = NO_KEY;
         }
         let mut rechained = Rechained::default();
+        let mut before = Before::default();
         for contour in affected {
             let group = self
                 .group_of
@@ -312,11 +320,23 @@ impl Chains {
                     }
                     self.contour_of[id.0 as usize] = NO_KEY;
                 }
+                let pieces = &chain.contour.pieces;
+                if !pieces.iter().any(|piece| distinct.contains(&piece.entity)) {
+                    before.extend(
+                        pieces
+                            .first()
+                            .map(|first| (first.entity, (key, chain.clone()))),
+                    );
+                }
             }
         }
+        rechained.chained = entities.len();
         let ordered = in_machining_order(drawing, entities).into_iter();
         let ordered = ordered.filter_map(|id| Some((id, part_of(id)?)));
-        rechained.new = self.chain(drawing, ordered.unzip());
+        rechained.new = self.chain(drawing, ordered.unzip(), &before);
+        rechained
+            .gone
+            .retain(|key| !self.contours.contains_key(key));
         rechained
     }
 
@@ -367,11 +387,12 @@ impl Chains {
     }
 
     /// Groups and chains entities, which come in machining order and hold whole groups, each with its workpiece.
-    /// Returns the new contours.
+    /// Returns the new contours; those that are as they were `before` keep their keys.
     fn chain(
         &mut self,
         drawing: &Drawing,
         (entities, parts): (Vec<EntityId>, Vec<u16>),
+        before: &Before,
     ) -> Vec<Key> {
         let is_of_one = parts.windows(2).all(|pair| pair[0] == pair[1]);
         let mut by_part: BTreeMap<u16, Vec<EntityId>> = BTreeMap::new();
@@ -396,7 +417,14 @@ impl Chains {
         };
         for (entities, linked) in &linked {
             for way in &linked.ways {
-                let key = self.fresh_key();
+                let pieces = linked.pieces.get(way.range.clone()).unwrap_or_default();
+                let key = match kept_of(before, entities, (pieces, way)) {
+                    Some((key, chain)) => {
+                        self.contours.insert(*key, chain.clone());
+                        *key
+                    }
+                    None => self.fresh_key(),
+                };
                 for (at, _) in &linked.pieces[way.range.clone()] {
                     self.contour_of[entities[*at as usize].0 as usize] = key;
                 }
@@ -409,7 +437,13 @@ impl Chains {
         drop(joints);
         self.ends_of = ends_of;
         for (entities, linked) in linked {
-            let ways = linked.ways.par_iter().with_min_len(SHARE);
+            let is_new = |way: &&Way| {
+                let first = linked.pieces.get(way.range.start);
+                let key = first.map(|(at, _)| self.contour_of[entities[*at as usize].0 as usize]);
+                key.is_none_or(|key| !self.contours.contains_key(&key))
+            };
+            let ways: Vec<&Way> = linked.ways.iter().filter(is_new).collect();
+            let ways = ways.into_par_iter().with_min_len(SHARE);
             let least = self.least;
             let chain = |way: &Way| {
                 let pieces = linked.pieces.get(way.range.clone()).unwrap_or_default();
@@ -428,6 +462,27 @@ impl Chains {
         }
         new
     }
+}
+
+/// The contour along `way` as it was before.
+fn kept_of<'a>(
+    before: &'a Before,
+    entities: &[EntityId],
+    (pieces, way): (&[(u32, bool)], &Way),
+) -> Option<&'a (Key, Arc<Chain>)> {
+    let entity = |at: u32| entities[at as usize];
+    let kept = before.get(&entity(pieces.first()?.0))?;
+    let Chain {
+        contour,
+        first,
+        by_ends,
+    } = &*kept.1;
+    let runs = pieces.iter().map(|&(at, reversed)| (entity(at), reversed));
+    let ran = (contour.pieces.iter()).map(|piece| (piece.entity, piece.reversed));
+    let is_alike = (contour.closed, *first, *by_ends)
+        == (way.closed, entity(way.first), way.by_ends)
+        && contour.double_of == way.double_of.map(entity);
+    (is_alike && runs.eq(ran)).then_some(kept)
 }
 
 impl Chain {
