@@ -311,14 +311,15 @@ pub(super) fn most_together<T: Clone, M>(
     if first.is_empty() {
         return None;
     }
-    let alone = || first.chunks(1).find_map(|one| made(one, None).better());
+    let alone = |one: &T| made(std::slice::from_ref(one), None).better();
     if wanted.first_will_do
-        && let Some(made) = alone()
+        && let Some(made) = first.iter().find_map(alone)
     {
         return Some(made);
     }
     let parts: Vec<T> = first.iter().cloned().chain(parts).collect();
     let (mut taken, mut best) = (Vec::new(), None);
+    let mut failed_alone = FxHashSet::default();
     let all = 0..parts.len();
     let mut waiting = vec![all];
     let mut left = tries * ON_SIGHT;
@@ -343,10 +344,14 @@ pub(super) fn most_together<T: Clone, M>(
         } else if some.len() > 1 {
             let middle = some.start + some.len() / 2;
             waiting.extend([middle..some.end, some.start..middle]);
+        } else {
+            failed_alone.insert(some.start);
         }
     }
     let is_tried = wanted.first_will_do || waiting.is_empty();
-    best.or_else(|| if is_tried { None } else { alone() })
+    let untried = first.iter().enumerate();
+    let mut untried = untried.filter(|(at, _)| !is_tried && !failed_alone.contains(at));
+    best.or_else(|| untried.find_map(|(_, one)| alone(one)))
 }
 
 /// The target of a change: an entity, or one vertex of it.
