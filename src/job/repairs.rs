@@ -78,16 +78,21 @@ pub(crate) fn fix_all(document: &Document) -> Option<Repairs> {
     if let Source::Cad(_) = document.source() {
         let mut present = document.clone();
         let mut rounds = Vec::new();
+        let next = |present: &Document| {
+            let Some(Edit::Drawing(edit)) = present.fix_all() else {
+                return None;
+            };
+            let before = present.drawing()?.clone();
+            let mut repaired = present.clone();
+            let made = repaired.edit_drawing(|drawing| drawing.apply(&edit));
+            let is_less = || repaired.left_to_repair() < present.left_to_repair();
+            (matches!(made, Some(Ok(()))) && is_less()).then_some((repaired, before, edit))
+        };
         while rounds.len() < ROUNDS
-            && let Some(Edit::Drawing(edit)) = present.fix_all()
-            && let Some(before) = present.drawing().cloned()
+            && let Some((repaired, before, edit)) = next(&present)
         {
-            let left = present.left_to_repair();
-            let made = present.edit_drawing(|drawing| drawing.apply(&edit));
-            if !matches!(made, Some(Ok(()))) || present.left_to_repair() >= left {
-                break;
-            }
             rounds.push((before, edit));
+            present = repaired;
         }
         let repaired = Box::new(present);
         return (!rounds.is_empty()).then_some(Repairs::OfDrawing { rounds, repaired });
