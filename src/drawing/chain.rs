@@ -10,6 +10,7 @@
 //! direction.
 
 mod groups;
+mod kept;
 
 use super::crumbs::{has_short, is_crumb};
 use super::ends::{Buckets, Cells, End, Ends, NO_ENDS, has_ends};
@@ -17,6 +18,7 @@ use super::joints::Joints;
 use super::linked::{Linked, Way};
 use super::{Contour, Drawing, EntityId, Piece, Role};
 use crate::geometry::Point;
+use kept::{Before, Chain, kept_of};
 use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
@@ -60,15 +62,6 @@ pub struct Chains {
     next_key: Key,
 }
 
-#[derive(Clone, Debug)]
-struct Chain {
-    contour: Contour,
-    /// The first of its entities in machining order.
-    first: EntityId,
-    /// The contour holds as long as the ends of its entities stay, whatever lies between them.
-    by_ends: bool,
-}
-
 /// Contours that an edit of the drawing removed and added.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Rechained {
@@ -77,10 +70,6 @@ pub struct Rechained {
     /// How many entities have been chained again, those of contours that are as they were among them.
     pub(crate) chained: usize,
 }
-
-/// Contours without a touched entity that are chained again with their group, by their first piece: one that comes out as it was
-/// keeps its key. In a map in which all borders meet, nearly all do.
-type Before = FxHashMap<EntityId, (Key, Arc<Chain>)>;
 
 impl Chains {
     /// Chains every entity of `drawing` for which `is_cut` holds; `join` is the join tolerance in drawing units.
@@ -461,48 +450,6 @@ impl Chains {
             }
         }
         new
-    }
-}
-
-/// The contour along `way` as it was before.
-fn kept_of<'a>(
-    before: &'a Before,
-    entities: &[EntityId],
-    (pieces, way): (&[(u32, bool)], &Way),
-) -> Option<&'a (Key, Arc<Chain>)> {
-    let entity = |at: u32| entities[at as usize];
-    let kept = before.get(&entity(pieces.first()?.0))?;
-    let Chain {
-        contour,
-        first,
-        by_ends,
-    } = &*kept.1;
-    let runs = pieces.iter().map(|&(at, reversed)| (entity(at), reversed));
-    let ran = (contour.pieces.iter()).map(|piece| (piece.entity, piece.reversed));
-    let is_alike = (contour.closed, *first, *by_ends)
-        == (way.closed, entity(way.first), way.by_ends)
-        && contour.double_of == way.double_of.map(entity);
-    (is_alike && runs.eq(ran)).then_some(kept)
-}
-
-impl Chain {
-    /// The chain along `way`, which leads through some of these entities.
-    fn new(
-        drawing: &Drawing,
-        entities: &[EntityId],
-        (pieces, way): (&[(u32, bool)], &Way),
-        least: f64,
-    ) -> Chain {
-        let pieces = pieces
-            .iter()
-            .map(|&(at, reversed)| (entities[at as usize], reversed));
-        let mut contour = Contour::of(drawing, pieces, way.closed, least);
-        contour.double_of = way.double_of.map(|kept| entities[kept as usize]);
-        Chain {
-            contour,
-            first: entities[way.first as usize],
-            by_ends: way.by_ends,
-        }
     }
 }
 

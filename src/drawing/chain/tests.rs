@@ -1,5 +1,7 @@
 //! Contours of small drawings, whatever the order of their entities; after each edit they equal a fresh chaining.
 
+mod kept;
+
 use super::*;
 use crate::drawing::joints::CROWD;
 use crate::drawing::{Entity, Geometry, Vertex};
@@ -442,37 +444,6 @@ fn an_edit_among_thousands_of_ends_chains_them_as_a_fresh_start_does() {
             "without entity {number}"
         );
     }
-}
-
-/// Outlines that touch each other in their corners are one group. Without a line of one of them the others are what they were.
-#[test]
-fn contours_of_a_group_that_come_out_as_they_were_keep_their_keys() {
-    let outline = |number: u32| {
-        let at = f64::from(number);
-        let corners = [(0.0, 0.0), (0.6, 0.0), (1.0, 0.4), (1.0, 1.0), (0.0, 1.0)];
-        let ends = corners.into_iter().zip(corners.into_iter().cycle().skip(1));
-        ends.map(move |((x0, y0), (x1, y1))| (at + x0, at + y0, at + x1, at + y1))
-    };
-    let all: Vec<Coordinates> = (0..5).flat_map(outline).collect();
-    let mut drawing = lines(&all);
-    let mut chains = Chains::new(&drawing, 0.01, &|_| true);
-    let keys = |chains: &Chains| -> Vec<Key> {
-        let key = |number: u32| chains.contour_of(EntityId(5 * number)).unwrap();
-        (0..5).map(key).collect()
-    };
-    let before = keys(&chains);
-    assert!(before.iter().all(|&key| chains.get(key).unwrap().closed));
-    assert_eq!(chains.grouped_with(before[0]).len(), 5);
-    drawing.remove(EntityId(11));
-    let rechained = chains.update(&drawing, &[EntityId(11)], &|_| true);
-    let after = keys(&chains);
-    assert_eq!(
-        (rechained.gone, rechained.new),
-        (vec![before[2]], vec![after[2]])
-    );
-    assert_eq!(rechained.chained, 24);
-    let stays = |number: &usize| after[*number] == before[*number];
-    assert_eq!((0..5).filter(stays).collect::<Vec<usize>>(), [0, 1, 3, 4]);
 }
 
 proptest! {

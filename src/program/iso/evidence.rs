@@ -35,7 +35,7 @@ const LARGE_CORRECTION: i64 = 5;
 pub(crate) const FEW_BARE: u32 = 20;
 
 /// Counts over some lines of a program. They add up in any order.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Evidence {
     /// Coordinates, and those of them with a decimal point.
     pub(crate) numbers: u32,
@@ -58,14 +58,14 @@ pub(crate) struct Evidence {
     /// How many lines state inches, and how many inches or mm.
     pub(crate) inches: u32,
     pub(crate) units: u32,
-    pub(crate) absolute: Arcs,
-    pub(crate) incremental: Arcs,
+    /// Under G90 and under G91, where there are any: each cut keeps its counts.
+    pub(crate) arcs: [Option<Box<Arcs>>; 2],
 }
 
 /// Arcs with I and J: what speaks against each rule, and how many fit under two rules about different centres.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Arcs {
-    pub(crate) all: u32,
+    all: u32,
     /// In the order of [`PAIRS`].
     unclear: [u32; 3],
     of_all: AgainstRules,
@@ -91,19 +91,15 @@ struct AgainstRules {
 }
 
 impl AgainstRules {
-    fn change(&mut self, other: &AgainstRules, change: fn(&mut u32, u32)) {
+    fn add(&mut self, other: &AgainstRules) {
         let own = self
             .off
             .iter_mut()
             .chain(&mut self.far)
             .chain(&mut self.wide);
         let its = other.off.iter().chain(&other.far).chain(&other.wide);
-        own.zip(its).for_each(|(count, by)| change(count, *by));
+        own.zip(its).for_each(|(count, more)| *count += more);
     }
-}
-
-fn add(count: &mut u32, more: u32) {
-    *count += more;
 }
 
 /// How many decimals the numbers with a point have.
@@ -151,8 +147,8 @@ impl Arcs {
         let own = self.unclear.iter_mut().chain(&mut self.stated);
         let its = other.unclear.iter().chain(&other.stated);
         own.zip(its).for_each(|(count, more)| *count += more);
-        self.of_all.change(&other.of_all, add);
-        self.of_beside.change(&other.of_beside, add);
+        self.of_all.add(&other.of_all);
+        self.of_beside.add(&other.of_beside);
     }
 
     /// What speaks against a rule: misfits, centres far away, wide turns. Among full circles, which fit under any rule,
@@ -160,13 +156,16 @@ impl Arcs {
     fn against(&self, rule: usize) -> (u32, u32, u32) {
         let are_slips =
             self.beside <= SLIPS.min(self.closed) && self.closed + self.beside == self.all;
-        let mut told = self.of_all;
-        if are_slips {
-            told.change(&self.of_beside, |count, less| {
-                *count = count.saturating_sub(less)
-            });
-        }
-        (told.off[rule], told.far[rule], told.wide[rule])
+        let (all, slips) = (&self.of_all, &self.of_beside);
+        let told = |all: u32, slips: u32| match are_slips {
+            true => all.saturating_sub(slips),
+            false => all,
+        };
+        (
+            told(all.off[rule], slips.off[rule]),
+            told(all.far[rule], slips.far[rule]),
+            told(all.wide[rule], slips.wide[rule]),
+        )
     }
 
     fn fit(&self, rule: usize) -> (u32, u32) {
@@ -233,8 +232,11 @@ impl Evidence {
         let own = self.places.iter_mut().chain(&mut self.ending_in_zero);
         let its = other.places.iter().chain(&other.ending_in_zero);
         own.zip(its).for_each(|(count, more)| *count += more);
-        self.absolute.add(&other.absolute);
-        self.incremental.add(&other.incremental);
+        for (own, its) in self.arcs.iter_mut().zip(&other.arcs) {
+            if let Some(its) = its {
+                own.get_or_insert_default().add(its);
+            }
+        }
     }
 
     /// The most decimals of a number, up to 7.
@@ -282,10 +284,7 @@ impl Evidence {
 
     /// Counts an arc about a centre whose rule is stated.
     pub(crate) fn states(&mut self, arc: &Move, rule: CenterRule) {
-        let arcs = match arc.incremental {
-            true => &mut self.incremental,
-            false => &mut self.absolute,
-        };
+        let arcs = self.arcs[usize::from(arc.incremental)].get_or_insert_default();
         if let (Some(count), Bend::Center { .. }) = (arcs.stated.get_mut(rule as usize), arc.bend) {
             *count += 1;
         }
@@ -293,14 +292,10 @@ impl Evidence {
 
     /// Counts an arc; false where it has no centre in words, so that it tells nothing.
     pub(crate) fn arc(&mut self, arc: &Move, tolerance: i64) -> bool {
-        let arcs = if arc.incremental {
-            &mut self.incremental
-        } else {
-            &mut self.absolute
-        };
         if arc.center(CenterRule::StartToCenter).is_none() {
             return false;
         }
+        let arcs = self.arcs[usize::from(arc.incremental)].get_or_insert_default();
         arcs.all += 1;
         let centers = RULES.map(|rule| arc.center(rule));
         let off = RULES.map(|rule| arc.difference(rule).abs() > tolerance as f64);
@@ -316,13 +311,13 @@ impl Evidence {
             far,
             wide,
         };
-        arcs.of_all.change(&own, add);
+        arcs.of_all.add(&own);
         let mut compared_centers = centers[..compared].iter().flatten();
         if arc.from == arc.to {
             arcs.closed += 1;
         } else if compared_centers.all(|center| ends_beside(arc, *center)) {
             arcs.beside += 1;
-            arcs.of_beside.change(&own, add);
+            arcs.of_beside.add(&own);
         }
         for (count, (a, b)) in arcs.unclear.iter_mut().zip(PAIRS) {
             *count += u32::from(b < compared && !off[a] && !off[b] && centers[a] != centers[b]);
@@ -340,16 +335,17 @@ impl Evidence {
                 is_open || self.whole_numbers_are_fine()
             }
         };
-        let absolute = self.absolute.rule(preferred, &RULES);
+        let [under_g90, under_g91] = self.arcs();
+        let absolute = under_g90.rule(preferred, &RULES);
         // The arcs under G90 give evidence for those under G91 of the same program.
-        let shown = if self.absolute.tells(3) {
+        let shown = if under_g90.tells(3) {
             absolute
         } else {
             preferred
         };
-        let incremental = self.incremental.rule(shown, &RULES[..2]);
-        let absolute = if !self.absolute.tells(3) && self.incremental.tells(2) {
-            self.absolute.rule(incremental, &RULES)
+        let incremental = under_g91.rule(shown, &RULES[..2]);
+        let absolute = if !under_g90.tells(3) && under_g91.tells(2) {
+            under_g90.rule(incremental, &RULES)
         } else {
             absolute
         };
@@ -429,8 +425,19 @@ impl Evidence {
 
     /// True where the arcs fit under two rules equally well, as full circles do.
     pub(crate) fn leaves_centers_open(&self) -> bool {
-        let told = self.absolute.tells(3) || self.incremental.tells(2);
-        !told && (self.absolute.is_open(3) || self.incremental.is_open(2))
+        let [under_g90, under_g91] = self.arcs();
+        let told = under_g90.tells(3) || under_g91.tells(2);
+        !told && (under_g90.is_open(3) || under_g91.is_open(2))
+    }
+
+    /// Whether some arcs under G90 have I and J.
+    pub(crate) fn has_absolute_arcs(&self) -> bool {
+        self.arcs[0].as_ref().is_some_and(|arcs| arcs.all > 0)
+    }
+
+    fn arcs(&self) -> [Arcs; 2] {
+        let of = |arcs: &Option<Box<Arcs>>| arcs.as_deref().copied().unwrap_or_default();
+        self.arcs.each_ref().map(of)
     }
 }
 

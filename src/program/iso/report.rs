@@ -101,9 +101,9 @@ impl Document {
         {
             let reading = self.reading();
             let rules = [reading.absolute, reading.incremental];
-            let taken = match self.evidence().absolute.all {
-                0 => rules[1],
-                _ => rules[0],
+            let taken = match self.evidence().has_absolute_arcs() {
+                true => rules[0],
+                false => rules[1],
             };
             let sentence = match taken {
                 CenterRule::StartToCenter => {
