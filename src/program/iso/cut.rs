@@ -4,7 +4,7 @@
 //! elsewhere changes nothing here.
 
 use super::block::{Code, Offset, Stop};
-use super::evidence::Evidence;
+use super::evidence::Kept;
 use super::machine::Machine;
 use super::moves::{Move, Place};
 use super::summary::{Spur, Summary, Tight, WireSide};
@@ -94,7 +94,7 @@ pub(crate) struct Cut {
     /// What few lines have.
     rare: Option<Box<Rare>>,
     /// What its lines say of how numbers are meant.
-    pub(crate) evidence: Option<Box<Evidence>>,
+    pub(crate) evidence: Kept,
     /// The decimals that its numbers have: a bit for each count of them.
     pub(crate) places: u8,
     /// There are lengths without a decimal point that are not 0, and with one.

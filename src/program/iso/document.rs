@@ -302,8 +302,7 @@ impl Document {
     /// What all lines say of it.
     fn evidence_of_cuts(&self) -> Evidence {
         let mut evidence = self.first_evidence();
-        let of_cuts = self.cuts.iter().filter_map(|cut| cut.evidence.as_deref());
-        of_cuts.for_each(|own| evidence.add(own));
+        self.cuts.iter().for_each(|cut| evidence.add(&cut.evidence));
         evidence
     }
 
@@ -341,7 +340,7 @@ impl Document {
             while line < end {
                 let mut run = Run::new(self.sequence(), machine, self.reading);
                 line = run.lines(line..end, 0, &mut |_| {});
-                evidence.add(&run.evidence);
+                evidence.add(&run.evidence.kept());
                 machine = run.after;
             }
             self.reading = evidence.reading(&self.limits);

@@ -126,7 +126,7 @@ impl<'a> Run<'a> {
             ..
         } = self;
         cut.keep(rare);
-        cut.evidence = (evidence != Evidence::default()).then(|| Box::new(evidence));
+        cut.evidence = evidence.kept();
         cut.fixed |= looked.is_fixed;
         cut.cuts = sum.is_some();
         cut.places = places;
