@@ -6,8 +6,9 @@ A part that is new stands in one of the two lists.
 from __future__ import annotations
 
 import os
+import tomllib
 
-from runner import TARGET, Part, cargo, line, silent
+from runner import ROOT, TARGET, Part, cargo, line, silent
 
 # The program that the Rust tests build, and all clients are tested with.
 WEDM = TARGET / "debug" / "wedm"
@@ -38,6 +39,13 @@ def script(name: str, lane: str, path: str, usual: int, limit: int, needs: tuple
     return Part(name, lane, path, usual, limit, needs, ("install",), line, {"WEDM": str(WEDM)})
 
 
+def rust_tests(test: str) -> str:
+    """All targets of `cargo test` but the tests of the server, and the examples in the documentation."""
+    targets = [target["name"] for target in tomllib.loads((ROOT / "Cargo.toml").read_text())["test"]]
+    others = " ".join(f"--test {name}" for name in targets if name != "server")
+    return f"{test} --lib --bins {others} && {test} --doc"
+
+
 def day() -> list[Part]:
     """What every change has to pass."""
     test = "cargo test --locked --features testing --no-fail-fast"
@@ -53,13 +61,15 @@ def day() -> list[Part]:
         Part("build", "rust", f"{test} --no-run", 380, 2400, ("compilers",), counts=silent),
         Part("lint", "rust", "cargo clippy --locked --all-targets --features testing --quiet -- -D warnings", 300, 2400, ("compilers",)),
         Part("documentation", "rust", "cargo doc --locked --no-deps --quiet", 65, 1800, ("compilers",), environment={"RUSTDOCFLAGS": "-D warnings"}),
-        Part("tests", "rust", setup + ezdxf + test, 600, 2400, ("build",), ("install",), cargo),
+        Part("tests", "rust", setup + ezdxf + rust_tests(test), 450, 2400, ("build",), ("install",), cargo),
         Part("package", "rust", "dist/contents", 5, 300),
         # Everything from Debian, PyPI and npm, while the compiler is busy.
         Part("install", "clients", setup + " && ".join(installs), 200, 2400, ("compilers",), counts=silent),
         script("site", "clients", "docs/site/test", 20, 600, ()),
         script("vscode", "clients", "clients/vscode/test", 400, 1800),
         script("autocad", "clients", "clients/autocad/test", 100, 900),
+        # These mostly wait for the server.
+        Part("server", "clients", f"{test} --test server", 120, 1800, ("build",), counts=cargo),
         script("librecad", "desktop", "clients/librecad/test", 500, 1800),
         script("editors", "desktop", "clients/editors/test", 60, 1800),
         script("python", "desktop", "clients/python/test", 120, 900),
