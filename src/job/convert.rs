@@ -3,7 +3,7 @@
 use super::Refusal;
 use crate::document::Document;
 use crate::dxf;
-use crate::finding::{Detail, Fault, Finding, Severity};
+use crate::finding::{Detail, Fault, Finding, FixKind, Severity, TextFix};
 use crate::program::convert::{self, Cuts, Dropped};
 use crate::program::{Format, ProofError};
 use crate::rule::Rule;
@@ -76,7 +76,8 @@ pub(crate) fn convert(
     let Some(program) = document.program() else {
         return Err(Refusal::Sentence(say!(a_drawing_is_no_program).into()));
     };
-    let mut errors = document.all_findings().to_vec();
+    let findings = document.all_findings();
+    let mut errors = findings.to_vec();
     errors.retain(|finding| finding.severity == Severity::Error);
     let any_errors = errors
         .iter()
@@ -100,6 +101,21 @@ pub(crate) fn convert(
     }
     if program.mills() {
         return Err(Refusal::Sentence(say!(it_is_milled).into()));
+    }
+    // What was cut off would be missing, and the end that is written would say that nothing is.
+    let adds_end = |fix: &TextFix| matches!(fix.kind, FixKind::AddEnd { .. });
+    let breaks_off = |finding: &&Finding| {
+        finding.rule == Rule::MissingEnd && !program.fixes(finding).iter().any(adds_end)
+    };
+    let broken_off = findings.iter().find(breaks_off);
+    let is_program = target != Target::Drawing && !force;
+    if let Some(range) = broken_off
+        .filter(|_| is_program)
+        .and_then(|it| it.place.in_text())
+    {
+        let line = program.text().line_of(range.start);
+        let reason = say!(the_program_breaks_off_there);
+        return Err(Refusal::Sentence(say!(line_by_number, line + 1, reason)));
     }
     let is_iso = target == Target::Program(Format::Iso);
     let mut cuts = convert::cuts_to_write(program, is_iso);

@@ -247,6 +247,42 @@ fn the_command_converts_and_refuses() {
         "left out, since they lead nowhere: lines 4",
     );
     check("convert empty.3b -o empty.dxf", 1, "it cuts nothing");
+    // No end is written where the rest is missing; a contour that is whole lacks nothing but the end.
+    let without_end = |name: &str, whole: &str, lines: usize| {
+        let text: Vec<&str> = whole.lines().take(lines).collect();
+        std::fs::write(folder.path().join(name), text.join("\n") + "\n").unwrap();
+    };
+    let whole = "B1000B0B1000GXL1\nB0B5000B5000GYL2\nB5000B0B5000GXL1\nB0B5000B5000GYL4\nB5000B0B5000GXL3\nB1000B0B1000GXL3\n";
+    without_end("cut_off.3b", whole, 3);
+    without_end("no_end.3b", whole, 6);
+    let whole = "G92 X0 Y0\nG90\nG01 X1. Y0.\nX1. Y5.\nX6. Y5.\nX6. Y0.\nX1. Y0.\nX0. Y0.\n";
+    without_end("cut_off.iso", whole, 5);
+    without_end("no_end.iso", whole, 8);
+    check(
+        "convert cut_off.3b -o forced.iso --force",
+        0,
+        "written forced.iso",
+    );
+    check(
+        "convert cut_off.3b -o x.iso",
+        1,
+        "line 3: the program breaks off there",
+    );
+    check(
+        "convert cut_off.iso -o x.3b",
+        1,
+        "line 5: the program breaks off there",
+    );
+    check(
+        "convert no_end.3b -o no_end_3b.iso",
+        0,
+        "written no_end_3b.iso",
+    );
+    check(
+        "convert no_end.iso -o no_end_iso.3b",
+        0,
+        "written no_end_iso.3b",
+    );
     check("convert part.dxf -o part.3b", 2, "it is a drawing");
     check(
         "convert hole.3b -o hole.step",

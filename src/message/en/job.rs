@@ -14,6 +14,7 @@ declare! {
     no_other_program(reason) => "no other program could be proved for this one, and none is written: {reason}";
     a_target_that_is_not_written(name, names) => "{name:?} is not written, expected dxf, {names}";
     it_cuts_nothing => "it cuts nothing";
+    the_program_breaks_off_there => "the program breaks off there, and has no end";
     a_drawing_is_no_program => "it is a drawing, expected a program (.3b, .iso)";
     a_program_is_no_drawing => "it is a program, expected a drawing (.dxf)";
     nothing_is_said_of_a_wire(format) => "no wire is set, only an electrode in [milling]: choose the format milling, or set correction or wire-diameter for {format}";

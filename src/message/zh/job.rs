@@ -14,6 +14,7 @@ translate! {
     no_other_program(reason) => "由它得不出通过校核的新程序，未写出任何程序：{reason}";
     a_target_that_is_not_written(name, names) => "不能写出 {name:?}，应为 dxf、{names}";
     it_cuts_nothing => "没有切割任何轮廓";
+    the_program_breaks_off_there => "程序在此中断，没有结束";
     a_drawing_is_no_program => "这是图形，此处要程序（.3b、.iso）";
     a_program_is_no_drawing => "这是程序，此处要图形（.dxf）";
     nothing_is_said_of_a_wire(format) => "没有电极丝的数据，只有 [milling] 的电极：请选格式 milling，或为 {format} 设置 correction 或 wire-diameter";
