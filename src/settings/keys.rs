@@ -168,7 +168,8 @@ tables! {
         thread: PointSetting => point_setting;
         /// Point `[x, y]` of the contour where the cut begins, mm. A table has them by handle. Not set: the point beside
         /// an "O" that means it; under `as-picked` the start of the entity picked first; the point nearest to the thread hole; else the
-        /// middle of the longest line; else the point of the longest arc with the largest x, or its middle.
+        /// middle of the longest line; else the point of the longest arc with the largest x, or its middle; where no lead fits
+        /// there, the same of the next longest, of up to eight.
         entry: PointSetting => point_setting;
         /// Length of the lead from thread hole to the wire's path where no thread hole is given, mm. Halved until it fits. By default the
         /// hole lies 3 mm from the contour.

@@ -5,6 +5,7 @@ use super::job::{Job, ROUNDING};
 use super::offset::{Wall, normal};
 use super::path::{Refusal, Source};
 use super::requested::Requested;
+use crate::drawing::EntityId;
 use crate::geometry::{Arc, Point, Segment};
 use crate::settings::Lead;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
@@ -59,15 +60,49 @@ pub(super) fn nearest(walls: &[Wall], point: Point, tie: f64) -> Option<(Entry, 
     best
 }
 
-/// The middle of the longest line, else the +X-most point of the longest arc, or its middle. Of several equally long
-/// ones the first drawn.
-pub(super) fn default_entry(walls: &[Wall]) -> Option<Entry> {
-    let rank = |wall: &Wall| match wall.source {
+/// Where a wall was drawn.
+fn rank(wall: &Wall) -> (EntityId, usize) {
+    match wall.source {
         Source::Segment { entity, segment } | Source::Corner { entity, segment } => {
             (entity, segment)
         }
-        _ => (crate::drawing::EntityId(u32::MAX), 0),
-    };
+        _ => (EntityId(u32::MAX), 0),
+    }
+}
+
+/// The entry of a wall: its middle, or the +X-most point of an arc.
+fn entry_of(walls: &[Wall], wall: usize) -> Entry {
+    let segment = &walls[wall].geometry;
+    let share = segment.as_arc().map_or(0.5, furthest_x);
+    Entry {
+        wall,
+        share,
+        point: segment.point_at(share),
+    }
+}
+
+/// The entries after the default one, as likely: those of the other lines, then of the arcs, the longest first.
+pub(super) fn other_entries(walls: &[Wall]) -> impl Iterator<Item = Entry> {
+    let length = |wall: usize| walls[wall].geometry.length();
+    let is_arc = |wall: usize| walls[wall].geometry.as_arc().is_some();
+    let default = default_entry(walls).map(|entry| entry.wall);
+    let mut all: Vec<usize> = (0..walls.len())
+        .filter(|wall| Some(*wall) != default)
+        .collect();
+    all.sort_by(|&a, &b| {
+        let by_length = || length(b).total_cmp(&length(a));
+        let by_rank = || rank(&walls[a]).cmp(&rank(&walls[b]));
+        is_arc(a)
+            .cmp(&is_arc(b))
+            .then_with(by_length)
+            .then_with(by_rank)
+    });
+    all.into_iter().map(|wall| entry_of(walls, wall))
+}
+
+/// The middle of the longest line, else the +X-most point of the longest arc, or its middle. Of several equally long
+/// ones the first drawn.
+pub(super) fn default_entry(walls: &[Wall]) -> Option<Entry> {
     let longest = |arcs: bool| {
         let mut best: Option<(usize, f64)> = None;
         for (index, wall) in walls
@@ -91,13 +126,7 @@ pub(super) fn default_entry(walls: &[Wall]) -> Option<Entry> {
         best.map(|(best, _)| best)
     };
     let wall = longest(false).or_else(|| longest(true))?;
-    let segment = &walls[wall].geometry;
-    let share = segment.as_arc().map_or(0.5, furthest_x);
-    Some(Entry {
-        wall,
-        share,
-        point: segment.point_at(share),
-    })
+    Some(entry_of(walls, wall))
 }
 
 /// The share at which an arc's circle has its largest x; 0.5 for an arc that does not reach there, since its ends may

@@ -146,14 +146,24 @@ impl Job<'_> {
         let mut holes = Holes::default();
         let given = wanted.iter().filter_map(|wanted| wanted.thread);
         given.for_each(|thread| holes.push(thread));
-        for (wanted, unled) in offsets {
+        for (mut wanted, mut unled) in offsets {
             self.go_on()?;
-            let thread = match self.thread_hole(&unled, &wanted, contours, &kerfs, &holes) {
+            let thread_hole = |unled: &Unled| {
+                let wanted = &wanted;
+                self.thread_hole(unled, wanted, contours, &kerfs, &holes)
+            };
+            let thread = match thread_hole(&unled) {
                 Ok(thread) => thread,
-                Err(finding) => {
-                    findings.push(finding);
-                    continue;
-                }
+                Err(finding) => match self.entered_elsewhere(&mut unled, &wanted, thread_hole) {
+                    Some((entry, thread)) => {
+                        wanted.entry = Some(entry);
+                        thread
+                    }
+                    None => {
+                        findings.push(finding);
+                        continue;
+                    }
+                },
             };
             holes.push(thread);
             if let Some(found) = self.finished(&unled) {

@@ -3,7 +3,7 @@
 use super::contour_path::goes_out_and_back;
 use super::contours::Contours;
 use super::corners::Element;
-use super::entry::{circle_center, nearest};
+use super::entry::{Entry, circle_center, nearest, other_entries, path_point};
 use super::hole::Holes;
 use super::job::{Job, ROUNDING};
 use super::leads::{Kerfs, SAME, Surroundings, Threading, thread_hole};
@@ -14,6 +14,9 @@ use super::requested::Requested;
 use crate::finding::Finding;
 use crate::geometry::{Point, Segment};
 use crate::settings::{Compensation, Lead};
+
+/// Entries that are tried where no lead fits at the first: of a comb none may have room, and each costs a look at all contours.
+const OTHER_ENTRIES: usize = 8;
 
 impl Job<'_> {
     /// How near a path at a correction, drawing units, may come to the walls.
@@ -205,6 +208,31 @@ impl Job<'_> {
             correction,
             ..WirePath::along(thread_hole, segments)
         }
+    }
+
+    /// Where no lead fits at the entry, and nobody has said where to enter: the next entry at which one does, and its
+    /// thread hole. The middle of the longest line may lie in a slit, where no arc has room.
+    pub(super) fn entered_elsewhere(
+        &self,
+        unled: &mut Unled,
+        wanted: &Requested,
+        thread_hole: impl Fn(&Unled) -> Result<Point, Finding>,
+    ) -> Option<(Point, Point)> {
+        let index = unled.outline;
+        let is_told = self.entry(index, &unled.walls, wanted).ok()?.is_some();
+        if is_told || unled.entry.is_none() || !self.outlines[index].contour.closed {
+            return None;
+        }
+        let others: Vec<Entry> = other_entries(&unled.walls).take(OTHER_ENTRIES).collect();
+        others.into_iter().find_map(|entry| {
+            for pass in unled.passes.iter_mut().filter(|pass| !pass.path.is_empty()) {
+                let (correction, side) = (pass.correction, unled.side);
+                (pass.element, pass.begin) =
+                    path_point(&pass.path, &unled.walls, &entry, correction, side)?;
+            }
+            unled.entry = Some(entry);
+            Some((entry.point, thread_hole(unled).ok()?))
+        })
     }
 }
 

@@ -611,7 +611,7 @@ export interface ProgramSettings {
    */
   thread?: PointSetting;
   /**
-   * Point `[x, y]` of the contour where the cut begins, mm. A table has them by handle. Not set: the point beside an "O" that means it; under `as-picked` the start of the entity picked first; the point nearest to the thread hole; else the middle of the longest line; else the point of the longest arc with the largest x, or its middle.
+   * Point `[x, y]` of the contour where the cut begins, mm. A table has them by handle. Not set: the point beside an "O" that means it; under `as-picked` the start of the entity picked first; the point nearest to the thread hole; else the middle of the longest line; else the point of the longest arc with the largest x, or its middle; where no lead fits there, the same of the next longest, of up to eight.
    */
   entry?: PointSetting;
   /**

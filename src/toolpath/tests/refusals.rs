@@ -4,9 +4,10 @@ use super::{SQUARE, at, defaults, drawing};
 use crate::drawing::{Drawing, Entity, Geometry, Outline, Role};
 use crate::finding::{Finding, Rule, Severity};
 use crate::geometry::Point;
-use crate::settings::{Compensation, Direction, Effective, PointSetting, SideSetting};
+use crate::settings::{Compensation, Direction, Effective, Lead, PointSetting, SideSetting};
 use crate::toolpath::{Refusal, plan, plan_while};
 use std::collections::BTreeMap;
+use std::f64::consts::TAU;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 fn check_refused(polyline: &[[f64; 3]], role: Option<Role>, settings: Effective, expected: &str) {
@@ -96,6 +97,41 @@ fn a_thread_hole_on_the_contour_is_refused() {
         assert_eq!(begin, fits.then_some(y.min(-0.1)), "{y}: {planned:?}");
         let is_lead_in = |findings: &[Finding]| findings.iter().all(|it| it.rule == Rule::LeadIn);
         assert!(fits || matches!(&planned, Err(Refusal::Findings(found)) if is_lead_in(found)));
+    }
+}
+
+/// The longest line of a disc with a slit lies in the slit, where no arc has room: the disc is entered from outside. Where somebody
+/// names the place, that is refused as before.
+#[test]
+fn where_no_lead_fits_another_side_is_entered() {
+    const RADIUS: f64 = 5.0;
+    for (width, lead) in [(0.25, Lead::Arc), (0.25, Lead::Perpendicular)] {
+        let half = width / 2.0;
+        let turn = TAU - 2.0 * (half / RADIUS).asin();
+        let x = (RADIUS * RADIUS - half * half).sqrt();
+        let disc: &[[f64; 3]] = &[
+            [x, half, (turn / 4.0).tan()],
+            [x, -half, 0.0],
+            [-2.0, -half, 0.0],
+            [-2.0, half, 0.0],
+        ];
+        let (drawing, outlines) = drawing(&[(disc, Some(Role::Punch))]);
+        let settings = Effective { lead, ..defaults() };
+        let path = plan(&drawing, &outlines, &settings, None)
+            .unwrap_or_else(|refusal| panic!("{width} {lead:?}: {refusal:?}"))
+            .remove(0);
+        let begin = path.thread_hole - Point::origin();
+        let is_within = lead == Lead::Perpendicular;
+        assert_eq!(
+            begin.norm() < RADIUS,
+            is_within,
+            "{width} {lead:?}: {begin}"
+        );
+        let asked = Effective {
+            entry: at(1.5, half),
+            ..settings
+        };
+        assert_eq!(plan(&drawing, &outlines, &asked, None).is_ok(), is_within);
     }
 }
 
