@@ -58,7 +58,7 @@ def day() -> list[Part]:
         Part("format", "rust", "cargo fmt --check", 5, 300),
         Part("compilers", "rust", setup + compilers, 20, 900, counts=silent),
         # The program itself is built with the tests of it.
-        Part("build", "rust", f"{test} --no-run", 380, 2400, ("compilers",), counts=silent),
+        Part("build", "rust", f"{test} --no-run", 300, 2400, ("compilers",), counts=silent),
         Part("lint", "rust", "cargo clippy --locked --all-targets --features testing --quiet -- -D warnings", 300, 2400, ("compilers",)),
         Part("documentation", "rust", "cargo doc --locked --no-deps --quiet", 65, 1800, ("compilers",), environment={"RUSTDOCFLAGS": "-D warnings"}),
         Part("tests", "rust", setup + ezdxf + rust_tests(test), 450, 2400, ("build",), ("install",), cargo),
