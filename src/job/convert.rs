@@ -107,11 +107,10 @@ pub(crate) fn convert(
     let breaks_off = |finding: &&Finding| {
         finding.rule == Rule::MissingEnd && !program.fixes(finding).iter().any(adds_end)
     };
-    let broken_off = findings.iter().find(breaks_off);
-    let is_program = target != Target::Drawing && !force;
-    if let Some(range) = broken_off
-        .filter(|_| is_program)
-        .and_then(|it| it.place.in_text())
+    if target != Target::Drawing
+        && !force
+        && let Some(finding) = findings.iter().find(breaks_off)
+        && let Some(range) = finding.place.in_text()
     {
         let line = program.text().line_of(range.start);
         let reason = say!(the_program_breaks_off_there);

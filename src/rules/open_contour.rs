@@ -7,7 +7,7 @@ use super::ends::{end_moved, joined};
 use super::{ContourRule, Outlook};
 use crate::drawing::{Change, ContourSegment, Geometry};
 use crate::finding::{Detail, Fix, FixKind, Place, Rule, Severity};
-use crate::geometry::{Point, cross};
+use crate::geometry::{Point, Segment, line_line};
 use crate::settings::{Compensation, Effective};
 
 pub(crate) const RULE: ContourRule = ContourRule {
@@ -99,21 +99,19 @@ fn fixes(outlook: &Outlook) -> Vec<Fix> {
         .segments(outlook.drawing)
         .map(|segment| segment.geometry.length())
         .sum();
-    let preferred = length < (SHARE * along).max(JOINS * outlook.limits.tolerances.join);
+    // No wire passes an opening so narrow, and nothing else can have been meant.
+    let is_slip = length < SHARE * along && length < outlook.limits.correction;
+    let is_sure = contour.len() > 1 && is_slip && are_alone(outlook, [from, to]);
+    let snapped = is_sure.then(|| brought_together(outlook, &last, &first));
+    let snap = |changes| Fix::new(FixKind::Snap { distance: length }, changes);
+    let snap = snapped.flatten().map(snap);
+    let is_near = length < (SHARE * along).max(JOINS * outlook.limits.tolerances.join);
     let close = Fix {
-        preferred,
+        preferred: is_near && snap.is_none(),
         in_fix_all: false,
         ..Fix::new(FixKind::Close { length }, vec![change])
     };
-    // No wire passes an opening so narrow, and nothing else can have been meant.
-    let is_slip = length < SHARE * along && length < outlook.limits.correction;
-    let is_sure = || is_slip && are_alone(outlook, [from, to]);
-    let snapped = contour.len() > 1 && is_sure();
-    let snapped = snapped
-        .then(|| brought_together(outlook, &last, &first))
-        .flatten();
-    let snap = |changes| Fix::new(FixKind::Snap { distance: length }, changes);
-    snapped.map(snap).into_iter().chain([close]).collect()
+    snap.into_iter().chain([close]).collect()
 }
 
 /// The changes after which the last segment ends where the first one begins: straight ones keep their directions, where
@@ -137,29 +135,25 @@ fn brought_together(
 /// Where two straight segments that follow each other would meet, no farther from either end than these are from each
 /// other.
 fn met(last: &ContourSegment, first: &ContourSegment) -> Option<Point> {
-    let (last, first) = (&last.geometry, &first.geometry);
-    if last.as_arc().is_some() || first.as_arc().is_some() {
+    let (Segment::Line(last), Segment::Line(first)) = (&last.geometry, &first.geometry) else {
         return None;
-    }
-    let (from, to) = (last.end(), first.start());
-    let (along, on) = (last.end_tangent(), first.start_tangent());
-    let corner = from + along * (cross(to - from, on) / cross(along, on));
+    };
+    let (from, to) = (last.end, first.start);
+    let corner = line_line(from, last.direction(), to, first.direction())?;
     let reach = (to - from).norm();
     let is_near = |end: Point| (corner - end).norm() <= reach;
     (is_near(from) && is_near(to)).then_some(corner)
 }
 
-/// Whether the ends of no other open contour lie as near to one of these as a wire is wide.
+/// Whether no entity of another contour ends as near to one of these ends as a wire is wide.
 fn are_alone(outlook: &Outlook, ends: [Point; 2]) -> bool {
     let reach = 2.0 * outlook.limits.correction;
+    let is_near = |point: Point| ends.iter().any(|end| (point - end).norm() < reach);
     let own = &outlook.contour.pieces;
+    // Few are near: the pieces of the contour are looked through for these alone.
     outlook.drawing.entities().all(|(id, entity)| {
-        let of_contour = own.iter().any(|piece| piece.entity == id);
-        let near = |point: Point| ends.iter().any(|end| (point - end).norm() < reach);
-        of_contour
-            || !entity
-                .geometry
-                .ends()
-                .is_some_and(|(start, end)| near(start) || near(end))
+        let ends = entity.geometry.ends();
+        !ends.is_some_and(|(start, end)| is_near(start) || is_near(end))
+            || own.iter().any(|piece| piece.entity == id)
     })
 }
