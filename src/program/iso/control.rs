@@ -55,7 +55,7 @@ impl Reader for Control<'_> {
         let sequence = self.sequence(text);
         let mut run = Run::new(sequence, before.machine(), self.reading);
         let base = sequence.base(first);
-        let behind = run.lines(first..sequence.count(), base, &mut |_| {});
+        let behind = run.lines(first..sequence.count(), base, |_| {});
         let after = Entry::of(run.after, Some(before));
         let (cut, way) = run.finished();
         let begun = Begun {

@@ -181,12 +181,7 @@ impl Document {
     }
 
     /// Runs the lines of a cut again, up to one of them, and hands out what each does.
-    pub(super) fn run_again(
-        &self,
-        cut: usize,
-        end: usize,
-        each: &mut dyn FnMut(&Ran<'_>),
-    ) -> Run<'_> {
+    pub(super) fn run_again(&self, cut: usize, end: usize, each: impl FnMut(&Ran<'_>)) -> Run<'_> {
         let before = self.cuts.state_before(cut).machine();
         let mut run = Run::new(self.sequence(), before, self.reading);
         run.lines(self.cuts.lines(cut).start..end, self.cuts.byte(cut), each);
@@ -195,7 +190,7 @@ impl Document {
 
     /// The moves of a cut that cut, from where the wire enters it.
     fn placed(&self, cut: usize) -> Vec<Placed> {
-        let run = self.run_again(cut, self.cuts.lines(cut).end, &mut |_| {});
+        let run = self.run_again(cut, self.cuts.lines(cut).end, |_| {});
         run.finished().1
     }
 
@@ -220,7 +215,7 @@ impl Document {
         let cut = self.cuts.first_at(nth);
         self.cuts.get(cut)?;
         let end = nth + usize::from(behind);
-        Some((cut, self.run_again(cut, end, &mut |_| {})))
+        Some((cut, self.run_again(cut, end, |_| {})))
     }
 
     /// Replaces a range of bytes and runs again what it touched. Returns the first cut in which the machine may stand
@@ -339,7 +334,7 @@ impl Document {
             let (mut line, end) = (0, HEAD.min(self.text.line_count()));
             while line < end {
                 let mut run = Run::new(self.sequence(), machine, self.reading);
-                line = run.lines(line..end, 0, &mut |_| {});
+                line = run.lines(line..end, 0, |_| {});
                 evidence.add(&run.evidence.kept());
                 machine = run.after;
             }

@@ -69,24 +69,13 @@ impl<'a> Run<'a> {
         &mut self,
         lines: Range<usize>,
         base: usize,
-        each: &mut dyn FnMut(&Ran<'_>),
+        mut each: impl FnMut(&Ran<'_>),
     ) -> usize {
         self.nth = lines.start;
         while self.nth < lines.end && !self.is_over() {
-            let line = self.sequence.line(self.nth);
-            let bytes = self.sequence.bytes(line);
-            let offset = self.sequence.text.line_start(line) - base;
             self.looked.lines = self.looked.lines.saturating_sub(1);
-            let (known, variables) = (self.rare.faults.len(), self.after.variables);
-            if let Some((block, made)) = self.line(bytes, offset) {
-                each(&Ran {
-                    line,
-                    block: &block,
-                    variables,
-                    made,
-                    machine: &self.after,
-                });
-            }
+            let known = self.rare.faults.len();
+            self.line(self.sequence.line(self.nth), base, &mut each);
             self.nth += 1;
             if self.rare.faults.len() > known
                 && let Some(sum) = &mut self.sum
@@ -214,20 +203,22 @@ impl<'a> Run<'a> {
         (block, leans, measures)
     }
 
-    /// Runs a line: its content, its move, and the corner that the control makes at its end; `None` where it does nothing.
-    fn line(&mut self, line: &[u8], offset: usize) -> Option<(Block, [Option<Move>; 2])> {
-        let known_faults = self.rare.faults.len();
-        let (block, leans, measures) = self.block(line, offset);
+    /// Runs a line of the text: its content, its move, and the corner that the control makes at its end.
+    fn line(&mut self, line: usize, base: usize, each: &mut impl FnMut(&Ran<'_>)) {
+        let bytes = self.sequence.bytes(line);
+        let offset = self.sequence.text.line_start(line) - base;
+        let (known_faults, variables) = (self.rare.faults.len(), self.after.variables);
+        let (block, leans, measures) = self.block(bytes, offset);
         if block.empty {
-            return None;
+            return;
         }
-        let range = words_of(line, offset);
+        let range = words_of(bytes, offset);
         self.cut.last_words = Some(range);
         self.number(&block, range.0);
         self.cut.calls |= block.call.is_some();
         if self.after.ended {
             self.rare.behind_end.get_or_insert(range);
-            return None;
+            return;
         }
         let incremental = block.incremental.unwrap_or(self.after.incremental);
         self.evidence.numbers(&block, incremental);
@@ -237,7 +228,7 @@ impl<'a> Run<'a> {
         if measures {
             self.rare
                 .faults
-                .extend(self.beside_too_far(line, offset, &block));
+                .extend(self.beside_too_far(bytes, offset, &block));
         }
         let steered = self.after.steer(&block, &self.reading);
         // A line that says where to go fixes the position even where it makes no move because the
@@ -281,7 +272,13 @@ impl<'a> Run<'a> {
         if let Some(stop) = block.stop {
             self.stop(stop, steered.is_none() && behind == Behind::Stop, range);
         }
-        Some((block, all))
+        each(&Ran {
+            line,
+            block: &block,
+            variables,
+            made: all,
+            machine: &self.after,
+        });
     }
 
     /// The number of a block, or where a program begins.

@@ -12,6 +12,7 @@ pub(crate) enum Kept {
     Many(Box<Many>),
 }
 
+/// Counts beyond 255, or of arcs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Many {
     counts: [u32; COUNTS],
@@ -43,6 +44,7 @@ impl Evidence {
         own.into_iter().chain(of_decimals)
     }
 
+    /// Adds what a cut has kept.
     pub(crate) fn add(&mut self, kept: &Kept) {
         match kept {
             Kept::Few { counts, travel } => {
@@ -63,6 +65,7 @@ impl Evidence {
         }
     }
 
+    /// The same as a cut keeps it.
     pub(crate) fn kept(mut self) -> Kept {
         let mut counts = [0; COUNTS];
         let both = counts.iter_mut().zip(self.counts());
