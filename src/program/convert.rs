@@ -164,7 +164,8 @@ pub(crate) fn cuts_to_write(document: &Document, switches: bool) -> Cuts {
         if let Some(&stated) = stated.get(&step.range.start)
             && (stated - end).norm() <= tolerance(arcs)
         {
-            (end, arcs) = (stated, 0);
+            // The machine may stand beside the stated place, by as much as an arc is rounded: the next block begins there.
+            (end, arcs) = (stated, 1);
         }
         if step.kind == Kind::Rapid {
             cuts.ways.push([node, end]);

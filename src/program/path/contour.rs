@@ -205,13 +205,12 @@ pub(crate) fn closing(way: &Way) -> Closing {
         }
     }
     let pieces = way.pieces();
-    if way.writing().names_places
-        && count > 3
+    if count > 3
         && let Some(first) = pieces.get(1)
     {
         // The cut may go on past the place where it closes: then its first and its last piece lie on each other there. A last piece
         // that only ends on the first one, as under a wrong sign, is no such cut.
-        for lead_out in [0, 1] {
+        for lead_out in 0..=longest_out.min(1) {
             let (last, end) = (
                 pieces[count - lead_out - 1],
                 way.node(count - lead_out).ideal,
