@@ -163,13 +163,18 @@ pub(crate) fn check(document: &mut Document, limit: usize) -> (Vec<Finding>, usi
 }
 
 /// Whether the parts of a drawing fit, of which this is the snapshot; what its findings have shown of that is not worked out again.
+/// Parts that fit although the wire does not reach all of an outline are refused, as their programs are.
 pub fn fit(document: &Document, snapshot: &Snapshot, watch: &dyn Watch) -> Result<Fit, Refusal> {
     let (drawing, outlines) = (&snapshot.drawing, &snapshot.outlines);
     let goes_on = || watch.is_wanted();
-    Ok(match document.laid() {
+    let fit = match document.laid() {
         Some(laid) => laid.compared(drawing, outlines, &snapshot.settings)?,
         None => fit::fit(drawing, outlines, &snapshot.settings, &goes_on)?,
-    })
+    };
+    if fit.fits() {
+        pair::refuse_lost_parts(snapshot)?;
+    }
+    Ok(fit)
 }
 
 /// The wire's paths of the contours that hold one of `handles`, or of all, with the thread holes, and on request with the contours that all passes leave.

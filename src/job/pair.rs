@@ -182,6 +182,21 @@ pub(crate) fn programs(
     Ok(made.collect())
 }
 
+/// Refuses parts of a pair that the wire leaves without a part of their outline, such as a slot that is narrower than the kerf.
+pub(super) fn refuse_lost_parts(snapshot: &Snapshot) -> Result<(), Refusal> {
+    let parts = parts(snapshot, partners(&snapshot.settings)?, false, true)?;
+    let lost = parts.into_iter().flat_map(|mut part| {
+        let (findings, _) = part.analysis.findings(&part.snapshot.drawing, usize::MAX);
+        let is_lost = |it: &Finding| it.rule == Rule::LostPocket && it.severity == Severity::Error;
+        findings.into_iter().filter(is_lost)
+    });
+    let lost: Vec<Finding> = lost.collect();
+    match lost.is_empty() {
+        true => Ok(()),
+        false => Err(Refusal::Errors(lost)),
+    }
+}
+
 /// Each part is checked under its own settings; errors that concern all of them refuse the request here.
 fn refuse_errors_of_all(findings: &[Finding], wanted: &Wanted) -> Result<(), Refusal> {
     let of_all = |finding: &&Finding| {
