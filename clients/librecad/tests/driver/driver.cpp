@@ -78,6 +78,7 @@ void Driver::run()
     expect("LibreCAD has loaded the plugin and the drawing", m_main && action("Check radii"));
     if (m_main && action("Check radii"))
         scenario(qEnvironmentVariable("WEDM_TEST"));
+    std::puts("scenario ended");
     std::fflush(stdout);
     QFile process(QFileInfo(m_file).absoluteDir().filePath("server"));
     if (process.open(QIODevice::WriteOnly))
