@@ -16,10 +16,14 @@ impl Dropped {
                 let tilts = iso::refuse_taper(program, iso::TaperWords::All).is_err();
                 iso::dropped(program, !tilts)
             }
-            Document::ThreeB(program) => Dropped {
-                comments: program.has_comments(),
-                ..Dropped::default()
-            },
+            Document::ThreeB(program) => {
+                let (words, comments) = program.beside_blocks();
+                Dropped {
+                    words,
+                    comments,
+                    ..Dropped::default()
+                }
+            }
         }
     }
 

@@ -4,6 +4,7 @@ use super::super::around::StatedPoint;
 use super::super::decode::meant;
 use super::super::entry::{Entry, What};
 use super::super::pieces::{Field, pieces};
+use super::super::words::switch;
 use super::{At, Document};
 use crate::finding::Side;
 use crate::geometry::{Point, Vector};
@@ -41,17 +42,25 @@ impl Document {
             .collect()
     }
 
-    /// True where remarks stand in the text.
-    pub(in crate::program) fn has_comments(&self) -> bool {
+    /// The switches of pump and wire, each with its line, and whether remarks stand in the text.
+    pub(in crate::program) fn beside_blocks(&self) -> (Vec<(usize, String)>, bool) {
         let words = self.words();
-        (0..self.text.line_count()).any(|line| {
+        let (mut switches, mut has_comments) = (Vec::new(), false);
+        for line in 0..self.text.line_count() {
             let bytes = self.text.line(line);
-            let all = pieces(bytes, &words);
-            all.iter().any(|piece| {
-                let own = bytes.get(piece.range.clone()).unwrap_or_default();
-                piece.field == Field::Comment && says_anything(own)
-            })
-        })
+            let all = pieces(bytes, &words).into_iter();
+            for piece in all.filter(|piece| piece.field == Field::Comment) {
+                let mut own = bytes.get(piece.range).unwrap_or_default().trim_ascii();
+                while let Some((word, behind)) =
+                    switch(own).and_then(|len| own.split_at_checked(len))
+                {
+                    switches.push((line, String::from_utf8_lossy(word).into_owned()));
+                    own = behind.trim_ascii_start();
+                }
+                has_comments |= says_anything(own);
+            }
+        }
+        (switches, has_comments)
     }
 
     /// The heading with the start, before the first block, and the start in mm.
