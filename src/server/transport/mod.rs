@@ -4,6 +4,8 @@
 //! first wait happens in the order of the messages. A handler that waits is spawned: any number of them holds up
 //! neither the next message nor a cancellation. Knows JSON-RPC, and of LSP only `initialize` and `exit`.
 
+// Public for fuzz targets, of which a build without `testing` knows nothing.
+#[cfg_attr(not(feature = "testing"), allow(unreachable_pub))]
 mod frame;
 mod long_string;
 mod lost;
@@ -19,7 +21,8 @@ pub(crate) use memory::give_back;
 pub(crate) use writer::{Publish, Writer};
 pub(crate) use written::{AsWritten, Written};
 
-pub(super) use frame::{Frame, Frames};
+#[cfg_attr(not(feature = "testing"), allow(unreachable_pub))]
+pub use frame::{Frame, Frames};
 use lost::lost_change;
 use memory::Memory;
 use message::Incoming;
@@ -88,7 +91,7 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
             if !self.wait_for_reader() {
                 return false;
             }
-            let frame = frames.next();
+            let frame = frames.step();
             self.lose(frames.take_lost());
             match frame {
                 Frame::End => return false,
