@@ -7,7 +7,6 @@
 // Public for fuzz targets, of which a build without `testing` knows nothing.
 #[cfg_attr(not(feature = "testing"), allow(unreachable_pub))]
 mod frame;
-mod long_string;
 mod lost;
 mod memory;
 mod message;
