@@ -138,10 +138,11 @@ impl Edits {
     }
 }
 
-/// Resident memory of the server in bytes; `None` where the system does not tell.
+/// Memory that the server holds for itself, without the pages of the program file, in bytes; `None` where the system does not
+/// tell.
 fn resident(client: &Client) -> Option<u64> {
     let status = std::fs::read_to_string(format!("/proc/{}/status", client.child.id())).ok()?;
-    let line = status.lines().find(|line| line.starts_with("VmRSS:"))?;
+    let line = status.lines().find(|line| line.starts_with("RssAnon:"))?;
     line.split_whitespace()
         .nth(1)?
         .parse::<u64>()

@@ -16,12 +16,12 @@ pub(crate) use since::Since;
 use crate::analysis::Analysis;
 use crate::compare::{Beside, Drawn, Traced};
 use crate::drawing::{Delta, Drawing, DrawingEdit, EntityId, Outline, Role};
+use crate::dxf;
 use crate::finding::{self, Detail, Edit, Finding, Fix, FixKind, Keep, Place, Rule, Telling};
 use crate::fit::Laid;
 use crate::program;
 use crate::settings::{self, Effective};
 use crate::text::{Again, SourceText};
-use crate::{dxf, finding::Severity};
 use rustc_hash::FxHashMap;
 use std::borrow::Cow;
 use std::ops::Range;
@@ -256,14 +256,6 @@ impl Document {
                     .into()
             })
             .clone()
-    }
-
-    /// True when the document has an error: programs are refused then.
-    pub(crate) fn has_errors(&mut self) -> bool {
-        let (findings, _) = self.findings(1);
-        findings
-            .first()
-            .is_some_and(|finding| finding.severity == Severity::Error)
     }
 
     /// The fixes of one finding, the preferred one first.

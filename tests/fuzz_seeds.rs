@@ -2,7 +2,7 @@
 
 #[allow(dead_code, reason = "a target has more than what its seeds need")]
 #[path = "../fuzz/src/lib.rs"]
-mod targets;
+pub(crate) mod targets;
 
 use std::path::Path;
 

@@ -5,6 +5,7 @@ pub mod dxf_lexer;
 pub mod dxf_reader;
 pub mod incremental_equals_fresh;
 pub mod iso_reader;
+pub mod sequence;
 pub mod server_frames;
 pub mod server_messages;
 pub mod three_b_controller;

@@ -45,7 +45,7 @@ fn paragraphs(lines: impl IntoIterator<Item = (Line, String)>) -> Vec<(Line, Str
 
 /// A text in lines of at most so many columns where its words allow it; what belongs to an item of a list is indented.
 /// Chinese has no blanks: it may go on after any of its characters.
-fn wrapped(text: &str, width: usize) -> Vec<String> {
+pub(super) fn wrapped(text: &str, width: usize) -> Vec<String> {
     let indent = text.len() - text.trim_start().len();
     let indent = indent
         + if text.trim_start().starts_with("- ") {

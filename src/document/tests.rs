@@ -1,4 +1,5 @@
 use super::*;
+use crate::finding::Severity;
 use crate::settings::{Settings, from_toml};
 
 /// Severities of what the reader finds in a sound drawing with a byte-order mark.

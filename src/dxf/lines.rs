@@ -32,14 +32,6 @@ impl<'a> Lines<'a> {
         }
     }
 
-    /// The largest contiguous run of bytes about a place, and where it begins. It holds whole lines.
-    pub(crate) fn piece_at(&self, at: usize) -> (&'a [u8], usize) {
-        match at < self.head.len() {
-            true => (self.head, 0),
-            false => (self.text.pieces().1, self.head.len()),
-        }
-    }
-
     pub(crate) fn slice(&self, range: Range<usize>) -> &'a [u8] {
         match self.head.get(range.clone()) {
             Some(bytes) => bytes,

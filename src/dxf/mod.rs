@@ -31,7 +31,6 @@ pub(crate) mod lines;
 pub(crate) mod number;
 mod numbers;
 pub(crate) mod place;
-mod plain;
 mod reader;
 mod reading;
 mod record;

@@ -114,8 +114,7 @@ pub(crate) fn number(line: &[u8]) -> Number {
 
 /// The number `[-] digits [. digits]` at the start of the bytes, and its length. `None` also where
 /// it is too long to be read in one step.
-#[inline]
-pub(crate) fn leading(bytes: &[u8]) -> Option<(f64, usize)> {
+fn leading(bytes: &[u8]) -> Option<(f64, usize)> {
     let digit = |at: usize| {
         bytes
             .get(at)

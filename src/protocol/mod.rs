@@ -54,7 +54,7 @@ pub use schema::schema;
 pub(crate) use schema::settings_schema;
 pub(crate) use segment::{SegmentKind, SegmentShape};
 pub(crate) use simulate::{Simulate, SimulatedBlock, Simulation, StepKind};
-pub(crate) use toolpath::{PathPiece, PathSource, Toolpath};
+pub(crate) use toolpath::Toolpath;
 pub(crate) use work::{StartHole, Work};
 
 /// Version of the `wedm/` name space that the handshake states.

@@ -7,7 +7,6 @@ use super::drawings::{self, Sent, SentChanges};
 use super::errors::internal;
 use super::handlers::*;
 use super::state::{Mailbox, Reply, State};
-use super::transport::AsWritten;
 use super::{parent, texts};
 use crate::protocol::RulePageText;
 use crate::protocol::method::{Message, SCALE_COMMAND, messages};
@@ -21,7 +20,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use tower_lsp::jsonrpc::{Error, Result};
 use tower_lsp::{LanguageServer, LspService, LspServiceBuilder};
 
-/// A request about an open document. Its result leaves as text, whatever its size.
+/// A request about an open document.
 struct Method<P, R> {
     name: &'static str,
     /// The title of its progress.
@@ -43,7 +42,7 @@ macro_rules! requests {
                 reach: Reach::$reach,
                 handler: $handler,
             };
-            self.answer(method, About::from(&params), params).await
+            self.perform(method, About::from(&params), params).await
         }
     )*};
 }
@@ -53,18 +52,18 @@ macro_rules! requests {
 macro_rules! own_requests {
     ($($name:ident: $message:ident, $reach:ident, $title:ident => $handler:path;)*) => {
         impl Backend {$(
-            async fn $name(&self, params: Value) -> Result<Value> {
+            async fn $name(
+                &self,
+                params: Value,
+            ) -> Result<<messages::$message as Message>::Answer> {
                 let (params, about) = read(params)?;
-                let method = Method::<
-                    <messages::$message as Message>::Params,
-                    <messages::$message as Message>::Answer,
-                > {
+                let method = Method {
                     name: messages::$message::NAME,
                     title: say!($title),
                     reach: Reach::$reach,
                     handler: $handler,
                 };
-                self.answer(method, about, params).await
+                self.perform(method, about, params).await
             }
         )*}
 
@@ -223,9 +222,7 @@ impl LanguageServer for Backend {
             uri: factor.uri.as_str().into(),
             ..About::default()
         };
-        let edit = self
-            .perform(scaling, about, factor, |result| result)
-            .await?;
+        let edit = self.perform(scaling, about, factor).await?;
         self.ask(ExecuteCommand::METHOD, None, move |state, reply| {
             commands::apply_edit(state, edit, reply)
         })
@@ -313,15 +310,13 @@ impl Backend {
             .unwrap_or_else(|_| Err(internal(say!(internal_error_in, name))))
     }
 
-    /// Has a request about a document answered in its turn; `finish` makes the result. It is cancelled with this
-    /// future.
-    async fn perform<P: Send + 'static, R: 'static, T: Send + 'static>(
+    /// Has a request about a document answered in its turn. It is cancelled with this future.
+    async fn perform<P: Send + 'static, R: Send + 'static>(
         &self,
         method: Method<P, R>,
         about: About,
         params: P,
-        finish: impl FnOnce(Result<R>) -> Result<T> + Send + 'static,
-    ) -> Result<T> {
+    ) -> Result<R> {
         let alive = Arc::new(());
         let Method {
             name,
@@ -338,26 +333,9 @@ impl Backend {
             client: Arc::downgrade(&alive),
         };
         self.ask(name, Some(uri), move |state, reply| {
-            state.answer(asked, reply, move |context| {
-                finish(handler(context, params))
-            });
+            state.answer(asked, reply, move |context| handler(context, params));
         })
         .await
-    }
-
-    /// Answers with text, which replaces the framework's empty result.
-    async fn answer<P: Send + 'static, R: AsWritten + 'static, T: Default>(
-        &self,
-        method: Method<P, R>,
-        about: About,
-        params: P,
-    ) -> Result<T> {
-        let written = |result: Result<R>| {
-            let answer = result?.written();
-            answer.map_err(|error| internal(error.to_string()))
-        };
-        self.perform(method, about, params, written).await?.leave();
-        Ok(T::default())
     }
 
     fn ignored(&self, method: &str, reason: &str) {
@@ -401,14 +379,13 @@ impl Backend {
     }
 
     /// The settings in force do not depend on the document's content: this does not wait for judging.
-    async fn settings(&self, params: Value) -> Result<Value> {
+    async fn settings(&self, params: Value) -> Result<<messages::Settings as Message>::Answer> {
         let (params, _) = read::<<messages::Settings as Message>::Params>(params)?;
         self.ask(messages::Settings::NAME, None, move |state, reply| {
             let folder = state.config.folder_of(&params.uri);
             state.look_for_file(folder, Vec::new(), move |state, file| {
                 let in_force = settings::settings(state, &params.uri, file.as_deref());
-                let in_force = serde_json::to_value(in_force);
-                let _ = reply.send(in_force.map_err(|error| internal(error.to_string())));
+                let _ = reply.send(Ok(in_force));
             });
         })
         .await

@@ -27,16 +27,12 @@ mod projects;
 mod settings;
 mod shown;
 mod state;
-#[cfg(feature = "testing")]
-#[expect(
-    clippy::expect_used,
-    clippy::indexing_slicing,
-    reason = "a test that cannot go on fails"
-)]
-pub mod testing;
 mod texts;
 mod token_memory;
 mod transport;
+
+#[cfg(feature = "testing")]
+pub use transport::{Frame, Frames};
 
 use serde_json::Value;
 use state::Mailbox;
@@ -128,6 +124,21 @@ fn serve_between(
     let _ = all_told.recv_timeout(last_answers / 4);
     writer.end(last_writes);
     Ok(transport)
+}
+
+/// A whole server between two streams, for tests and fuzz targets, which wait for all that it has to say.
+///
+/// # Errors
+/// Where a thread cannot be started.
+#[cfg(feature = "testing")]
+pub fn serve_here(
+    input: impl Read,
+    output: impl std::io::Write + Send + 'static,
+) -> std::io::Result<()> {
+    let writer = Writer::start(output, || {})?;
+    // Longer than anything in a test takes: an answer that has not come by then will never come.
+    let patience = Duration::from_secs(20);
+    serve_between(input, &writer, &Arc::default(), None, [patience; 2]).map(drop)
 }
 
 fn end_of_process(code: u8) -> ! {

@@ -45,7 +45,6 @@ tables! {
         /// Diameter of the wire, mm. With `gap` it gives the correction where no `correction` is set: half the diameter + gap; where only one
         /// of the two is set, the other has its default. Together with `correction` or `passes.corrections` it says how thick the wire is, see
         /// [`pass-order`](rules/pass-order.md). A later level that sets one of the two and no `correction` sets the correction again.
-        #[serde(alias = "wire-diameter")]
         wire_diameter: f64 = 0.18 => number in Range::ABOVE_ZERO;
         /// Spark gap, mm. See `wire-diameter`.
         gap: f64 = 0.01 => number in Range::FROM_ZERO;
@@ -79,14 +78,12 @@ tables! {
         /// Settings of one drawing, by the name of its file: `[drawings."plate.dxf".suppress.2A]`.
         drawings: BTreeMap<String, DrawingSettings> => tables;
         /// How near the arcs lie to the ellipses and splines that they stand for, mm.
-        #[serde(alias = "arc-fit")]
         arc_fit: f64 = 0.001 => number in ARC_FIT;
         /// Severity of a rule, by its name. It applies to every case of the rule, to the milder ones too; the defaults are on
         /// [each rule's page](rules/).
         rules: BTreeMap<String, RuleSeverity> => rules;
         /// Address of the page of a rule, such as `https://edm.example/rules/{rule}.html`: `{rule}` stands for its name. Findings link there.
         /// Not set: they link nowhere, and `wedm explain RULE` shows the page.
-        #[serde(alias = "docs-url")]
         docs_url: String => page_address;
         /// How a program is written.
         program: ProgramSettings => table;
@@ -144,7 +141,6 @@ tables! {
         rates: Vec<f64> => numbers in Range::ABOVE_ZERO;
         /// How the passes after the first go through a corner that the wire runs inside of. With `constant-stock` the last one leaves a
         /// radius there, the difference of the first and the last correction added to the wire's: [`sharp-corner`](rules/sharp-corner.md).
-        #[serde(alias = "skim-corner")]
         skim_corner: SkimCorner = SkimCorner::Sharp => name;
     }
 
@@ -173,7 +169,6 @@ tables! {
         entry: PointSetting => point_setting;
         /// Length of the lead from thread hole to the wire's path where no thread hole is given, mm. Halved until it fits. By default the
         /// hole lies 3 mm from the contour.
-        #[serde(alias = "lead-in")]
         lead_in: f64 = 3.0 => number in Range::ABOVE_ZERO;
         /// Length of the contour, mm, that all passes leave standing before the entry, so that a punch does not drop while it is cut: then comes
         /// the stop, then what stands is cut off in passes of its own. An opening whose slug is heavier than `job.slug-limit` keeps one,
@@ -181,15 +176,12 @@ tables! {
         tab: LengthSetting => length_setting in Range::FROM_ZERO;
         /// Diameter of the start holes, mm. Where no thread hole is given it is proposed where such a hole keeps the correction and 0.1 mm
         /// from every contour; one that does not is reported: [`start-hole`](rules/start-hole.md). The drill list is made by `wedm holes`.
-        #[serde(alias = "start-hole")]
         start_hole: f64 => number in Range::ABOVE_ZERO;
         /// How the wire comes from the thread hole to its path and goes back.
         lead: Lead = Lead::Perpendicular => name;
         /// Word that stops the machine before the tab is cut off. Not set: the profile's `pause` in ISO, `pause` in 3B.
-        #[serde(alias = "tab-stop")]
         tab_stop: String => word;
         /// How far each pass goes on past its start when the contour is closed, mm.
-        #[serde(alias = "closing-overlap")]
         closing_overlap: f64 = 0.0 => number in Range::FROM_ZERO;
         /// Order of the contours; what lies within one always comes before it.
         order: Order = Order::Nearest => name;
@@ -205,7 +197,6 @@ tables! {
         units: UnitSetting => name;
         /// What a number without a decimal point is in an ISO program: whole millimetres, or micrometres (inches and ten-thousandths of
         /// one under G20). Not set: [found from the program](programs.md#how-long-a-number-is), and reported where its numbers leave it open.
-        #[serde(alias = "whole-numbers")]
         whole_numbers: NumberUnit => name;
         /// The drawing that programs belong to, from their own folder on, which they are compared with:
         /// [`not-the-drawing`](rules/not-the-drawing.md). Not set: the one that a comment of the program names, else the DXF of the same name.
@@ -218,7 +209,6 @@ tables! {
         pause: String = "D" => word;
         /// Word that stops the machine between the passes of a contour; empty: they follow each other without a stop, except in 4B, whose
         /// correction is set at the machine. Not set: the profile's `pause-between-passes` in ISO, `pause` in 3B and 4B.
-        #[serde(alias = "pause-between-passes")]
         pause_between_passes: String => word_or_nothing;
     }
 
@@ -228,10 +218,8 @@ tables! {
         thickness: f64 => number in Range::ABOVE_ZERO;
         /// Mass of a slug in g above which an opening keeps a tab of the length `program.tab`. It needs `thickness`: 7.85 g/cm³ × area ×
         /// thickness.
-        #[serde(alias = "slug-limit")]
         slug_limit: f64 => number in Range::FROM_ZERO;
         /// Cost of an hour of the machine, in any currency: the times that follow from `passes.rates` then have a cost.
-        #[serde(alias = "machine-rate")]
         machine_rate: f64 => number in Range::FROM_ZERO;
         /// Heading of the page of `wedm report`. Not set: the part, else the name of the drawing.
         title: String => label;
@@ -250,7 +238,6 @@ tables! {
     /// A punch and its plate: corrections that follow from their clearance, and the fit.
     PairSettings() {
         /// The part whose size is drawn where each contour is cut twice, once from outside as the punch and once from inside as the plate.
-        #[serde(alias = "drawn-as")]
         drawn_as: DrawnAs => name;
         /// Clearance between punch and plate, mm a side. The part that is not drawn is cut with a correction smaller by it. The fit is
         /// then checked, [`does-not-fit`](rules/does-not-fit.md), which needs `wire-diameter` and `gap`.
@@ -265,7 +252,6 @@ tables! {
     /// is set, a drawing is judged for the electrode: half its diameter + `milling.gap` is the correction then.
     MillingSettings() {
         /// Diameter of the electrode, mm.
-        #[serde(alias = "tool-diameter")]
         tool_diameter: f64 => number in Range::ABOVE_ZERO;
         /// Spark gap beside the electrode, mm.
         gap: f64 => number in Range::FROM_ZERO;
@@ -276,12 +262,10 @@ tables! {
         /// Volume that the electrode loses for each unit of volume that it erodes.
         wear: f64 => number in WEAR;
         /// How the feed makes up for the wear of the electrode.
-        #[serde(alias = "wear-compensation")]
         wear_compensation: WearCompensation = WearCompensation::Uniform => name;
         /// Distance after which `linear` feeds again, mm.
         step: f64 => number in MILLING_STEPS;
         /// Whether the round ends of a slot along an open contour count among what a layer erodes.
-        #[serde(alias = "slot-ends")]
         slot_ends: bool = false => truth;
     }
 
@@ -300,7 +284,6 @@ tables! {
         /// How I and J lead to an arc's centre.
         center: CenterRule = CenterRule::StartToCenter => name;
         /// False: a full circle is written as two halves, which every control takes.
-        #[serde(alias = "full-circles")]
         full_circles: bool = false => truth;
         /// True: G00 to G03 and coordinates that have not changed are left out.
         modal: bool = false => truth;
@@ -309,7 +292,6 @@ tables! {
         /// Step of the N numbers; 0 for none.
         numbers: u32 = 0_u32 => whole in Range::of(0.0, 1000.0);
         /// What ends a line.
-        #[serde(alias = "line-end")]
         line_end: LineEnd = LineEnd::Lf => name;
         /// Lines before everything else. `{x}` and `{y}` are the place where the wire is threaded first.
         begin: Vec<String> = [] => lines;
@@ -317,15 +299,12 @@ tables! {
         register: String = "D1" => word;
         /// Lines before each contour. `{side}` is G41 or G42, `{register}` the offset register of the pass; a line with `{side}` is
         /// left out where the offset is in the coordinates.
-        #[serde(alias = "contour-begin")]
         contour_begin: Vec<String> = [] => lines;
         /// Lines before the lead-out of each contour, where the control offsets it.
-        #[serde(alias = "contour-end")]
         contour_end: Vec<String> = [] => lines;
         /// Lines at which the wire is taken out or threaded, between contours.
         pause: Vec<String> = ["M00".to_owned()] => lines;
         /// Lines between the passes of a contour, where the wire stays threaded.
-        #[serde(alias = "pause-between-passes")]
         pause_between_passes: Vec<String> = [] => lines;
         /// Lines at the end.
         end: Vec<String> = ["M02".to_owned()] => lines;

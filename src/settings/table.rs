@@ -83,7 +83,6 @@ macro_rules! tables {
 macro_rules! table {
     ($(#[doc = $about:literal])* $name:ident {$(
         $(#[doc = $doc:literal])*
-        $(#[serde($($serde:tt)*)])?
         $key:ident: $type:ty $(= $default:expr)? => $read:ident $(in $range:expr)?;
     )*}) => {
         $(#[doc = $about])*
@@ -92,7 +91,6 @@ macro_rules! table {
         pub struct $name {$(
             $(#[doc = $doc])*
             #[serde(skip_serializing_if = "Option::is_none")]
-            $(#[serde($($serde)*)])?
             pub $key: Option<$type>,
         )*}
 
@@ -141,7 +139,6 @@ macro_rules! filled {
     ($name:ident () $rows:tt) => {};
     ($name:ident (as $filled:ident, $($more:ident: $more_type:ty),*) {$(
         $(#[doc = $doc:literal])*
-        $(#[serde($($serde:tt)*)])?
         $key:ident: $type:ty $(= $default:expr)? => $read:ident $(in $range:expr)?;
     )*}) => {
         #[doc = concat!("[`", stringify!($name), "`] with every default filled in.")]

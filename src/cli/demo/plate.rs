@@ -1,11 +1,15 @@
 //! The session on the DXF text of the cutting plate: edits, diagnostics, fixes, program.
 
-use super::client::Client;
-use super::copy::Copy;
-use super::narrator::{Behind, Narrator, duration};
-use super::{Failure, holds, preferred, proof, segment_of};
+use super::{Demo, Failure, elapsed, good, holds, list, number, otherwise, say, segment_of, show};
+use crate::compare::Beside;
+use crate::document::{Document, FileKind};
+use crate::program::Language;
+use crate::settings::{Effective, from_json};
+use crate::text::{Encoding, SourceText};
+use crate::{picture, toolpath};
 use serde_json::{Value, json};
-use std::collections::BTreeSet;
+use std::cmp::Reverse;
+use std::sync::Arc;
 use std::time::Instant;
 
 const PLATE: &str = include_str!("plate.dxf");
@@ -22,268 +26,268 @@ pub(crate) struct Made {
 }
 
 /// The plate as client and user see it.
-struct Session<'a> {
-    narrator: &'a mut Narrator,
-    client: &'a mut Client,
-    copy: Copy,
+struct Plate<'a> {
+    demo: &'a mut Demo,
+    text: SourceText,
+    version: i64,
     /// The newest diagnostics.
     diagnostics: Vec<Value>,
 }
 
-pub(crate) fn session(
-    narrator: &mut Narrator,
-    client: &mut Client,
-    correction: f64,
-) -> Result<Made, Failure> {
-    let mut session = Session {
-        narrator,
-        client,
-        copy: Copy::new(URI, PLATE),
+pub(crate) fn session(demo: &mut Demo) -> Result<Made, Failure> {
+    let mut plate = Plate {
+        demo,
+        text: SourceText::new(PLATE.into()),
+        version: 1,
         diagnostics: Vec::new(),
     };
-    session.open()?;
-    session.design(correction)?;
-    session.ask_too_early()?;
-    let faulty = session.copy.text.clone();
-    session.fix_one()?;
-    session.fix_the_rest(&faulty)?;
-    let program = session.generate()?;
-    let picture = session.prove(&faulty, &program, correction)?;
+    plate.open()?;
+    plate.design()?;
+    plate.ask_too_early()?;
+    let faulty = plate.text.as_str_lossy().into_owned();
+    plate.fix_one()?;
+    plate.fix_the_rest(&faulty)?;
+    let program = plate.generate()?;
+    let dxf = plate.text.as_str_lossy().into_owned();
+    let picture = plate.read_again(&faulty, &dxf, &program)?;
     Ok(Made {
-        dxf: session.copy.text,
+        dxf,
         program,
         picture,
     })
 }
 
-impl Session<'_> {
+impl Plate<'_> {
     fn open(&mut self) -> Result<(), Failure> {
-        self.narrator
-            .step(say!(the_drawing_of_a_cutting_plate_is_opened_as_dxf_text));
-        let item = json!({ "uri": URI, "languageId": "dxf", "version": 1, "text": self.copy.text });
+        let heading = say!(the_drawing_of_a_cutting_plate_is_opened_as_dxf_text);
+        self.demo.step(heading);
+        let item = json!({ "uri": URI, "languageId": "dxf", "version": 1, "text": PLATE });
         self.tell("textDocument/didOpen", json!({ "textDocument": item }))
     }
 
     /// Tightens a fillet, opens it again, tightens another one.
-    fn design(&mut self, correction: f64) -> Result<(), Failure> {
-        let (tight, wide) = (0.6 * correction, 2.0 * correction);
-        self.narrator
-            .step(&say!(the_designer_squeezes_the_fillet_at_31_13_to_r, tight));
-        self.fillet_by_the_tab(tight)?;
-        let squeezed = self.has_segment(2);
-        holds(squeezed, || say!(r_gets_no_diagnostic, tight))?;
-
-        self.narrator.step(&say!(and_opens_it_again_to_r, wide));
-        self.fillet_by_the_tab(wide)?;
-        let still_there = self.has_segment(2);
-        holds(!still_there, || say!(r_gets_a_diagnostic, wide))?;
-
-        let tight = 0.9 * correction;
-        self.narrator
-            .step(&say!(the_fillet_at_16_24_becomes_r, tight));
-        let params = self
-            .copy
-            .move_vertices(DIE, &[(22, 16.0 + tight, 24.0), (23, 16.0, 24.0 - tight)])?;
-        self.tell("textDocument/didChange", params)?;
-        let found = self.has_segment(22);
-        holds(found, || say!(r_gets_no_diagnostic, tight))
+    fn design(&mut self) -> Result<(), Failure> {
+        let [tight, wide, other] = [0.6, 2.0, 0.9].map(|part| part * self.demo.correction);
+        let by_the_tab = |r: f64| [(2, [31.0 - r, 13.0]), (3, [31.0, 13.0 + r])];
+        let at_the_side = [(22, [16.0 + other, 24.0]), (23, [16.0, 24.0 - other])];
+        let squeezed = say!(the_designer_squeezes_the_fillet_at_31_13_to_r, tight);
+        for (heading, vertices, is_too_tight) in [
+            (squeezed, by_the_tab(tight), true),
+            (say!(and_opens_it_again_to_r, wide), by_the_tab(wide), false),
+            (
+                say!(the_fillet_at_16_24_becomes_r, other),
+                at_the_side,
+                true,
+            ),
+        ] {
+            self.demo.step(&heading);
+            let moves = vertices.iter();
+            let edits = moves.flat_map(|&(index, to)| self.vertex_moved(index, to));
+            self.change(edits.collect())?;
+            let segment = vertices[0].0 as u64;
+            let mut found = self.diagnostics.iter();
+            let found = found.any(|one| segment_of(one) == (DIE, segment));
+            holds(found == is_too_tight, &heading)?;
+        }
+        Ok(())
     }
 
-    fn fillet_by_the_tab(&mut self, radius: f64) -> Result<(), Failure> {
-        let params = self
-            .copy
-            .move_vertices(DIE, &[(2, 31.0 - radius, 13.0), (3, 31.0, 13.0 + radius)])?;
-        self.tell("textDocument/didChange", params)
+    /// The edits of the two numbers of a vertex of the die. Each stands in the line after its group code.
+    fn vertex_moved(&self, index: usize, to: [f64; 2]) -> Vec<Value> {
+        let text = self.text.as_str_lossy();
+        let lines = text.lines().enumerate();
+        let of_die = lines.skip_while(|(_, line)| *line != DIE);
+        let mut vertices = of_die.filter(|(_, line)| *line == " 10");
+        let Some((code, _)) = vertices.nth(index) else {
+            return Vec::new();
+        };
+        let edit = |line: usize, number: f64| {
+            let end = self.text.line(line).len();
+            let range = json!({ "start": { "line": line, "character": 0 }, "end": { "line": line, "character": end } });
+            json!({ "range": range, "newText": format!("{number:.4}") })
+        };
+        vec![edit(code + 1, to[0]), edit(code + 3, to[1])]
     }
 
-    fn has_segment(&self, segment: u64) -> bool {
-        self.diagnostics
-            .iter()
-            .any(|diagnostic| segment_of(diagnostic) == (DIE.to_string(), segment))
+    /// Changes the text, and tells the server.
+    fn change(&mut self, mut edits: Vec<Value>) -> Result<(), Failure> {
+        // From the last to the first, so that the places of the others stay right.
+        let place = |at: &Value| {
+            [&at["line"], &at["character"]].map(|at| at.as_u64().unwrap_or(0) as usize)
+        };
+        edits.sort_by_key(|edit| Reverse(place(&edit["range"]["start"])));
+        let mut changes = Vec::new();
+        for edit in &edits {
+            let [start, end] = [&edit["range"]["start"], &edit["range"]["end"]].map(|at| {
+                let [line, character] = place(at);
+                self.text.offset_of(line, character, Encoding::Utf16)
+            });
+            let text = edit["newText"].as_str().ok_or_else(|| otherwise(edit))?;
+            self.text.replace(start..end, text);
+            changes.push(json!({ "range": edit["range"], "text": text }));
+        }
+        self.version += 1;
+        let document = json!({ "uri": URI, "version": self.version });
+        self.tell(
+            "textDocument/didChange",
+            json!({ "textDocument": document, "contentChanges": changes }),
+        )
     }
 
-    /// Tells the server of a change, waits for the diagnostics of the new version, and prints which
-    /// have appeared and which have gone.
+    /// Tells the server of a change, waits for the diagnostics of the new version, and shows which have appeared and
+    /// which have gone.
     fn tell(&mut self, method: &str, params: Value) -> Result<(), Failure> {
         let begun = Instant::now();
-        self.client.notify(method, params)?;
-        let diagnostics = self.client.diagnostics(URI, self.copy.version)?;
-        let elapsed = duration(begun.elapsed());
-        let before: BTreeSet<(String, u64)> = self.diagnostics.iter().map(segment_of).collect();
-        let after: BTreeSet<(String, u64)> = diagnostics.iter().map(segment_of).collect();
-        let count = say!(diagnostics, diagnostics.len());
-        self.narrator.say(&say!(
+        self.demo.client.notify(method, params)?;
+        let new = self.demo.diagnostics(URI, self.version)?;
+        let elapsed = elapsed(begun);
+        let count = say!(diagnostics, new.len());
+        say(&say!(
             version_after_it_was_sent,
-            self.copy.version,
+            self.version,
             count,
             elapsed
         ));
-        for diagnostic in diagnostics
-            .iter()
-            .filter(|diagnostic| !before.contains(&segment_of(diagnostic)))
-        {
-            self.narrator.diagnostic(diagnostic, Behind::Text);
+        let old = std::mem::replace(&mut self.diagnostics, new);
+        let is_in =
+            |all: &[Value], one| all.iter().any(|other| segment_of(other) == segment_of(one));
+        for diagnostic in self.diagnostics.iter().filter(|one| !is_in(&old, one)) {
+            show(diagnostic, true);
         }
-        for (handle, segment) in before.difference(&after) {
-            self.narrator.good(&say!(gone, handle, segment));
+        for diagnostic in old.iter().filter(|one| !is_in(&self.diagnostics, one)) {
+            let (handle, segment) = segment_of(diagnostic);
+            good(&say!(gone, handle, segment));
         }
-        self.diagnostics = diagnostics;
         Ok(())
     }
 
     /// A drawing that the wire cannot follow gives no program.
     fn ask_too_early(&mut self) -> Result<(), Failure> {
-        self.narrator.step(say!(a_program_is_asked_for_too_early));
-        let id = self
-            .client
-            .ask("wedm/generate", json!({ "uri": URI, "format": "3b" }))?;
-        let error = match self.client.reply_or_error(id)? {
-            Err(error) => error,
-            Ok(_) => {
-                return Err(Failure(
-                    say!(the_server_made_a_program_of_a_drawing_with_errors).into(),
-                ));
-            }
-        };
-        let listed = error["data"]["diagnostics"].as_array().map_or(0, Vec::len);
-        holds(
-            error["code"] == -32803 && listed == self.diagnostics.len(),
-            || say!(the_refusal_is, error),
-        )?;
-        self.narrator.say(&say!(
-            refused_with_of_them_listed,
-            listed,
-            error["message"].as_str().unwrap_or_default()
-        ));
+        self.demo.step(say!(a_program_is_asked_for_too_early));
+        let params = json!({ "uri": URI, "format": "3b" });
+        let id = self.demo.client.ask("wedm/generate", params)?;
+        let reply = self.demo.client.reply(id)?;
+        let error = &reply["error"];
+        let listed = list(&error["data"]["diagnostics"]).len();
+        let is_refused = error["code"] == -32803 && listed == self.diagnostics.len();
+        holds(is_refused, &reply)?;
+        let sentence = error["message"].as_str().unwrap_or_default();
+        say(&say!(refused_with_of_them_listed, listed, sentence));
         Ok(())
     }
 
     fn fix_one(&mut self) -> Result<(), Failure> {
-        let Some(diagnostic) = self.diagnostics.first().cloned() else {
-            return Err(Failure(say!(there_is_nothing_to_fix).into()));
-        };
+        let diagnostic = self.diagnostics.first().cloned().unwrap_or_default();
         let (handle, segment) = segment_of(&diagnostic);
-        self.narrator
-            .step(&say!(what_can_be_done_about_segment, handle, segment));
-        let actions = self.actions(
-            &diagnostic["range"].clone(),
-            json!({ "diagnostics": [diagnostic], "only": ["quickfix"] }),
-        )?;
-        let action = preferred(self.narrator, &actions)?;
-        let edits = action["edit"]["documentChanges"][0]["edits"]
-            .as_array()
-            .map_or(0, Vec::len);
-        self.narrator.say(&say!(
+        let heading = say!(what_can_be_done_about_segment, handle, segment);
+        self.demo.step(&heading);
+        let action = self.demo.fix(URI, &diagnostic)?;
+        let edits = self.edits_of(&action)?;
+        say(&say!(
             the_preferred_one_is_applied_in_the_text,
-            say!(new_numbers, edits)
+            say!(new_numbers, edits.len())
         ));
         let before = self.diagnostics.len();
-        let params = self.copy.apply(&action["edit"])?;
-        self.tell("textDocument/didChange", params)?;
-        let after = self.diagnostics.len();
-        holds(after < before, || {
-            say!(diagnostics_after_the_fix_before, after, before)
-        })
+        self.change(edits)?;
+        holds(self.diagnostics.len() < before, self.diagnostics.len())
+    }
+
+    /// The edits of an action, which are of this text in this version.
+    fn edits_of(&self, action: &Value) -> Result<Vec<Value>, Failure> {
+        let document = &action["edit"]["documentChanges"][0];
+        let of = json!({ "uri": URI, "version": self.version });
+        holds(document["textDocument"] == of, action)?;
+        Ok(list(&document["edits"]).to_vec())
     }
 
     fn fix_the_rest(&mut self, faulty: &str) -> Result<(), Failure> {
-        self.narrator.step(say!(all_others_are_fixed_at_once));
-        let lines = self.copy.text.lines().count();
-        let whole = json!({ "start": { "line": 0, "character": 0 }, "end": { "line": lines, "character": 0 } });
-        let context = json!({ "diagnostics": self.diagnostics, "only": ["source.fixAll.wedm"] });
+        self.demo.step(say!(all_others_are_fixed_at_once));
+        let end = self.text.line_count();
         if !self.diagnostics.is_empty() {
-            let actions = self.actions(&whole, context)?;
-            let params = self.copy.apply(&actions[0]["edit"])?;
-            self.tell("textDocument/didChange", params)?;
+            let params = json!({
+                "textDocument": { "uri": URI },
+                "range": { "start": { "line": 0, "character": 0 }, "end": { "line": end, "character": 0 } },
+                "context": { "diagnostics": self.diagnostics, "only": ["source.fixAll.wedm"] },
+            });
+            let actions = self
+                .demo
+                .client
+                .request("textDocument/codeAction", params)?;
+            self.change(self.edits_of(&actions[0])?)?;
         }
-        let left = self.diagnostics.len();
-        holds(left == 0, || {
-            say!(diagnostics_are_left_after_all_fixes, left)
-        })?;
-        let (old, new): (Vec<&str>, Vec<&str>) = (
-            faulty.split('\n').collect(),
-            self.copy.text.split('\n').collect(),
-        );
-        let differing = old.iter().zip(&new).filter(|(a, b)| a != b).count();
-        holds(old.len() == new.len() && differing < 24, || {
-            say!(lines_differ, differing)
-        })?;
-        let inspection = self
-            .client
-            .request("wedm/inspect", json!({ "uri": URI, "handle": DIE }))?;
-        let segments = inspection["entities"][0]["segments"]
-            .as_array()
-            .map_or(&[][..], Vec::as_slice);
-        holds(
-            !segments.is_empty() && segments.iter().all(|segment| segment["verdict"] == "ok"),
-            || say!(a_verdict_is_not_ok).into(),
-        )?;
-        self.narrator.good(&say!(
-            the_drawing_is_clean_of_all_ok,
-            say!(segments, segments.len()),
-            DIE
-        ));
-        self.narrator
-            .say(&say!(lines_that_differ, differing, old.len() - 1));
+        holds(self.diagnostics.is_empty(), self.diagnostics.len())?;
+        let params = json!({ "uri": URI, "handle": DIE });
+        let inspection = self.demo.client.request("wedm/inspect", params)?;
+        let segments = list(&inspection["entities"][0]["segments"]);
+        let are_ok = segments.iter().all(|segment| segment["verdict"] == "ok");
+        holds(are_ok && !segments.is_empty(), &inspection)?;
+        let segments = say!(segments, segments.len());
+        good(&say!(the_drawing_is_clean_of_all_ok, segments, DIE));
+        let text = self.text.as_str_lossy();
+        let lines = faulty.lines().count();
+        let differing = faulty.lines().zip(text.lines());
+        let differing = differing.filter(|(old, new)| old != new).count();
+        holds(lines == text.lines().count() && differing < 24, differing)?;
+        say(&say!(lines_that_differ, differing, lines));
         Ok(())
     }
 
-    fn actions(&mut self, range: &Value, context: Value) -> Result<Value, Failure> {
-        let params = json!({ "textDocument": { "uri": URI }, "range": range, "context": context });
-        self.client.request("textDocument/codeAction", params)
-    }
-
     fn generate(&mut self) -> Result<String, Failure> {
-        self.narrator.step(say!(now_the_3b_program));
+        self.demo.step(say!(now_the_3b_program));
         let begun = Instant::now();
-        let mut result = self
-            .client
-            .request("wedm/generate", json!({ "uri": URI, "format": "3b" }))?;
-        let elapsed = duration(begun.elapsed());
-        let Value::String(program) = result["program"].take() else {
-            return Err(Failure(say!(the_server_sent_no_program).into()));
-        };
-        // A drift that rounds to zero has no sign.
-        let number = |value: &Value| value.as_f64().unwrap_or(f64::NAN);
-        let drift = |axis: &str| (number(&result["closure"][axis]) * 100.0).round() / 100.0 + 0.0;
-        self.narrator.say(&say!(
-            blocks_and_how_far_they_close,
+        let params = json!({ "uri": URI, "format": "3b" });
+        let result = self.demo.client.request("wedm/generate", params)?;
+        let program = result["program"]
+            .as_str()
+            .ok_or_else(|| otherwise(&result))?;
+        say(&say!(
+            blocks_and_their_length,
             result["blocks"],
             number(&result["length"]),
-            elapsed,
-            drift("x"),
-            drift("y")
+            elapsed(begun)
         ));
-        let lines: Vec<&str> = program.lines().collect();
-        for line in lines.iter().take(3) {
-            self.narrator.say(line);
-        }
-        self.narrator
-            .say(&say!(more_lines, lines.len().saturating_sub(3)));
-        Ok(program)
+        program.lines().take(3).for_each(say);
+        let more = program.lines().count().saturating_sub(3);
+        say(&say!(more_lines, more));
+        Ok(program.to_owned())
     }
 
-    /// Reads the files again and compares them with the request.
-    fn prove(&mut self, faulty: &str, program: &str, correction: f64) -> Result<String, Failure> {
-        self.narrator.step(say!(
-            program_and_drawing_are_read_again_and_held_against_each
-        ));
-        let toolpath = self
-            .client
-            .request("wedm/toolpath", json!({ "uri": URI }))?;
-        let proof = proof::of(faulty, &self.copy.text, program, &toolpath, correction)?;
-        self.narrator.say(&say!(
-            decoded_one_from_the_end_of_the_other,
-            say!(blocks, proof.blocks),
-            proof.from_path_um,
-            proof.open_um
-        ));
-        self.narrator.say(&say!(
-            distance_of_the_wire_from_the_contours,
-            proof.least_distance,
-            proof.largest_distance,
-            correction
-        ));
-        Ok(proof.picture)
+    /// Reads drawing and program again, from their text alone, and compares them as `wedm check` does. Returns the
+    /// picture of both.
+    fn read_again(&mut self, faulty: &str, dxf: &str, program: &str) -> Result<String, Failure> {
+        let heading = say!(program_and_drawing_are_read_again_and_held_against_each);
+        self.demo.step(heading);
+        let correction = self.demo.correction;
+        let (settings, _) = from_json(&super::settings(correction));
+        let settings = Arc::new(Effective::of(&settings));
+        let read = |kind: FileKind, text: &str| {
+            let (source, _) = kind.read(text.into(), &settings);
+            Document::new(source, settings.clone())
+        };
+        let before = read(FileKind::Drawing, faulty);
+        let after = read(FileKind::Drawing, dxf);
+        let mut program = read(FileKind::Program(Language::ThreeB), program);
+        let form = after.form().ok_or_else(|| dxf.to_owned());
+        program.set_beside(Beside::of_program((URI.into(), form), Vec::new()));
+        let left: Vec<_> = [&after, &program]
+            .iter()
+            .flat_map(|of| of.all_findings().to_vec())
+            .collect();
+        holds(left.is_empty(), left.len())?;
+        let snapshot = after.snapshot().ok_or_else(|| otherwise(0))?;
+        say(&say!(the_program_cuts_the_drawing, correction));
+        let (drawing, outlines) = (&snapshot.drawing, &snapshot.outlines);
+        let paths = toolpath::plan(drawing, outlines, &settings, None).unwrap_or_default();
+        Ok(picture::svg(&picture::View {
+            name: None,
+            drawing,
+            outlines,
+            findings: &before.all_findings(),
+            paths: &paths,
+            parts: &[],
+            holes: &[],
+            why: None,
+            settings: &settings,
+        }))
     }
 }

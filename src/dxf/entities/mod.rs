@@ -11,23 +11,12 @@ pub(in crate::dxf) use polyline::{count_finding, mirror, read_run};
 use super::entity::{Outcome, Refused, pass_over};
 use super::layers::Layers;
 use super::lexer::{Lexer, Tag};
-use super::{curve, insert, plain};
+use super::{curve, insert};
 use crate::drawing::Kind;
 use crate::text::head;
 
 /// Reads the entity whose record begins at `start`; the lexer stands after its name.
 pub(in crate::dxf) fn read(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Outcome {
-    match plain::read(lexer.lines, start.line, layers) {
-        Some((read, next)) => {
-            lexer.begin_item(next);
-            Outcome::Entity(read)
-        }
-        None => read_closely(start, lexer, layers),
-    }
-}
-
-/// Reads any entity, sound or not.
-pub(in crate::dxf) fn read_closely(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -> Outcome {
     let name = lexer.lines.trimmed(start.value_line());
     let read = match name {
         b"LWPOLYLINE" => polyline::light_polyline(start, lexer, layers),

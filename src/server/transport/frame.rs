@@ -19,14 +19,14 @@ const MARKER_CAP: usize = 64;
 
 /// The next item of the stream.
 #[derive(Debug, PartialEq, Eq)]
-pub(in crate::server) enum Frame {
+pub enum Frame {
     Body(Vec<u8>),
     /// An invalid frame, and why; the stream stands before the next one.
     Broken(String),
     End,
 }
 
-pub(in crate::server) struct Frames<R> {
+pub struct Frames<R> {
     input: R,
     buffer: Vec<u8>,
     /// Bytes of `buffer` that are used up.
@@ -43,7 +43,7 @@ pub(in crate::server) struct Frames<R> {
 }
 
 impl<R: Read> Frames<R> {
-    pub(crate) fn new(input: R) -> Frames<R> {
+    pub fn new(input: R) -> Frames<R> {
         Frames {
             input,
             buffer: Vec::new(),
@@ -73,12 +73,12 @@ impl<R: Read> Frames<R> {
 
     /// Bytes of the stream that are used up. It grows with every step; after [`Frames::was_broken`] it is less than
     /// before it, but more than before the step.
-    pub(crate) fn position(&self) -> i64 {
+    pub fn position(&self) -> i64 {
         self.dropped + self.start as i64
     }
 
     /// Reads until a frame is whole, broken, or the stream ends.
-    pub(crate) fn next(&mut self) -> Frame {
+    pub fn step(&mut self) -> Frame {
         if std::mem::take(&mut self.out_of_step) {
             self.skip_to_header(0);
             self.looked_through = 0;
@@ -95,7 +95,7 @@ impl<R: Read> Frames<R> {
     }
 
     /// Marks the last body as invalid: its end and the following bytes are searched for the next header.
-    pub(crate) fn was_broken(&mut self, body: &[u8]) {
+    pub fn was_broken(&mut self, body: &[u8]) {
         let tail = body
             .get(body.len().saturating_sub(MARKER_CAP)..)
             .unwrap_or_default();

@@ -1,6 +1,5 @@
 //! Reads a JSON-RPC message from a body: request, notification, reply, or an error.
 
-use super::long_string;
 use super::weight::{LIMIT, is_too_heavy};
 use serde_json::Value;
 use std::borrow::Cow;
@@ -97,9 +96,6 @@ fn invalid(id: Id, reason: impl Into<Cow<'static, str>>) -> Incoming {
 }
 
 fn parse_json(body: &[u8]) -> Result<Value, String> {
-    if let Some(value) = long_string::parse(body) {
-        return Ok(value);
-    }
     serde_json::from_slice(body).or_else(|error| {
         let quoted = quote_overflowing_numbers(body);
         let whole = replace_halves_of_letters(quoted.as_deref().unwrap_or(body));

@@ -4,22 +4,22 @@
 //! first wait happens in the order of the messages. A handler that waits is spawned: any number of them holds up
 //! neither the next message nor a cancellation. Knows JSON-RPC, and of LSP only `initialize` and `exit`.
 
+// Public for fuzz targets, of which a build without `testing` knows nothing.
+#[cfg_attr(not(feature = "testing"), allow(unreachable_pub))]
 mod frame;
-mod long_string;
 mod lost;
 mod memory;
 mod message;
 mod stdio;
 mod weight;
 mod writer;
-mod written;
 
 pub(crate) use lost::LostChange;
 pub(crate) use memory::give_back;
-pub(crate) use writer::{Publish, Writer};
-pub(crate) use written::{AsWritten, Written};
+pub(crate) use writer::{Publish, Writer, Written};
 
-pub(super) use frame::{Frame, Frames};
+#[cfg_attr(not(feature = "testing"), allow(unreachable_pub))]
+pub use frame::{Frame, Frames};
 use lost::lost_change;
 use memory::Memory;
 use message::Incoming;
@@ -36,7 +36,6 @@ use std::time::{Duration, Instant};
 use tower::Service;
 use tower_lsp::jsonrpc::{Error, ErrorCode, Id, Request, Response};
 use tower_lsp::{ExitedError, LanguageServer, LspService};
-use written::{REPLY, Reply};
 
 pub(crate) use stdio::pipes;
 
@@ -67,7 +66,8 @@ pub(crate) struct Transport<S, I> {
 impl<S: LanguageServer, I: Inbox> Transport<S, I> {
     pub(crate) fn new(service: LspService<S>, inbox: I, writer: Writer) -> std::io::Result<Self> {
         let runtime = tokio::runtime::Builder::new_multi_thread()
-            .worker_threads(1)
+            // While one makes JSON of a long answer, the other goes on.
+            .worker_threads(2)
             .enable_time()
             .thread_name("wedm-replies")
             .build()?;
@@ -88,7 +88,7 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
             if !self.wait_for_reader() {
                 return false;
             }
-            let frame = frames.next();
+            let frame = frames.step();
             self.lose(frames.take_lost());
             match frame {
                 Frame::End => return false,
@@ -170,21 +170,20 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
         });
         let taken = self.inbox.taken();
         let guard = self.runtime.enter();
-        let reply = Reply::default();
         let answer = match catch_unwind(AssertUnwindSafe(|| self.service.call(request))) {
             Ok(answer) => Guarded {
-                answer: Box::pin(REPLY.scope(reply.clone(), answer)),
+                answer: Box::pin(answer),
             },
             Err(panic) => {
                 drop(guard);
-                return self.finish(&reply, id, Err(panic));
+                return self.finish(id, Err(panic));
             }
         };
         drop(guard);
         // `initialize` ends before the next message: a client that sends `didOpen` right after it loses nothing.
         if inline {
             let outcome = self.runtime.block_on(answer);
-            return self.finish(&reply, id, outcome);
+            return self.finish(id, outcome);
         }
         let mut answer = answer;
         let first = {
@@ -203,21 +202,21 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
                         uris: uri.into_iter().collect(),
                     }));
                 }
-                self.finish(&reply, id, outcome);
+                self.finish(id, outcome);
             }
             Poll::Pending => {
                 self.waiting.fetch_add(1, Ordering::AcqRel);
                 let (writer, waiting) = (self.writer.clone(), self.waiting.clone());
                 self.runtime.spawn(async move {
                     let outcome = answer.await;
-                    finish(&writer, &reply, id, outcome);
+                    finish(&writer, id, outcome);
                     waiting.fetch_sub(1, Ordering::AcqRel);
                 });
             }
         }
     }
 
-    fn finish(&mut self, reply: &Reply, id: Option<Id>, outcome: Outcome) {
+    fn finish(&mut self, id: Option<Id>, outcome: Outcome) {
         if outcome.is_err()
             && let Some(id) = &id
         {
@@ -231,7 +230,7 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
                 .as_mut()
                 .poll(&mut Context::from_waker(Waker::noop()));
         }
-        finish(&self.writer, reply, id, outcome);
+        finish(&self.writer, id, outcome);
     }
 
     fn answer_broken(&self, error: Error, position: i64) {
@@ -254,7 +253,7 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
 /// The end of a handler: its answer, or its panic.
 type Outcome = Result<Result<Option<Response>, ExitedError>, Box<dyn Any + Send>>;
 
-fn finish(writer: &Writer, reply: &Reply, id: Option<Id>, outcome: Outcome) {
+fn finish(writer: &Writer, id: Option<Id>, outcome: Outcome) {
     let response = match outcome {
         Ok(Ok(response)) => response,
         Ok(Err(_exited)) => None,
@@ -274,10 +273,8 @@ fn finish(writer: &Writer, reply: &Reply, id: Option<Id>, outcome: Outcome) {
             })
         }
     };
-    let Some(response) = response else { return };
-    match reply.body(&response) {
-        Ok(body) => writer.send(body),
-        Err(error) => tracing::error!("a reply cannot be written: {error}"),
+    if let Some(response) = response {
+        writer.send_json(&response);
     }
 }
 

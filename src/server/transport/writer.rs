@@ -3,7 +3,6 @@
 //! Diagnostics wait in a slot for each document, where newer ones replace older ones; everything else waits in order.
 //! The reading thread pauses while too much waits: a client that stops reading cannot make memory grow.
 
-use super::Written;
 use rustc_hash::FxHashMap;
 use serde::Serialize;
 use std::collections::VecDeque;
@@ -16,6 +15,38 @@ const BACKLOG: usize = 32 * 1024 * 1024;
 
 /// Bodies up to this length, and diagnostics, are copied after their header; longer ones are not held twice.
 const ONE_WRITE: usize = 1024 * 1024;
+
+/// JSON text: the diagnostics of a document, of which an edit makes only some anew.
+#[derive(Clone, Debug)]
+pub(crate) struct Written(Vec<u8>);
+
+impl Default for Written {
+    /// An empty array.
+    fn default() -> Written {
+        Written(b"[]".to_vec())
+    }
+}
+
+impl From<Vec<u8>> for Written {
+    /// Takes finished JSON.
+    fn from(json: Vec<u8>) -> Written {
+        Written(json)
+    }
+}
+
+impl Written {
+    pub(crate) fn of(result: &impl Serialize) -> serde_json::Result<Written> {
+        serde_json::to_vec(result).map(Written)
+    }
+
+    pub(crate) fn json(&self) -> &[u8] {
+        &self.0
+    }
+
+    pub(crate) fn into_json(self) -> Vec<u8> {
+        self.0
+    }
+}
 
 /// Params of `textDocument/publishDiagnostics`. The URI is the client's own spelling.
 #[derive(Clone, Debug)]

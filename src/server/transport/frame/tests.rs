@@ -19,10 +19,10 @@ fn a_body_over_the_limit_is_passed_over_and_said_by_its_length() {
     let input = header(BODY_CAP + 1) + "{}";
     let mut frames = Frames::new(Trickle(input.as_bytes(), 7));
     let expected = say!(a_body_is_over_the_limit, BODY_CAP + 1, BODY_CAP);
-    assert_eq!(frames.next(), Frame::Broken(expected));
+    assert_eq!(frames.step(), Frame::Broken(expected));
     // A body as long as the limit is only cut short here.
     let input = header(BODY_CAP) + "{}";
-    let next = Frames::new(Trickle(input.as_bytes(), 7)).next();
+    let next = Frames::new(Trickle(input.as_bytes(), 7)).step();
     let over = say!(a_body_is_over_the_limit, BODY_CAP, BODY_CAP);
     assert_ne!(next, Frame::Broken(over));
 }
@@ -33,7 +33,7 @@ fn frames(input: &str, broken_bodies: &[&str]) -> Vec<String> {
         let mut seen = Vec::new();
         let mut used = 0;
         loop {
-            let next = frames.next();
+            let next = frames.step();
             assert!(
                 frames.position() > used || next == Frame::End,
                 "{input:?} in steps of {step}: nothing was used up"
@@ -70,10 +70,10 @@ fn a_long_body_is_held_once_and_not_kept() {
     let body = " ".repeat(20 * CHUNK);
     let input = format!("Content-Length: {}\r\n\r\n{body}", body.len());
     let mut frames = Frames::new(input.as_bytes());
-    assert_eq!(frames.next(), Frame::Body(body.into_bytes()));
+    assert_eq!(frames.step(), Frame::Body(body.into_bytes()));
     assert!(frames.buffer.capacity() <= CHUNK);
     assert_eq!(frames.position(), input.len() as i64);
-    assert_eq!(frames.next(), Frame::End);
+    assert_eq!(frames.step(), Frame::End);
 }
 
 #[test]

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 pub struct Sequence {
     pub stream: Vec<u8>,
     /// Requests in the stream; their ids count from 0.
-    pub(crate) requests: usize,
+    requests: usize,
 }
 
 const DOCUMENTS: [(&str, &str); 6] = [
