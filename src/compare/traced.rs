@@ -2,7 +2,7 @@
 
 use crate::geometry::{Arc, Point, Segment, Side, Vector};
 use crate::program::block_words::{BlockWords, register_in};
-use crate::program::path::{self, Kind, Step, Trace};
+use crate::program::path::{self, Kind, Step};
 use crate::program::{Document, Format, Language};
 use crate::text::SourceText;
 use std::ops::Range;
@@ -37,15 +37,6 @@ pub(super) struct Cut {
     pub(super) blocks: Range<usize>,
     /// Without the ways in and out, as far as it comes back to where it begins.
     pub(super) contour: Range<usize>,
-}
-
-/// What is known of a program beside its trace.
-pub(super) struct Traits {
-    pub(super) language: Language,
-    pub(super) four_b: bool,
-    pub(super) mills: bool,
-    /// Coordinates stand after blocks.
-    pub(super) states_ends: bool,
 }
 
 /// The register in force, as the steps of a program go by.
@@ -194,26 +185,7 @@ impl Traced {
             Document::ThreeB(program) => program.first_four_b_line().is_some(),
             Document::Iso(_) => false,
         };
-        Traced::of_trace(
-            program.trace(),
-            program.text(),
-            Traits {
-                language: program.language(),
-                four_b,
-                mills: program.mills(),
-                states_ends: program.states_ends(),
-            },
-        )
-    }
-
-    /// A program by its trace.
-    pub(super) fn of_trace(trace: Trace, text: &SourceText, traits: Traits) -> Traced {
-        let Traits {
-            language,
-            four_b,
-            mills,
-            states_ends,
-        } = traits;
+        let (trace, text, language) = (program.trace(), program.text(), program.language());
         let cuts = path::cuts(&trace);
         let cuts = cuts.into_iter().filter(|cut| !cut.is_way);
         let cuts = cuts.map(|cut| {
@@ -273,7 +245,8 @@ impl Traced {
         });
         let blocks = blocks.collect();
         Traced {
-            states_ends,
+            states_ends: program.states_ends(),
+            mills: program.mills(),
             text,
             blocks,
             cuts,
@@ -282,7 +255,6 @@ impl Traced {
             is_relative,
             language,
             four_b,
-            mills,
         }
     }
 
