@@ -235,7 +235,7 @@ fn spur_fix(document: &Document, back: usize) -> Option<TextFix> {
     );
     let is_plain = Machine {
         at: behind.at,
-        trail: behind.trail,
+        said: behind.said,
         moved: behind.moved,
         ..before
     } == behind;
