@@ -280,9 +280,8 @@ impl<'a> Report<'a> {
         let heard = contour.cuts.clone().flat_map(|cut| document.moves_of(cut));
         let ranges: Vec<Range<usize>> = heard.map(|(_, range)| range).collect();
         let way = document.way_of(&contour.cuts);
-        let all = 0..found.all().len();
-        let worded = all.filter_map(|index| found.worded(index, &way, &ranges, self.text));
-        self.findings.extend(worded);
+        self.findings
+            .extend(found.findings(&way, &ranges, self.text));
     }
 
     /// Checks a contour as a whole: does it close, does the wire run on the right side, is an arc too tight. `all` are
