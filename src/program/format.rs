@@ -2,30 +2,10 @@
 
 use super::write::{Proved, ProvedProgram};
 use super::{Language, iso, three_b};
-use crate::settings::{Compensation, Effective, ProgramFormat};
+pub use crate::settings::ProgramFormat as Format;
+use crate::settings::{Compensation, Effective};
 use crate::toolpath::{Source, WirePath};
 use std::borrow::Cow;
-
-/// A format that can be written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
-    ThreeB,
-    FourB,
-    Iso,
-    /// ISO with heights, layer by layer, for an electrode.
-    Milling,
-}
-
-impl From<ProgramFormat> for Format {
-    fn from(format: ProgramFormat) -> Format {
-        match format {
-            ProgramFormat::ThreeB => Format::ThreeB,
-            ProgramFormat::FourB => Format::FourB,
-            ProgramFormat::Iso => Format::Iso,
-            ProgramFormat::Milling => Format::Milling,
-        }
-    }
-}
 
 impl Format {
     pub(crate) const ALL: [Format; 4] =

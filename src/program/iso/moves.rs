@@ -270,7 +270,12 @@ impl Move {
             end: micrometres(self.to),
             ideal,
             side: self.side,
+            register: self.offset,
             is_relative: self.incremental,
+            radius: match self.bend {
+                Bend::Radius(nm) => Some(nm as f64 / 1e3),
+                Bend::Center { .. } | Bend::Nothing => None,
+            },
             ..Step::stop(Kind::Pause, micrometres(self.from))
         }
     }

@@ -29,7 +29,7 @@ pub(in crate::program) use polyline::{MOST_BY_BULGE, polyline};
 pub(in crate::program) use size::{absurd_size, size_of};
 pub(in crate::program) use tight::{UM_IN_MM, is_tight, is_tight_in_four_b};
 pub(crate) use trace::Follower;
-pub use trace::{Kind, Step, Trace};
+pub use trace::{Kind, Register, Step, Trace};
 pub(in crate::program) use verdict::{FEWEST_CROSSING, Found, Verdict};
 pub(in crate::program) use way::Node;
 pub(crate) use way::Way;
