@@ -331,6 +331,11 @@ pub(crate) fn apart(a: Place, b: Place) -> Place {
     [a[0].wrapping_sub(b[0]), a[1].wrapping_sub(b[1])]
 }
 
+/// A point in µm as a place.
+pub(crate) fn nanometres(point: Point) -> Place {
+    [point.x, point.y].map(|um| (um * 1e3).round() as i64)
+}
+
 pub(crate) fn distance(a: Place, b: Place) -> f64 {
     let [x, y] = apart(a, b);
     (x as f64).hypot(y as f64)

@@ -401,7 +401,7 @@ impl<'a> Report<'a> {
                 && tabs.any(|(from, to)| !meet(from, to));
             are_one.then_some(area)
         };
-        all.iter().find_map(|other| area(other))
+        all.iter().find_map(area)
     }
 
     /// A G41 that becomes G42 within a cut, at the word that does so.

@@ -75,7 +75,7 @@ impl Jointed {
     }
 
     /// From the start of an arc to its centre, µm.
-    fn to_center(&self) -> Option<Vector> {
+    fn center_from_start(&self) -> Option<Vector> {
         Some(self.curve.as_arc()?.center - self.curve.start())
     }
 }
@@ -194,14 +194,16 @@ impl Joint {
 }
 
 fn has_one_center(before: &Jointed, made: &Jointed) -> bool {
-    let of_before = before.to_center().map(|center| center - before.chord());
-    matches!((of_before, made.to_center()), (Some(a), Some(b)) if (a - b).norm() <= MET)
+    let of_before = before
+        .center_from_start()
+        .map(|center| center - before.chord());
+    matches!((of_before, made.center_from_start()), (Some(a), Some(b)) if (a - b).norm() <= MET)
 }
 
 /// Two arcs of one radius that turn the same way.
 fn are_of_a_row(one: &Jointed, other: &Jointed) -> bool {
     let turned = |arc: &Jointed| {
-        let center = arc.to_center()?;
+        let center = arc.center_from_start()?;
         let [start, _] = arc.directions()?;
         Some(center.norm() * cross(start, center).signum())
     };
@@ -213,7 +215,7 @@ fn are_of_a_row(one: &Jointed, other: &Jointed) -> bool {
 /// direction.
 fn tangent(made: &Jointed) -> Option<f64> {
     let radius = made
-        .to_center()
+        .center_from_start()
         .map_or(f64::INFINITY, |center| center.norm());
     Some(TANGENT + ROUNDING / radius).filter(|tangent| *tangent < CLEAR)
 }
