@@ -31,7 +31,7 @@ pub(crate) use sentence::related;
 pub use sentence::sentence;
 pub use small_radius::NoFix;
 pub(crate) use small_radius::SmallRadius;
-pub use unlike::Unlike;
+pub use unlike::{DifferenceKind, Unlike};
 pub(crate) use unwritable::Unwritable;
 
 pub use crate::geometry::Side;

@@ -38,7 +38,7 @@ pub(super) fn format(
 
 /// The format of programs where nothing else says it.
 pub(super) fn of_settings(settings: &Effective) -> Format {
-    settings.format.map_or(Format::ThreeB, Format::from)
+    settings.format.unwrap_or(Format::ThreeB)
 }
 
 /// An error where the ending of a conversion's target is that of something else.

@@ -1,12 +1,13 @@
 //! What the passes of a program cover of their contours, and what to say of the rest: a tab is left to stand, else a block is
 //! lost, or wrong.
 
-use super::difference::{Difference, DifferenceKind};
+use super::difference::Difference;
 use super::foreign::Foreign;
 use super::judged::{Judged, ROUNDED, SLIGHT};
 use super::level::LEVEL;
 use super::traced::{Cut, Motion};
 use super::walk::{COVERED, WITHIN};
+use crate::finding::DifferenceKind;
 use crate::geometry::Point;
 
 impl Foreign<'_> {

@@ -1,45 +1,9 @@
 //! A difference between a program and its drawing, as it is reported.
 
-use super::traced::Block;
+use super::traced::{Block, Traced};
 use crate::drawing::EntityId;
-use crate::geometry::Side;
+use crate::finding::DifferenceKind;
 use std::ops::Range;
-
-/// What is different at a block.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum DifferenceKind {
-    /// The block leads elsewhere than its segment.
-    Block,
-    /// Its contour lies elsewhere.
-    Moved,
-    /// The contour goes on where the program does not.
-    Unfinished,
-    /// No contour of the drawing matches it.
-    Foreign,
-    /// A way in or out, or between contours, of a program of ours.
-    Lead,
-    /// The coordinates after a block of such a program differ from its end.
-    Stated,
-    /// The control lets the wire run on one side, or none, and should on another.
-    Side {
-        stated: Option<Side>,
-        ideal: Option<Side>,
-    },
-    /// A pass takes its correction from the place of another one.
-    Register { stated: u32, ideal: u32 },
-    /// A contour is cut at another correction than the others of its program, nm.
-    Correction { stated: u32, ideal: u32 },
-    /// The machine should stop before this block.
-    Unstopped,
-    /// The wire runs on the other side of an arc of 4B; it should run inside of it, or outside.
-    Turned { inside: bool },
-    /// A way in ends this far beside the path of its contour, which goes on from there.
-    Astray,
-    /// The wire runs on the other side of its contour than the settings say.
-    OtherSide,
-    /// From here on nothing is compared: the steps of the comparison are used up.
-    Beyond,
-}
 
 /// A block that does not follow its drawing.
 #[derive(Clone, Debug, PartialEq)]
@@ -70,6 +34,21 @@ impl Difference {
             off: off / 1e3,
             kind,
         }
+    }
+
+    /// The same at the line that switches the correction of a block before another one of its pass, where there is one.
+    pub(super) fn at_switch(
+        traced: &Traced,
+        block: &Block,
+        index: usize,
+        kind: DifferenceKind,
+    ) -> Difference {
+        let mut found = Difference::of(block, None, 0.0, kind);
+        let switch = block.side.and_then(|_| traced.switch_before(index));
+        if let Some((range, line)) = switch {
+            (found.range, found.line) = (range, line);
+        }
+        found
     }
 }
 

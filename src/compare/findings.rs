@@ -1,8 +1,8 @@
 //! The findings of a comparison, at the program and at the drawing.
 
-use super::{Comparison, Difference, DifferenceKind, Drawn, Traced, compare};
-use crate::finding::{Detail, Finding, Place, Rule, Severity, Unlike};
-use crate::geometry::Side;
+use super::{Comparison, Drawn, Traced, compare};
+use crate::drawing::EntityId;
+use crate::finding::{Detail, DifferenceKind, Finding, Place, Rule, Severity, Unlike};
 use crate::settings::Effective;
 use std::sync::Arc;
 
@@ -68,23 +68,17 @@ pub(crate) fn of_program(
     others: &[Arc<str>],
     settings: &Effective,
 ) -> Vec<Finding> {
-    let other = || drawing.name.clone();
+    let whole = |kind| whole(&drawing.name, kind, settings);
     let mut found = Vec::new();
     if !others.is_empty() {
-        let more = Unlike::Several {
-            other: other(),
-            more: others.join(", "),
-        };
-        found.extend(finding(more, Place::Document, settings));
+        let more = others.join(", ");
+        found.extend(whole(DifferenceKind::Several { more }));
     }
     let drawn = match &drawing.made {
         Ok(drawn) => drawn,
         Err(reason) => {
-            let unreadable = Unlike::Unreadable {
-                other: other(),
-                reason: reason.clone(),
-            };
-            found.extend(finding(unreadable, Place::Document, settings));
+            let reason = reason.clone();
+            found.extend(whole(DifferenceKind::Unreadable { reason }));
             return found;
         }
     };
@@ -92,92 +86,26 @@ pub(crate) fn of_program(
         return found;
     }
     let Some(Comparison { differences, .. }) = compare(drawn, traced) else {
-        let other = other();
-        let nothing = match traced.mills {
-            true => Unlike::Milled { other },
-            false => Unlike::Nothing { other },
-        };
-        found.extend(finding(nothing, Place::Document, settings));
+        found.extend(whole(match traced.mills {
+            true => DifferenceKind::Milled,
+            false => DifferenceKind::Nothing,
+        }));
         return found;
     };
     found.extend(differences.into_iter().filter_map(|difference| {
-        let Difference {
-            range,
-            segment,
-            off,
-            kind,
-            ..
-        } = difference;
-        let handle = segment.map_or_else(String::new, |(entity, _)| drawn.handle(entity).into());
-        let number = segment.map_or(0, |(_, number)| number);
-        let unlike = match kind {
-            DifferenceKind::Block => Unlike::Block {
-                other: other(),
-                handle,
-                segment: number,
-                off,
-            },
-            DifferenceKind::Moved => Unlike::Moved {
-                other: other(),
-                handle,
-                off,
-            },
-            DifferenceKind::Unfinished => Unlike::Unfinished {
-                other: other(),
-                handle,
-                segment: number,
-            },
-            DifferenceKind::Foreign => Unlike::Foreign { other: other() },
-            DifferenceKind::Lead => Unlike::Lead {
-                other: other(),
-                off,
-            },
-            DifferenceKind::Stated => Unlike::Stated {
-                other: other(),
-                off,
-            },
-            DifferenceKind::Side { stated, ideal } => Unlike::Side {
-                other: other(),
-                said: switch(stated),
-                meant: switch(ideal),
-            },
-            DifferenceKind::Register { stated, ideal } => Unlike::Register {
-                other: other(),
-                said: stated,
-                meant: ideal,
-            },
-            DifferenceKind::Correction { stated, ideal } => Unlike::Correction {
-                other: other(),
-                handle,
-                said: f64::from(stated) / 1e6,
-                meant: f64::from(ideal) / 1e6,
-            },
-            DifferenceKind::Unstopped => Unlike::Unstopped { other: other() },
-            DifferenceKind::Turned { inside } => Unlike::Turned {
-                other: other(),
-                said: if inside { "D" } else { "DD" }.into(),
-                meant: if inside { "DD" } else { "D" }.into(),
-            },
-            DifferenceKind::Astray => Unlike::Astray {
-                other: other(),
-                off,
-            },
-            DifferenceKind::OtherSide => Unlike::OtherSide { other: other() },
-            DifferenceKind::Beyond => Unlike::Beyond { other: other() },
+        let handle = |(entity, _): (EntityId, usize)| drawn.handle(entity).into();
+        let unlike = Unlike {
+            other: drawing.name.clone(),
+            line: None,
+            segment: difference.segment.map_or(0, |(_, number)| number),
+            handle: difference.segment.map_or_else(String::new, handle),
+            off: difference.off,
+            kind: difference.kind,
         };
+        let range = difference.range;
         finding(unlike, Place::Text { range }, settings)
     }));
     found
-}
-
-/// The word that switches the correction.
-fn switch(side: Option<Side>) -> String {
-    let word = match side {
-        Some(Side::Left) => "G41",
-        Some(Side::Right) => "G42",
-        None => "G40",
-    };
-    word.into()
 }
 
 /// The findings at a drawing.
@@ -187,15 +115,12 @@ pub fn of_drawing(
     settings: &Effective,
 ) -> Vec<Finding> {
     let of_one = |program: &Partner<Traced>| {
-        let other = || program.name.clone();
-        let whole = |unlike| Vec::from_iter(finding(unlike, Place::Document, settings));
+        let whole = |kind| Vec::from_iter(whole(&program.name, kind, settings));
         let traced = match &program.made {
             Ok(traced) => traced,
             Err(reason) => {
-                return whole(Unlike::Unreadable {
-                    other: other(),
-                    reason: reason.clone(),
-                });
+                let reason = reason.clone();
+                return whole(DifferenceKind::Unreadable { reason });
             }
         };
         if traced.is_empty() {
@@ -205,34 +130,39 @@ pub fn of_drawing(
             // The program has the finding.
             return match traced.mills {
                 true => Vec::new(),
-                false => whole(Unlike::Nothing { other: other() }),
+                false => whole(DifferenceKind::Nothing),
             };
         };
         let said = differences.into_iter().filter_map(|difference| {
+            use DifferenceKind::{Block, Moved, Unfinished};
             let (entity, segment) = difference.segment?;
-            let (line, off) = (difference.line + 1, difference.off / drawn.unit_mm);
-            let unlike = match difference.kind {
-                DifferenceKind::Block => Unlike::Segment {
-                    other: other(),
-                    line,
-                    off,
-                },
-                DifferenceKind::Moved => Unlike::Begin {
-                    other: other(),
-                    line,
-                    off,
-                },
-                DifferenceKind::Unfinished => Unlike::Left {
-                    other: other(),
-                    line,
-                },
-                _ => return None,
-            };
+            let is_said = matches!(difference.kind, Block | Moved | Unfinished);
+            let unlike = is_said.then(|| Unlike {
+                other: program.name.clone(),
+                line: Some(difference.line + 1),
+                segment: 0,
+                handle: String::new(),
+                off: difference.off / drawn.unit_mm,
+                kind: difference.kind,
+            })?;
             finding(unlike, Place::Segment { entity, segment }, settings)
         });
         said.collect()
     };
     programs.iter().flat_map(of_one).collect()
+}
+
+/// The finding about both documents as a whole.
+fn whole(other: &Arc<str>, kind: DifferenceKind, settings: &Effective) -> Option<Finding> {
+    let unlike = Unlike {
+        other: other.clone(),
+        line: None,
+        segment: 0,
+        handle: String::new(),
+        off: 0.0,
+        kind,
+    };
+    finding(unlike, Place::Document, settings)
 }
 
 fn finding(unlike: Unlike, place: Place, settings: &Effective) -> Option<Finding> {

@@ -5,7 +5,7 @@
 //! the one, of those at which blocks lie and of those of other contours, that leaves the least to name.
 
 use super::budget::Budget;
-use super::difference::{Comparison, DifferenceKind};
+use super::difference::Comparison;
 use super::drawn::Drawn;
 use super::judged::{Judged, Pass, ROUNDED, SLIGHT, count, unfinished};
 use super::level::{LEVEL, Run, runs};
@@ -13,6 +13,7 @@ use super::place::{place, places, told_by_arcs};
 use super::ring::{Course, NONE, Ring};
 use super::traced::{Cut, Motion, Traced};
 use super::walk::{At, COVERED, WITHIN, WITHIN_FOUR_B, Walk};
+use crate::finding::DifferenceKind;
 use crate::geometry::{Point, Side, Vector};
 use crate::settings::Corner;
 use std::ops::Range;

@@ -1,7 +1,8 @@
 //! A pass that has been followed: what it covers of its contour, what is wrong in it, and what it lacks.
 
-use super::difference::{Difference, DifferenceKind};
+use super::difference::Difference;
 use super::walk::{At, COVERED, Walk};
+use crate::finding::DifferenceKind;
 use crate::geometry::{Point, Vector};
 
 /// An arc in a sharp corner leaves no more of it than this, µm.

@@ -6,9 +6,10 @@
 
 use super::TOLERANCE;
 use super::aligned::{Aligned, PLACED, Row};
-use super::difference::{Difference, DifferenceKind};
+use super::difference::Difference;
 use super::traced::Traced;
 use super::words::Words;
+use crate::finding::DifferenceKind;
 use crate::geometry::Vector;
 use crate::program::block_words::BlockWords;
 use std::ops::Range;

@@ -33,8 +33,9 @@ mod walk;
 mod walls;
 mod words;
 
+pub use crate::finding::DifferenceKind;
 use budget::Budget;
-pub use difference::{Comparison, Difference, DifferenceKind};
+pub use difference::{Comparison, Difference};
 pub use drawn::Drawn;
 pub use findings::{Beside, Partner, of_drawing};
 pub(crate) use findings::{Form, of_program};

@@ -6,11 +6,12 @@
 
 use super::TOLERANCE;
 use super::aligned::{Aligned, PLACED, Row};
-use super::difference::{Comparison, Difference, DifferenceKind};
+use super::difference::{Comparison, Difference};
 use super::drawn::Drawn;
 use super::leads::leads;
 use super::traced::{Block, Motion, Traced};
 use super::words::{Words, of_corrections};
+use crate::finding::DifferenceKind;
 use crate::geometry::Vector;
 
 /// What differs in a program that we would write; `None` where we would not.

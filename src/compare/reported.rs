@@ -1,11 +1,12 @@
 //! What is said of the passes of a program of another writer, all of them together: their differences, their sides, and
 //! their corrections.
 
-use super::difference::{Comparison, Difference, DifferenceKind};
+use super::difference::{Comparison, Difference};
 use super::foreign::{Foreign, Seen};
 use super::judged::Judged;
 use super::ring::NONE;
 use super::traced::Block;
+use crate::finding::DifferenceKind;
 use crate::geometry::Side;
 use crate::settings::Compensation;
 
@@ -180,17 +181,12 @@ impl Foreign<'_> {
             stated: block.side,
             ideal: Some(ideal),
         };
-        let mut found = Difference::of(block, None, 0.0, kind);
         // It is switched on before the way in.
         let of_pass = |at: &usize| {
             let other = self.traced.blocks.get(*at);
             other.is_some_and(|other| other.stretch == block.stretch)
         };
         let first = (0..=index).rev().take_while(of_pass).last();
-        let switch = first.filter(|_| block.side.is_some());
-        if let Some((range, line)) = switch.and_then(|first| self.traced.switch_before(first)) {
-            (found.range, found.line) = (range, line);
-        }
-        found
+        Difference::at_switch(self.traced, block, first.unwrap_or(index), kind)
     }
 }

@@ -1,8 +1,8 @@
 //! The data of a program for comparing: its blocks as they mean it.
 
 use crate::geometry::{Arc, Point, Segment, Side, Vector};
-use crate::program::block_words::{BlockWords, register_in};
-use crate::program::path::{self, Kind, Step, Trace};
+use crate::program::block_words::BlockWords;
+use crate::program::path::{self, Kind, Step};
 use crate::program::{Document, Format, Language};
 use crate::text::SourceText;
 use std::ops::Range;
@@ -37,42 +37,6 @@ pub(super) struct Cut {
     pub(super) blocks: Range<usize>,
     /// Without the ways in and out, as far as it comes back to where it begins.
     pub(super) contour: Range<usize>,
-}
-
-/// What is known of a program beside its trace.
-pub(super) struct Traits {
-    pub(super) language: Language,
-    pub(super) four_b: bool,
-    pub(super) mills: bool,
-    /// Coordinates stand after blocks.
-    pub(super) states_ends: bool,
-}
-
-/// The register in force, as the steps of a program go by.
-#[derive(Default)]
-struct Registers {
-    named: Option<u32>,
-    side: Option<Side>,
-    /// Where the text has been read to; a stop since then.
-    read: usize,
-    has_stopped: bool,
-}
-
-impl Registers {
-    /// The register of a step; its text is read where the correction is switched, and after stops.
-    fn of(&mut self, step: &Step, text: &SourceText) -> Option<u32> {
-        if !step.moves() {
-            self.has_stopped = true;
-            return None;
-        }
-        let is_new = step.side != self.side || self.has_stopped;
-        if is_new && step.side.is_some() {
-            let said = text.slice(self.read.min(step.range.end)..step.range.end);
-            self.named = register_in(said.unwrap_or_default()).or(self.named);
-        }
-        (self.side, self.has_stopped, self.read) = (step.side, false, step.range.end);
-        self.named.filter(|_| step.side.is_some())
-    }
 }
 
 /// One block.
@@ -157,19 +121,6 @@ const HALF: f64 = 1.75;
 /// A reader takes an arc whose ends are so much too far apart for a half circle, µm.
 const LARGER: f64 = 20.0;
 
-/// The radius that an arc of ISO states instead of its centre, µm.
-fn radius_said(language: Language, step: &Step, text: &SourceText) -> Option<f64> {
-    let is_arc = language == Language::Iso && step.kind == Kind::Arc;
-    let said = text.slice(step.range.clone()).filter(|_| is_arc)?;
-    let has_radius = said.contains(&b'R');
-    has_radius.then(|| {
-        BlockWords::of(language, said)
-            .length(b'R')
-            .unwrap_or(0.0)
-            .abs()
-    })
-}
-
 /// An arc that states its radius. Near half a turn, what the rounding of its ends leaves of their distance moves its
 /// centre by a hundred times as much: it is meant to be a half circle, or, where its radius is too small, none at all.
 fn half_or_none(arc: Arc, radius: f64) -> Option<Segment> {
@@ -194,26 +145,7 @@ impl Traced {
             Document::ThreeB(program) => program.first_four_b_line().is_some(),
             Document::Iso(_) => false,
         };
-        Traced::of_trace(
-            program.trace(),
-            program.text(),
-            Traits {
-                language: program.language(),
-                four_b,
-                mills: program.mills(),
-                states_ends: program.states_ends(),
-            },
-        )
-    }
-
-    /// A program by its trace.
-    pub(super) fn of_trace(trace: Trace, text: &SourceText, traits: Traits) -> Traced {
-        let Traits {
-            language,
-            four_b,
-            mills,
-            states_ends,
-        } = traits;
+        let (trace, text, language) = (program.trace(), program.text(), program.language());
         let cuts = path::cuts(&trace);
         let cuts = cuts.into_iter().filter(|cut| !cut.is_way);
         let cuts = cuts.map(|cut| {
@@ -245,15 +177,14 @@ impl Traced {
             }
             stretch
         };
-        let mut registers = Registers::default();
         let blocks = trace.steps.into_iter().map(|mut step| {
-            let radius = radius_said(language, &step, &text);
-            if let (Some(radius), Some(Segment::Arc(arc))) = (radius, step.ideal) {
-                step.ideal = half_or_none(arc, radius);
+            if let (Some(radius), Some(Segment::Arc(arc))) = (step.radius, step.ideal) {
+                step.ideal = half_or_none(arc, radius.abs());
             }
+            let register = step.register.filter(|_| step.side.is_some());
             Block {
                 stretch: stretch_of(&step),
-                register: registers.of(&step, &text),
+                register: register.map(|register| register.index),
                 line: step.line,
                 motion: match (step.kind, step.ideal) {
                     (Kind::Line | Kind::Arc, Some(segment)) => Motion::Cut(segment),
@@ -267,13 +198,14 @@ impl Traced {
                 },
                 side: step.side,
                 is_lost: step.kind == Kind::Arc && step.ideal.is_none(),
-                by_radius: radius.is_some(),
+                by_radius: step.radius.is_some(),
                 range: step.range,
             }
         });
         let blocks = blocks.collect();
         Traced {
-            states_ends,
+            states_ends: program.states_ends(),
+            mills: program.mills(),
             text,
             blocks,
             cuts,
@@ -282,7 +214,6 @@ impl Traced {
             is_relative,
             language,
             four_b,
-            mills,
         }
     }
 

@@ -3,8 +3,9 @@
 
 use super::TOLERANCE;
 use super::aligned::{Aligned, Row};
-use super::difference::{Difference, DifferenceKind};
+use super::difference::Difference;
 use super::traced::{Block, Motion};
+use crate::finding::DifferenceKind;
 use crate::geometry::Vector;
 use std::collections::BTreeMap;
 
@@ -97,19 +98,6 @@ struct Pair<'a> {
     ideal: &'a Block,
 }
 
-/// The line that switches the correction before a block, where there is one, else the block.
-fn at_switch(aligned: &Aligned, pair: &Pair, kind: DifferenceKind) -> Difference {
-    let mut found = Difference::of(pair.own, None, 0.0, kind);
-    let switch = pair
-        .own
-        .side
-        .and_then(|_| aligned.traced.switch_before(pair.at));
-    if let Some((range, line)) = switch {
-        (found.range, found.line) = (range, line);
-    }
-    found
-}
-
 /// Of each run of blocks on another side the first.
 fn sides(aligned: &Aligned, pairs: &[Pair]) -> Vec<Difference> {
     let cut: Vec<&Pair> = pairs
@@ -126,7 +114,12 @@ fn sides(aligned: &Aligned, pairs: &[Pair]) -> Vec<Difference> {
             stated: first.own.side,
             ideal: first.ideal.side,
         };
-        Some(at_switch(aligned, first, kind))
+        Some(Difference::at_switch(
+            aligned.traced,
+            first.own,
+            first.at,
+            kind,
+        ))
     });
     let mut wrong: Vec<Difference> = wrong.collect();
     // None of it is offset: that is one fault.
@@ -188,7 +181,12 @@ fn registers(aligned: &Aligned, pairs: &[Pair]) -> Vec<Difference> {
                 stated: *stated,
                 ideal: right,
             };
-            found.push(at_switch(aligned, pair, kind));
+            found.push(Difference::at_switch(
+                aligned.traced,
+                pair.own,
+                pair.at,
+                kind,
+            ));
         }
     }
     found

@@ -17,29 +17,6 @@ pub(crate) struct BlockWords {
     pub(crate) concave: Option<bool>,
 }
 
-/// The last place of a correction that a text of ISO names (D, H).
-pub(crate) fn register_in(text: &[u8]) -> Option<u32> {
-    if !text.iter().any(|byte| matches!(byte, b'D' | b'H')) {
-        return None;
-    }
-    let mut named = None;
-    for line in text.split(|byte| *byte == b'\n') {
-        iso::words_in(line, |token, _| {
-            if let Token::Word {
-                letter: b'D' | b'H',
-                number,
-            } = token
-            {
-                named = number
-                    .whole()
-                    .and_then(|whole| u32::try_from(whole).ok())
-                    .or(named);
-            }
-        });
-    }
-    named
-}
-
 /// The letters of ISO before a length.
 const LENGTHS: &[u8] = b"XYIJRUVZK";
 
@@ -107,13 +84,6 @@ impl BlockWords {
     /// It sets the start of an ISO program.
     pub(crate) fn sets_place(&self) -> bool {
         self.words.starts_with(b"G92X")
-    }
-
-    /// The length behind a letter of an ISO block, µm.
-    pub(crate) fn length(&self, letter: u8) -> Option<f64> {
-        let mut letters = self.words.iter().filter(|word| LENGTHS.contains(word));
-        let at = letters.position(|word| *word == letter)?;
-        self.numbers.get(at).copied()
     }
 
     /// The same words and numbers, whatever stands after them.

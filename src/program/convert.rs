@@ -16,13 +16,11 @@ use super::document::Document;
 use super::format::Format;
 use super::iso::{self, Offset};
 use super::path::{Follower, Kind, MOST_BY_BULGE, tolerance};
-use super::three_b::StatedPoint;
 use crate::drawing::EntityId;
 use crate::finding::Side;
 use crate::geometry::{Arc, Point, Segment, left_normal};
 use crate::settings::Effective;
 use crate::toolpath::{PathSegment, Source, WirePath};
-use rustc_hash::FxHashMap;
 use std::f64::consts::PI;
 use std::ops::Range;
 
@@ -120,11 +118,6 @@ pub(crate) fn cuts_to_write(document: &Document, switches: bool) -> Cuts {
     } = switches::parted(&trace, switches);
     let leans = !trace.upper.iter().all(Vec::is_empty) || trace.upper_unknown.is_some();
     let trace = trace.into_meant();
-    let stated = stated_ends(document);
-    let part_sides = match document {
-        Document::ThreeB(program) => program.part_sides(),
-        Document::Iso(_) => FxHashMap::default(),
-    };
     let mut cuts = Cuts {
         leans,
         ..Cuts::default()
@@ -136,7 +129,6 @@ pub(crate) fn cuts_to_write(document: &Document, switches: bool) -> Cuts {
             cuts.taper = iso::refuse_taper(program, iso::TaperWords::All).err();
         }
     }
-    let mut offsets = offsets(document).into_iter();
     let mut open = CutPath::default();
     let mut spans = spans.iter().peekable();
     let mut follower = Follower::from(trace.start);
@@ -153,7 +145,6 @@ pub(crate) fn cuts_to_write(document: &Document, switches: bool) -> Cuts {
             open.stops.extend(is_within.then_some(open.segments.len()));
             continue;
         }
-        let offset = offsets.next().flatten();
         let Some(ideal) = step.ideal else {
             cuts.lost.push(step.line);
             follower.at += step.end - step.start;
@@ -161,7 +152,7 @@ pub(crate) fn cuts_to_write(document: &Document, switches: bool) -> Cuts {
         };
         let mut end = node + (step.end - step.start);
         arcs += usize::from(step.kind == Kind::Arc);
-        if let Some(&stated) = stated.get(&step.range.start)
+        if let Some(stated) = step.stated
             && (stated - end).norm() <= tolerance(arcs)
         {
             // The machine may stand beside the stated place, by as much as an arc is rounded: the next block begins there.
@@ -170,7 +161,7 @@ pub(crate) fn cuts_to_write(document: &Document, switches: bool) -> Cuts {
         if step.kind == Kind::Rapid {
             cuts.ways.push([node, end]);
         } else if end != node || is_full(&ideal) {
-            open.name(step, offset);
+            open.name(step);
             let pieces = between(&ideal, step, node, end);
             let uneven = unevenness(&ideal, step, node, end);
             if cuts.uneven.is_none_or(|(_, most)| uneven > most) {
@@ -179,9 +170,7 @@ pub(crate) fn cuts_to_write(document: &Document, switches: bool) -> Cuts {
             if let Some(span) = spans.peek() {
                 let contour = span.contour_steps();
                 if contour.contains(&index) {
-                    open.part_side = open
-                        .part_side
-                        .or(part_sides.get(&step.range.start).copied());
+                    open.part_side = open.part_side.or(step.part_side);
                     let is_first = open.segments.len() == open.lead_in;
                     if !is_first && step.side != open.side {
                         open.switched.get_or_insert(step.line);
@@ -206,15 +195,6 @@ pub(crate) fn cuts_to_write(document: &Document, switches: bool) -> Cuts {
     }
     cuts.close(open);
     cuts
-}
-
-/// The place of the correction at each move, as the program names it.
-fn offsets(document: &Document) -> Vec<Option<Offset>> {
-    let mut offsets = Vec::new();
-    if let Document::Iso(program) = document {
-        program.moves(&mut |_, made, _| offsets.push(made.offset));
-    }
-    offsets
 }
 
 fn is_full(segment: &Segment) -> bool {
@@ -449,19 +429,4 @@ impl CutPath {
             })
         })
     }
-}
-
-/// The coordinates after the blocks of a 3B program, µm, by the byte at which the block begins.
-fn stated_ends(document: &Document) -> FxHashMap<usize, Point> {
-    let Document::ThreeB(program) = document else {
-        return FxHashMap::default();
-    };
-    let fine = program
-        .stated_ends()
-        .filter(|(_, stated)| stated.decimals >= 3);
-    let point = |(at, stated): (usize, StatedPoint)| {
-        let [x, y] = stated.at.map(|mm| (mm * 1e6).round() / 1e3);
-        (at, Point::new(x, y))
-    };
-    fine.map(point).collect()
 }

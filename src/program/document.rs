@@ -252,7 +252,7 @@ impl Document {
 
     /// True where coordinates stand after blocks.
     pub(crate) fn states_ends(&self) -> bool {
-        matches!(self, Document::ThreeB(document) if document.stated_ends().next().is_some())
+        matches!(self, Document::ThreeB(document) if document.states_ends())
     }
 
     /// True for a program for an electrode: no wire cuts it.

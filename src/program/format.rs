@@ -1,32 +1,11 @@
 //! The formats that programs are written in, by name.
 
-use super::notes::Notes;
 use super::write::{Proved, ProvedProgram};
 use super::{Language, iso, three_b};
-use crate::settings::{Compensation, Effective, ProgramFormat};
-use crate::toolpath::WirePath;
+pub use crate::settings::ProgramFormat as Format;
+use crate::settings::{Compensation, Effective};
+use crate::toolpath::{Source, WirePath};
 use std::borrow::Cow;
-
-/// A format that can be written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
-    ThreeB,
-    FourB,
-    Iso,
-    /// ISO with heights, layer by layer, for an electrode.
-    Milling,
-}
-
-impl From<ProgramFormat> for Format {
-    fn from(format: ProgramFormat) -> Format {
-        match format {
-            ProgramFormat::ThreeB => Format::ThreeB,
-            ProgramFormat::FourB => Format::FourB,
-            ProgramFormat::Iso => Format::Iso,
-            ProgramFormat::Milling => Format::Milling,
-        }
-    }
-}
 
 impl Format {
     pub(crate) const ALL: [Format; 4] =
@@ -115,24 +94,24 @@ impl Format {
         settings: &Effective,
         go_on: &mut dyn FnMut(usize, usize) -> bool,
     ) -> Proved<ProvedProgram> {
-        self.write_noting(paths, unit_mm, settings, None, go_on)
+        self.write_with_sources(paths, unit_mm, settings, None, go_on)
     }
 
-    /// The same to be compared: it is not written where it is far too long. `notes` are taken of every block, not of
-    /// milling.
-    pub(crate) fn write_noting(
+    /// The same to be compared: it is not written where it is far too long, and `sources` get what each block that moves
+    /// follows, in the order of the program.
+    pub(crate) fn write_with_sources(
         self,
         paths: &[WirePath],
         unit_mm: f64,
         settings: &Effective,
-        notes: Option<&mut Notes>,
+        sources: Option<&mut Vec<Source>>,
         go_on: &mut dyn FnMut(usize, usize) -> bool,
     ) -> Proved<ProvedProgram> {
         match self {
-            Format::ThreeB => three_b::write_with(paths, unit_mm, settings, notes, go_on),
-            Format::FourB => three_b::write_four_b(paths, unit_mm, settings, notes, go_on),
-            Format::Iso => iso::write_with(paths, unit_mm, settings, notes, go_on),
-            Format::Milling => iso::write_milled(paths, unit_mm, settings, notes.is_some(), go_on),
+            Format::ThreeB => three_b::write_with(paths, unit_mm, settings, sources, go_on),
+            Format::FourB => three_b::write_four_b(paths, unit_mm, settings, sources, go_on),
+            Format::Iso => iso::write_with(paths, unit_mm, settings, sources, go_on),
+            Format::Milling => iso::write_milled(paths, unit_mm, settings, sources, go_on),
         }
     }
 }

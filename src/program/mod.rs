@@ -17,7 +17,6 @@ pub mod iso;
 mod layout;
 mod lookalikes;
 mod mended;
-pub(crate) mod notes;
 mod numbering;
 pub mod path;
 mod profile;

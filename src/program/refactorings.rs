@@ -51,110 +51,78 @@ pub struct Proposal {
     pub edits: Edits,
 }
 
-/// Those of every language by their ids, in the order in which they are offered.
-const OF_MOVES: [&str; 10] = [
-    "refactor.rewrite.reverse",
-    "refactor.rewrite.startHere",
-    "refactor.rewrite.mirror.x",
-    "refactor.rewrite.mirror.y",
-    "refactor.rewrite.rotate.left",
-    "refactor.rewrite.rotate.right",
-    "refactor.rewrite.rotate.half",
-    "refactor.rewrite.scale.inchToMm",
-    "refactor.rewrite.scale.mmToInch",
-    "refactor.rewrite.merge",
-];
-
-const OF_THREE_B: [&str; 6] = [
-    "refactor.rewrite.split",
-    "refactor.rewrite.correct.opening",
-    "refactor.rewrite.correct.punch",
-    "refactor.rewrite.layout.compact",
-    "refactor.rewrite.layout.aligned",
-    "refactor.rewrite.layout.checking",
-];
-
-const OF_ISO: [&str; 5] = [
-    "refactor.rewrite.coordinates.absolute",
-    "refactor.rewrite.coordinates.incremental",
-    "refactor.rewrite.centers.startToCenter",
-    "refactor.rewrite.centers.centerToStart",
-    "refactor.rewrite.centers.absolute",
-];
-
-const OF_NUMBERS: [&str; 2] = ["refactor.rewrite.number", "refactor.rewrite.withoutNumbers"];
-
 /// What is common to all ids.
 const PREFIX: &str = "refactor.rewrite.";
 
-fn title(id: &str, language: Language, settings: &Effective) -> String {
-    let title = match id.trim_start_matches(PREFIX) {
-        "reverse" => say!(reverse_the_direction_of_the_contour),
-        "startHere" => say!(begin_the_contour_with_this_block),
-        "mirror.x" => say!(mirror_left_and_right),
-        "mirror.y" => say!(mirror_up_and_down),
-        "rotate.left" => say!(rotate_by_90_counter_clockwise),
-        "rotate.right" => say!(rotate_by_90_clockwise),
-        "rotate.half" => say!(rotate_by_180),
-        "scale.inchToMm" => say!(scale_from_inch_to_mm),
-        "scale.mmToInch" => say!(scale_from_mm_to_inch),
-        "merge" => say!(merge_collinear_blocks),
-        "split" => return say!(split_blocks_over, settings.largest_number()),
-        "correct.opening" => return say!(apply_the_correction_inside, settings.correction),
-        "correct.punch" => return say!(apply_the_correction_outside, settings.correction),
-        "layout.compact" => say!(convert_to_the_compact_layout),
-        "layout.aligned" => say!(convert_to_the_aligned_layout),
-        "layout.checking" => say!(convert_to_the_checking_layout),
-        "coordinates.absolute" => say!(make_all_coordinates_absolute_g90),
-        "coordinates.incremental" => say!(let_all_coordinates_count_from_where_the_wire_stands),
-        "centers.startToCenter" => say!(let_i_and_j_lead_from_the_start_to_the_centre),
-        "centers.centerToStart" => say!(let_i_and_j_lead_from_the_centre_to_the_start),
-        "centers.absolute" => say!(let_i_and_j_be_coordinates_of_the_centre),
-        "number" if language == Language::Iso => say!(number_the_blocks_in_tens),
-        "number" => say!(number_the_blocks_from_1),
-        _ => say!(leave_the_block_numbers_out),
+/// The table of the refactorings, in the order in which they are offered. A row has the documents that have it, its id,
+/// its title and its edits: none where there is nothing to do. What changes no move needs no sheet.
+macro_rules! refactorings {
+    (
+        fn($document:ident, $settings:ident, $sheet:ident);
+        $($of:pat, $id:literal, $title:expr => $edits:expr;)+
+    ) => {
+        const ALL: &[&str] = &[$(concat!("refactor.rewrite.", $id)),+];
+
+        /// `None` for one that the language of a program does not have.
+        #[allow(unused_variables, reason = "titles do not need the programs")]
+        fn title(id: &str, $document: &Document, $settings: &Effective) -> Option<String> {
+            match ($document, id.trim_start_matches(PREFIX)) {
+                $(($of, $id) => Some(String::from($title)),)+
+                _ => None,
+            }
+        }
+
+        fn made<'a>(
+            id: &str,
+            $document: &Document,
+            $settings: &Effective,
+            sheet: &impl Deref<Target = Result<Sheet<'a>, String>>,
+        ) -> Edits {
+            let $sheet = || (**sheet).as_ref().map_err(String::clone);
+            match ($document, id.trim_start_matches(PREFIX)) {
+                $(($of, $id) => $edits,)+
+                _ => Ok(Vec::new()),
+            }
+        }
     };
-    title.to_owned()
 }
 
-/// No edits where there is nothing to do. What changes no move needs no sheet.
-fn made<'a>(
-    id: &str,
-    document: &Document,
-    settings: &Effective,
-    sheet: &impl Deref<Target = Result<Sheet<'a>, String>>,
-) -> Edits {
-    let sheet = || (**sheet).as_ref().map_err(String::clone);
-    match (id.trim_start_matches(PREFIX), document) {
-        ("reverse", _) => reversed(sheet()?),
-        ("startHere", _) => begun_here(sheet()?),
-        ("mirror.x", _) => transformed(sheet()?, [[-1, 0], [0, 1]]),
-        ("mirror.y", _) => transformed(sheet()?, [[1, 0], [0, -1]]),
-        ("rotate.left", _) => transformed(sheet()?, [[0, -1], [1, 0]]),
-        ("rotate.right", _) => transformed(sheet()?, [[0, 1], [-1, 0]]),
-        ("rotate.half", _) => transformed(sheet()?, [[-1, 0], [0, -1]]),
-        ("scale.inchToMm", _) => between_units(sheet()?, INCH),
-        ("scale.mmToInch", _) => between_units(sheet()?, 1.0 / INCH),
-        ("merge", _) => merged(sheet()?),
-        ("number", _) => numbered(document, settings),
-        ("withoutNumbers", _) => without_numbers(document, settings),
-        ("split", Document::ThreeB(own)) => split(own, sheet()?),
-        ("correct.opening", Document::ThreeB(own)) => corrected(own, sheet()?, Role::Opening),
-        ("correct.punch", Document::ThreeB(own)) => corrected(own, sheet()?, Role::Punch),
-        ("layout.compact", Document::ThreeB(own)) => laid_out(own, settings, Layout::Compact),
-        ("layout.aligned", Document::ThreeB(own)) => laid_out(own, settings, Layout::Aligned),
-        ("layout.checking", Document::ThreeB(own)) => laid_out(own, settings, Layout::Checking),
-        ("coordinates.absolute", Document::Iso(own)) => counted(own, sheet()?, false),
-        ("coordinates.incremental", Document::Iso(own)) => counted(own, sheet()?, true),
-        ("centers.startToCenter", Document::Iso(own)) => {
-            centered(own, sheet()?, CenterRule::StartToCenter)
-        }
-        ("centers.centerToStart", Document::Iso(own)) => {
-            centered(own, sheet()?, CenterRule::CenterToStart)
-        }
-        ("centers.absolute", Document::Iso(own)) => centered(own, sheet()?, CenterRule::Absolute),
-        _ => Ok(Vec::new()),
-    }
+refactorings! {
+    fn(document, settings, sheet);
+    _, "reverse", say!(reverse_the_direction_of_the_contour) => reversed(sheet()?);
+    _, "startHere", say!(begin_the_contour_with_this_block) => begun_here(sheet()?);
+    _, "mirror.x", say!(mirror_left_and_right) => transformed(sheet()?, [[-1, 0], [0, 1]]);
+    _, "mirror.y", say!(mirror_up_and_down) => transformed(sheet()?, [[1, 0], [0, -1]]);
+    _, "rotate.left", say!(rotate_by_90_counter_clockwise) => transformed(sheet()?, [[0, -1], [1, 0]]);
+    _, "rotate.right", say!(rotate_by_90_clockwise) => transformed(sheet()?, [[0, 1], [-1, 0]]);
+    _, "rotate.half", say!(rotate_by_180) => transformed(sheet()?, [[-1, 0], [0, -1]]);
+    _, "scale.inchToMm", say!(scale_from_inch_to_mm) => between_units(sheet()?, INCH);
+    _, "scale.mmToInch", say!(scale_from_mm_to_inch) => between_units(sheet()?, 1.0 / INCH);
+    _, "merge", say!(merge_collinear_blocks) => merged(sheet()?);
+    Document::ThreeB(own), "split", say!(split_blocks_over, settings.largest_number()) => split(own, sheet()?);
+    Document::ThreeB(own), "correct.opening", say!(apply_the_correction_inside, settings.correction)
+        => corrected(own, sheet()?, Role::Opening);
+    Document::ThreeB(own), "correct.punch", say!(apply_the_correction_outside, settings.correction)
+        => corrected(own, sheet()?, Role::Punch);
+    Document::ThreeB(own), "layout.compact", say!(convert_to_the_compact_layout)
+        => laid_out(own, settings, Layout::Compact);
+    Document::ThreeB(own), "layout.aligned", say!(convert_to_the_aligned_layout)
+        => laid_out(own, settings, Layout::Aligned);
+    Document::ThreeB(own), "layout.checking", say!(convert_to_the_checking_layout)
+        => laid_out(own, settings, Layout::Checking);
+    Document::Iso(own), "coordinates.absolute", say!(make_all_coordinates_absolute_g90)
+        => counted(own, sheet()?, false);
+    Document::Iso(own), "coordinates.incremental", say!(let_all_coordinates_count_from_where_the_wire_stands)
+        => counted(own, sheet()?, true);
+    Document::Iso(own), "centers.startToCenter", say!(let_i_and_j_lead_from_the_start_to_the_centre)
+        => centered(own, sheet()?, CenterRule::StartToCenter);
+    Document::Iso(own), "centers.centerToStart", say!(let_i_and_j_lead_from_the_centre_to_the_start)
+        => centered(own, sheet()?, CenterRule::CenterToStart);
+    Document::Iso(own), "centers.absolute", say!(let_i_and_j_be_coordinates_of_the_centre)
+        => centered(own, sheet()?, CenterRule::Absolute);
+    Document::Iso(_), "number", say!(number_the_blocks_in_tens) => numbered(document, settings);
+    _, "number", say!(number_the_blocks_from_1) => numbered(document, settings);
+    _, "withoutNumbers", say!(leave_the_block_numbers_out) => without_numbers(document, settings);
 }
 
 /// What may be possible at a selection of bytes, nothing of it tried. `wanted` chooses by id.
@@ -171,22 +139,19 @@ pub fn offers<'a>(
     let sheet = Rc::new(LazyCell::new(move || {
         Sheet::new(document, settings, selection.clone())
     }));
-    let language = document.language();
-    let own = match language {
-        Language::ThreeB => &OF_THREE_B[..],
-        Language::Iso => &OF_ISO,
-    };
-    let all = OF_MOVES.iter().chain(own).chain(&OF_NUMBERS).copied();
-    let offer = |id: &'static str| {
-        let sheet = sheet.clone();
-        Offer {
+    let offer = |id: &&'static str| {
+        let (id, sheet) = (*id, sheet.clone());
+        Some(Offer {
             id,
-            title: title(id, language, settings),
+            title: title(id, document, settings).filter(|_| wanted(id))?,
             make: Box::new(move || made(id, document, settings, &*sheet)),
-        }
+        })
     };
-    let mut offers: Vec<Offer<'a>> = all.filter(|id| wanted(id)).map(offer).collect();
-    if language == Language::Iso && wanted(profile::ID) {
+    // The numbers of ISO have a title of their own.
+    let mut ids = ALL.to_vec();
+    ids.dedup();
+    let mut offers: Vec<Offer<'a>> = ids.iter().filter_map(offer).collect();
+    if document.language() == Language::Iso && wanted(profile::ID) {
         let profiles = profile::offers(document, settings);
         offers.extend(profiles.map(|(title, make)| Offer {
             id: profile::ID,

@@ -2,36 +2,13 @@
 //! the text.
 
 use super::steps::Program;
-use crate::finding::{Finding, Rule, Severity};
+use crate::finding::Finding;
 use crate::settings::Effective;
-
-/// A finding before it is worded.
-pub(super) struct Found<S> {
-    pub(super) rule: Rule,
-    /// As the rule sees it, before the settings change it.
-    pub(super) severity: Severity,
-    /// First and last byte that it is sorted by.
-    pub(super) place: (usize, usize),
-    pub(super) source: S,
-}
-
-/// What findings are sorted by: severity, place and rule, and their number among all.
-type Key = (Severity, (usize, usize), Rule, usize);
 
 /// A program with known faults.
 pub(super) trait Report: Program {
-    /// What a finding is worded from: of many only a few are shown.
-    type Source;
-
-    fn found(&self) -> impl Iterator<Item = Found<Self::Source>>;
-
-    fn worded(&self, source: Self::Source) -> Option<Finding>;
-
     /// All findings, as the rules see them.
-    fn all(&self) -> Vec<Finding> {
-        let all = self.found();
-        all.filter_map(|found| self.worded(found.source)).collect()
-    }
+    fn all(&self) -> Vec<Finding>;
 
     /// Those without merely suspected blocks, and without a search for the slip behind them.
     fn plain(&self) -> Vec<Finding> {
@@ -40,23 +17,26 @@ pub(super) trait Report: Program {
 
     /// At most `limit` findings, and how many there are in all.
     fn told(&self, settings: &Effective, limit: usize) -> (Vec<Finding>, usize) {
-        let (limit, mut count) = (limit.max(1), 0);
-        let mut first: Vec<(Key, Self::Source)> = Vec::new();
-        for found in self.found() {
-            let Some(severity) = settings.severity_over(found.rule, found.severity) else {
-                continue;
-            };
-            first.push(((severity, found.place, found.rule, count), found.source));
-            count += 1;
-            if first.len() >= limit.saturating_mul(2) {
-                first.select_nth_unstable_by_key(limit - 1, |(key, _)| *key);
-                first.truncate(limit);
-            }
+        let judged = self.all().into_iter().filter_map(|finding| {
+            let severity = settings.severity_over(finding.rule, finding.severity)?;
+            Some(finding.with(severity))
+        });
+        let mut all: Vec<Finding> = judged.collect();
+        let (count, limit) = (all.len(), limit.max(1));
+        let key = |finding: &Finding| (finding.severity, place_of(finding), finding.rule);
+        if count > limit {
+            // Of many only a few are shown.
+            let mut keys: Vec<_> = all.iter().map(key).zip(0..).collect();
+            let (_, last, _) = keys.select_nth_unstable(limit - 1);
+            let last = *last;
+            let mut nth = 0..;
+            all.retain(|finding| {
+                nth.next()
+                    .is_some_and(|nth: usize| (key(finding), nth) <= last)
+            });
         }
-        first.sort_unstable_by_key(|(key, _)| *key);
-        first.truncate(limit);
-        let worded = |(key, source): (Key, _)| Some(self.worded(source)?.with(key.0));
-        (first.into_iter().filter_map(worded).collect(), count)
+        all.sort_by_key(key);
+        (all, count)
     }
 }
 

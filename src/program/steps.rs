@@ -152,30 +152,21 @@ pub(crate) fn cut_at(program: &dyn Program, offset: usize) -> Option<CutAt> {
     })
 }
 
-/// The moves from the last stop on that stand before a byte, as a way.
+/// What is cut from the last stop or rapid on before a byte, as a way.
 pub(crate) fn way_before(program: &dyn Program, offset: usize) -> Way {
-    let before = contours_before(program);
-    let last = program
-        .cuts_at(program.text().line_of(offset))
-        .into_iter()
-        .next_back();
+    let at = program.cuts_at(program.text().line_of(offset));
+    let is_cut = |step: &Step| matches!(step.kind, Kind::Line | Kind::Arc);
     let mut steps: Vec<Step> = Vec::new();
-    for cut in (0..last.map_or(0, |last| last + 1)).rev() {
-        let own = steps_of(program, cut, before[cut]).into_iter();
-        let own: Vec<Step> = own.filter(|step| step.range.end <= offset).collect();
-        let is_met = own.iter().any(|step| !step.moves());
-        steps.splice(0..0, own);
-        if is_met {
+    for cut in (0..at.last().map_or(0, |last| last + 1)).rev() {
+        let mut own = steps_of(program, cut, 0);
+        own.retain(|step| step.range.end <= offset);
+        let other = own.iter().rposition(|step| !is_cut(step));
+        steps.splice(0..0, own.drain(other.map_or(0, |other| other + 1)..));
+        if other.is_some() {
             break;
         }
     }
-    let first = steps.iter().rposition(|step| !step.moves());
-    let own = steps.iter().skip(first.map_or(0, |stop| stop + 1));
-    let rapid = steps.last().is_some_and(|last| last.kind == Kind::Rapid);
-    let own: Vec<&Step> = own.collect();
-    let is_same = |step: &&&Step| (step.kind == Kind::Rapid) == rapid;
-    let count = own.iter().rev().take_while(is_same).count();
-    Way::of_steps(own[own.len() - count..].iter().copied(), program.writing())
+    Way::of_steps(&steps, program.writing())
 }
 
 /// The first stop after a byte.

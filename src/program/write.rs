@@ -131,10 +131,10 @@ pub(super) const MOST_BLOCKS: usize = 2_000_000;
 pub(super) const MOST_FOR_EACH: usize = 16;
 const MORE: usize = 1_000;
 
-/// The room for blocks in a program along these paths; less where it is only `noted`, to be compared.
-pub(super) fn room(paths: &[WirePath], noted: bool) -> usize {
+/// The room for blocks in a program along these paths; less where it is only written to be `compared`.
+pub(super) fn room(paths: &[WirePath], compared: bool) -> usize {
     let segments: usize = paths.iter().map(|path| path.segments.len()).sum();
-    match noted {
+    match compared {
         true => MOST_BLOCKS.min(MOST_FOR_EACH * segments + MORE),
         false => MOST_BLOCKS,
     }

@@ -125,7 +125,11 @@ fn what_the_steps_do_not_reach_is_said_to_be_beyond() {
     let (mut few, mut most) = (0, 0);
     for steps in (0..4_000).step_by(100) {
         let found = compare_within(&drawn, &traced, steps).unwrap();
-        let kinds: Vec<DifferenceKind> = found.differences.iter().map(|one| one.kind).collect();
+        let kinds: Vec<DifferenceKind> = found
+            .differences
+            .iter()
+            .map(|one| one.kind.clone())
+            .collect();
         match kinds[..] {
             [DifferenceKind::Beyond] => few += 1,
             [] => most += 1,

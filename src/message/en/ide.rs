@@ -238,8 +238,6 @@ declare! {
     says_where_the_wire_stands => "says where the wire stands";
     stop_to_thread_the_wire => "stop, for instance to thread the wire";
     a_line_of_the_profile => "a line of the profile";
-    line_back_to_where_the_cut_began => "line back to where the cut began";
-    line_to_the_end_of_the_way_in => "line to the end of the lead-in";
     radius_and_turn_of_the_arc(radius, degrees, about) => "R {radius:.3}, {degrees:.1}°{about}";
     the_arc_that_r_means => ", the arc that R means";
     leaves_the_block_before_without_a_corner => ", leaves the block before it without a corner";

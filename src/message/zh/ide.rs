@@ -238,8 +238,6 @@ translate! {
     says_where_the_wire_stands => "设定丝的当前位置";
     stop_to_thread_the_wire => "暂停，例如穿丝";
     a_line_of_the_profile => "profile 中的一行";
-    line_back_to_where_the_cut_began => "直线，回到切割的起点";
-    line_to_the_end_of_the_way_in => "直线，到引入线的终点";
     radius_and_turn_of_the_arc(radius, degrees, about) => "R {radius:.3}，{degrees:.1}°{about}";
     the_arc_that_r_means => "，即 R 所指的圆弧";
     leaves_the_block_before_without_a_corner => "，与前一段平顺相接";

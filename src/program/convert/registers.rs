@@ -9,8 +9,8 @@ use crate::settings::Effective;
 
 impl CutPath {
     /// Takes the place that the program has named before a step of the cut.
-    pub(super) fn name(&mut self, step: &Step, offset: Option<Offset>) {
-        let Some(offset) = offset.filter(|_| step.side.is_some()) else {
+    pub(super) fn name(&mut self, step: &Step) {
+        let Some(offset) = step.register.filter(|_| step.side.is_some()) else {
             return;
         };
         if *self.offset.get_or_insert(offset) != offset {

@@ -69,7 +69,7 @@ fn passes(cuts: &[CutPath]) -> Option<(Vec<Ring>, usize)> {
         let mut runs: Vec<&[Segment]> = cuts.iter().flat_map(runs).collect();
         // Under the control a pass the other way has the same coordinates.
         if cuts.iter().all(|cut| cut.side.is_none()) {
-            runs = without_ways_back(runs, near, |_, _| true);
+            runs = without_ways_back(runs, near);
         }
         let all = 0..runs.len();
         let with_tabs = all.filter_map(|run| with_tab(&runs, run, begin, near));

@@ -136,12 +136,7 @@ pub(crate) struct Corner {
     pub(crate) size: Number,
 }
 
-/// A place in the control's table of corrections.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Offset {
-    pub(crate) letter: u8,
-    pub(crate) index: u32,
-}
+pub(crate) use crate::program::path::Register as Offset;
 
 /// Something besides the block that a line shows.
 #[derive(Clone, Debug, PartialEq, Eq)]

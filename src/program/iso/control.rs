@@ -1,14 +1,15 @@
 //! How ISO text is read, cut by cut: the effect of a line depends on those before it.
 
 use super::corner;
-use super::cut::{Cut, Entry};
+use super::cut::{Cut, Entry, Moves};
 use super::limits::{Limits, Table, correction_in};
-use super::moves::{Move, Place, Reading, added, apart, micrometres};
+use super::moves::{Bend, Move, Place, Reading, added, apart, micrometres};
 use super::order::{Order, Sequence};
 use super::read::{Placed, Run};
-use super::summary::{Summary, WireSide};
+use super::summary::{Spur, Summary, WireSide};
+use crate::finding::{Fault, Finding};
 use crate::program::cuts::Reader;
-use crate::program::path::{ControlOffset, Found, Node, Verdict, Way};
+use crate::program::path::{ControlOffset, Found, Jointed, Node, Verdict, Way, odd_joints};
 use crate::text::SourceText;
 use std::ops::Range;
 
@@ -73,8 +74,13 @@ impl Reader for Control<'_> {
             way,
         } = begun;
         if let Some(moves) = &mut cut.moves {
-            let way = way_of(way.iter().map(|(made, _)| made), &self.reading);
+            let placed = way;
+            let way = way_of(placed.iter().map(|(made, _)| made), &self.reading);
             moves.verdict = Verdict::of(&way);
+            let faults = moves.join(&placed, &way);
+            if !faults.is_empty() {
+                cut.rare.get_or_insert_default().faults.extend(faults);
+            }
             let start = micrometres(moves.sum.start()).coords;
             cut.bounds = Some(moves.verdict.bounds.moved(start));
             let offset = || moves.sum.control_offset(self.limits, self.table);
@@ -82,7 +88,6 @@ impl Reader for Control<'_> {
             let found = found.then(|| Found::of(&way, offset()));
             moves.found = found.filter(|found| !found.is_clean()).map(Box::new);
             moves.tight.shrink_to_fit();
-            moves.spurs.shrink_to_fit();
         }
         cut.numbers.shrink_to_fit();
         vec![(lines, cut)]
@@ -101,6 +106,35 @@ impl Reader for Control<'_> {
 
     fn taken_on(after: &Entry, from: &Entry, to: &Entry) -> Entry {
         after.at(added(after.at, apart(to.at, from.at)))
+    }
+}
+
+impl Moves {
+    /// Finds the odd joints of its way: the faults, but for spurs. Whether there is one depends on where its contour begins.
+    fn join(&mut self, placed: &[Placed], way: &Way) -> Vec<Finding> {
+        let block = |nth: usize| {
+            let ((made, _), curve) = (placed.get(nth)?, way.pieces().get(nth)?);
+            let is_known = made.is_arc() == curve.as_arc().is_some();
+            is_known.then_some(Jointed {
+                curve: *curve,
+                by_radius: matches!(made.bend, Bend::Radius(_)),
+                is_lead: made.switches.is_some(),
+            })
+        };
+        let mut faults = Vec::new();
+        for (nth, fault) in odd_joints(placed.len(), block) {
+            let (made, range) = &placed[nth];
+            match fault {
+                Fault::Spur { length } => self.spurs.push(Spur {
+                    tip: made.from,
+                    length,
+                    range: *range,
+                }),
+                fault => faults.push(Finding::of(fault, range.0 as usize..range.1 as usize)),
+            }
+        }
+        self.sum.faulty |= !faults.is_empty();
+        faults
     }
 }
 

@@ -32,7 +32,7 @@ pub(crate) fn turned<'a>(
     looked: &mut Looked,
 ) -> (Move, Option<Move>) {
     let cut = made.corner.and_then(|corner| {
-        let next = next_move(*machine, behind, reading, |_| true, looked)?;
+        let next = next_move(*machine, behind, reading, looked)?;
         let size = reading.length(corner.size, machine.inch);
         cut_off(&made, &next, &corner, size, reading)
     });
@@ -43,12 +43,11 @@ pub(crate) fn turned<'a>(
     (short, Some(own))
 }
 
-/// The next cut, if one follows directly; those that are not `wanted` are passed over.
-pub(crate) fn next_move<'a>(
+/// The next cut, if one follows directly.
+fn next_move<'a>(
     mut machine: Machine,
     behind: impl Iterator<Item = &'a [u8]>,
     reading: &Reading,
-    wanted: impl Fn(&Move) -> bool,
     looked: &mut Looked,
 ) -> Option<Move> {
     for (nth, line) in behind.take(REACH).enumerate() {
@@ -62,9 +61,7 @@ pub(crate) fn next_move<'a>(
         }
         if let Some(made) = machine.run(&block, reading) {
             looked.is_fixed |= !made.incremental || machine.center.is_some();
-            if !made.is_cut() || wanted(&made) {
-                return Some(made).filter(Move::is_cut);
-            }
+            return Some(made).filter(Move::is_cut);
         }
         if machine.lost != [false, false] {
             return None;

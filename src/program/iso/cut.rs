@@ -92,7 +92,7 @@ pub(crate) struct Cut {
     /// Moves, with those that do not cut.
     pub(crate) steps: u32,
     /// What few lines have.
-    rare: Option<Box<Rare>>,
+    pub(super) rare: Option<Box<Rare>>,
     /// What its lines say of how numbers are meant.
     pub(crate) evidence: Kept,
     /// The decimals that its numbers have: a bit for each count of them.

@@ -6,14 +6,14 @@ use super::block::{Block, Compensation, Motion, Note, Stop, read_line};
 use super::document::Document;
 use super::line::words_of_move;
 use super::machine::Machine;
-use super::moves::{Place, distance, meet};
+use super::moves::{Place, distance, meet, nanometres};
 use super::plain::{plain, word_at};
 use super::repair::{is_plainly_twice, is_trouble};
-use super::steps::BegunCut;
 use super::style::Style;
 use crate::finding::{Detail, Fault, Finding, FixKind, Rule, TextFix};
+use crate::geometry::Segment;
 use crate::program::numbering::{self, Numbers, Renumbering};
-use crate::program::path::tolerance;
+use crate::program::path::{Way, tolerance};
 use crate::program::repair::{merged, offered, without_spur};
 use crate::text::TextEdit;
 use centers::center_fixes;
@@ -158,13 +158,11 @@ fn breaks_off(document: &Document, line: usize) -> bool {
     read_line(document.line_bytes(line), 1, |note| {
         is_unread |= matches!(note, Note::Fault { .. });
     });
-    let is_within = |begun: BegunCut| {
-        let ends = [begun.from, begun.to];
-        begun.moves > 1 && !ends.iter().any(|end| have_met(*end, begun.last.to))
-    };
+    let begun = document.begun_cut_with(line);
+    let is_within = || begun.count() > 1 && ![0, 1].iter().any(|node| is_back_at(&begun, *node));
     let machine = document.machine_behind(line);
     let is_amid = |machine: Machine| machine.lost != [false, false] || machine.side.is_some();
-    is_unread || machine.is_none_or(is_amid) || document.begun_cut_with(line).is_some_and(is_within)
+    is_unread || machine.is_none_or(is_amid) || is_within()
 }
 
 /// The end of a program that runs on into its subprograms, up to the return in `last`: before the first of them that is called.
@@ -235,7 +233,7 @@ fn spur_fix(document: &Document, back: usize) -> Option<TextFix> {
     );
     let is_plain = Machine {
         at: behind.at,
-        trail: behind.trail,
+        said: behind.said,
         moved: behind.moved,
         ..before
     } == behind;
@@ -254,6 +252,11 @@ pub(super) fn have_met(one: Place, other: Place) -> bool {
     meet(one, other, tolerance(0))
 }
 
+/// A way ends where one of its nodes is.
+fn is_back_at(way: &Way, node: usize) -> bool {
+    way.end().is_near(&way.node(node), tolerance(0))
+}
+
 /// The way out of a spur is searched for in this many lines before its way back.
 const SPUR_REACH: usize = 16;
 
@@ -263,8 +266,9 @@ fn way_out(document: &Document, end: usize) -> Option<usize> {
         .rev()
         .take(SPUR_REACH)
         .find(|line| document.block(*line).has_coordinates())?;
-    let begun = document.begun_cut_with(last)?;
-    let is_out = begun.last.motion == Motion::Line && have_met(begun.last.to, begun.from);
+    let begun = document.begun_cut_with(last);
+    let is_line = |piece: &Segment| piece.as_arc().is_none();
+    let is_out = begun.pieces().last().is_some_and(is_line) && is_back_at(&begun, 0);
     Some(if is_out { last } else { end })
 }
 
@@ -289,15 +293,17 @@ fn bare_fixes(document: &Document, range: &Range<usize>) -> Option<Vec<TextFix>>
 fn closing_fix(document: &Document, range: &Range<usize>) -> Option<TextFix> {
     let text = document.text();
     let line = text.line_of(range.start);
-    let begun = document.begun_cut_with(line)?;
+    let begun = document.begun_cut_with(line);
     let machine = document.machine_behind(line)?;
     let near = |place: Place| distance(machine.at, place);
-    let target = if begun.moves > 2 && near(begun.to) < near(begun.from) {
-        begun.to
+    let [from, to] = [0, 1].map(|node| nanometres(begun.node(node).machine));
+    let target = if begun.count() > 2 && near(to) < near(from) {
+        to
     } else {
-        begun.from
+        from
     };
-    if machine.lost != [false, false]
+    if begun.count() == 0
+        || machine.lost != [false, false]
         || machine.at == target
         || !goes_on_by_itself(document, line, machine.motion)
     {

@@ -40,7 +40,8 @@ pub(crate) struct Machine {
     pub(crate) cut_short: Option<Place>,
     /// What the lines so far say of the control's variables.
     pub(crate) variables: Variables,
-    pub(crate) trail: Trail,
+    /// A mark by which a line that repeats the last cut is recognised; 0 where a stop or a rapid stands between.
+    pub(crate) said: u64,
 }
 
 /// The last action of a program that moves or stops.
@@ -52,23 +53,6 @@ pub(crate) enum Behind {
     Cut,
     /// A stop after a cut.
     Stop,
-}
-
-/// The last cut, without a stop or a rapid after it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Trail {
-    /// The last cut and the one before, relative to their end.
-    pub(crate) last: [Option<Move>; 2],
-    /// A mark by which a line that repeats the last move is recognised.
-    pub(crate) said: u64,
-}
-
-impl Trail {
-    pub(crate) fn push(&mut self, made: &Move) {
-        let along = apart(made.to, made.from);
-        let before = self.last[0].map(|before| before.seen_from(along));
-        self.last = [Some(made.seen_from(made.to)), before];
-    }
 }
 
 /// The effect of a line that moves the wire.

@@ -20,16 +20,16 @@ use crate::toolpath::{Milled, MilledContour, Source, WirePath};
 const CLEARANCE: f64 = 1.0;
 
 /// The most blocks of a program to be compared.
-const MOST_NOTED: usize = 200_000;
+const MOST_COMPARED: usize = 200_000;
 
 /// Writes the electrode's paths as one program and proves it. `unit_mm` is the drawing's unit in mm; `go_on` gets the
-/// number of contours done and of all, and ends the work with `false`. A program that is only `noted`, to be compared,
-/// is not written where it is long.
+/// number of contours done and of all, and ends the work with `false`. A program that is to be compared gets the
+/// `sources` of its moves, and is not written where it is long.
 pub(crate) fn write_milled(
     paths: &[WirePath],
     unit_mm: f64,
     settings: &Effective,
-    noted: bool,
+    sources: Option<&mut Vec<Source>>,
     go_on: &mut dyn FnMut(usize, usize) -> bool,
 ) -> Proved<ProvedProgram> {
     let electrode = settings.electrode().map_err(ProofError::Refused)?;
@@ -43,7 +43,11 @@ pub(crate) fn write_milled(
     let (mut fed_before, mut worn) = (0.0, 0.0);
     let mut contours = Vec::with_capacity(paths.len());
     let mut tool: Option<Tool> = None;
-    let mut room = if noted { MOST_NOTED } else { MOST_BLOCKS };
+    let mut room = match sources {
+        Some(_) => MOST_COMPARED,
+        None => MOST_BLOCKS,
+    };
+    lines.sources = sources;
     for (done, path) in paths.iter().enumerate() {
         let way = FeedPath::of(path, unit_mm, per_mm);
         let layers = Layers {

@@ -32,7 +32,6 @@ mod read;
 pub(in crate::program) mod refactor;
 mod repair;
 mod report;
-mod shape;
 pub(crate) mod steps;
 pub(crate) mod style;
 mod summary;

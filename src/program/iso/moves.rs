@@ -270,7 +270,12 @@ impl Move {
             end: micrometres(self.to),
             ideal,
             side: self.side,
+            register: self.offset,
             is_relative: self.incremental,
+            radius: match self.bend {
+                Bend::Radius(nm) => Some(nm as f64 / 1e3),
+                Bend::Center { .. } | Bend::Nothing => None,
+            },
             ..Step::stop(Kind::Pause, micrometres(self.from))
         }
     }
@@ -324,6 +329,11 @@ pub(crate) fn added(place: Place, by: Place) -> Place {
 /// From `b` to `a`.
 pub(crate) fn apart(a: Place, b: Place) -> Place {
     [a[0].wrapping_sub(b[0]), a[1].wrapping_sub(b[1])]
+}
+
+/// A point in µm as a place.
+pub(crate) fn nanometres(point: Point) -> Place {
+    [point.x, point.y].map(|um| (um * 1e3).round() as i64)
 }
 
 pub(crate) fn distance(a: Place, b: Place) -> f64 {

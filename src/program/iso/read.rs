@@ -3,17 +3,16 @@
 #![warn(clippy::indexing_slicing)]
 
 use super::block::{Block, Note, Stop, read_under};
-use super::corner::{self, Looked, turned};
+use super::corner::{Looked, turned};
 use super::cut::{Cut, Definition, Foreign, Moves, Rare};
 use super::evidence::Evidence;
-use super::machine::{Behind, Machine, Ran, Trail, mark_of};
+use super::machine::{Behind, Machine, Ran, mark_of};
 use super::moves::{Course, Move, Place, Reading};
 use super::order::Sequence;
-use super::shape::Shape;
-use super::summary::{Spur, Summary, Tight};
+use super::summary::{Summary, Tight};
 use crate::finding::{Fault, Finding, Rule};
 use crate::geometry::Side;
-use crate::program::path::{Verdict, joint};
+use crate::program::path::Verdict;
 use std::f64::consts::PI;
 use std::ops::Range;
 
@@ -40,7 +39,6 @@ pub(crate) struct Run<'a> {
     pub(crate) way: Vec<Placed>,
     sum: Option<Summary>,
     tight: Vec<Tight>,
-    spurs: Vec<Spur>,
     looked: Looked,
 }
 
@@ -58,7 +56,6 @@ impl<'a> Run<'a> {
             way: Vec::new(),
             sum: None,
             tight: Vec::new(),
-            spurs: Vec::new(),
             looked: Looked::default(),
         }
     }
@@ -83,7 +80,7 @@ impl<'a> Run<'a> {
                 sum.faulty |= sum.open;
             }
         }
-        self.after.trail = Trail::default();
+        self.after.said = 0;
         self.nth
     }
 
@@ -108,7 +105,6 @@ impl<'a> Run<'a> {
             after,
             sum,
             tight,
-            spurs,
             way,
             looked,
             evidence,
@@ -127,7 +123,7 @@ impl<'a> Run<'a> {
                 verdict: Verdict::default(),
                 found: None,
                 tight,
-                spurs,
+                spurs: Vec::new(),
                 is_doubtful: None,
             })
         });
@@ -356,7 +352,7 @@ impl<'a> Run<'a> {
     /// Whether a line repeats the last one with a move.
     fn said(&mut self, block: &Block, made: &Move, range: (u32, u32)) {
         let said = mark_of(block, made);
-        let is_again = std::mem::replace(&mut self.after.trail.said, said) == said;
+        let is_again = std::mem::replace(&mut self.after.said, said) == said;
         if is_again
             && !made.incremental
             && made.is_cut()
@@ -369,7 +365,7 @@ impl<'a> Run<'a> {
 
     /// Ends the moves that cut; `whole` is false where lines between cannot be read.
     fn interrupt(&mut self, whole: bool) {
-        self.after.trail = Trail::default();
+        self.after.said = 0;
         if let Some(sum) = &mut self.sum {
             sum.whole &= whole || !sum.open;
             sum.open = false;
@@ -398,35 +394,23 @@ impl<'a> Run<'a> {
                 range,
             );
         }
-        let cap = self.cap(made, range);
+        self.arc(made, range);
         if !made.is_cut() {
             return self.interrupt(true);
         }
         if !made.goes_anywhere() {
             return;
         }
-        let odd = self.examine(&made);
-        self.after.trail.push(&made);
         let local = made.seen_from(self.begin);
         match &mut self.sum {
-            Some(sum) => sum.push(local, cap, range),
-            None => self.sum = Some(Summary::begin(local, cap, range, !torn)),
-        }
-        match odd {
-            // Whether it is one depends on where its cut begins.
-            Some(Fault::Spur { length }) => self.spurs.push(Spur {
-                tip: local.from,
-                length,
-                range,
-            }),
-            Some(fault) => self.fault(fault, range),
-            None => {}
+            Some(sum) => sum.push(local, range),
+            None => self.sum = Some(Summary::begin(local, range, !torn)),
         }
         self.way.push((local, range));
     }
 
-    /// Twice the area between a move and its chord, nm²; an arc is kept where it may be too tight, and its fault.
-    fn cap(&mut self, made: Move, range: (u32, u32)) -> f64 {
+    /// An arc is kept where it may be too tight, and its fault.
+    fn arc(&mut self, made: Move, range: (u32, u32)) {
         // Relative to its own start, so that the result is the same to the last bit anywhere.
         match made.at_origin().course(&self.reading) {
             Course::Arc(arc) => {
@@ -437,8 +421,6 @@ impl<'a> Run<'a> {
                         range,
                     });
                 }
-                // µm² to nm².
-                return (arc.twice_cap_area() * 1e6).round();
             }
             Course::OffRadius { start, end, .. } => {
                 self.fault(Fault::OffRadius { start, end }, range);
@@ -446,24 +428,6 @@ impl<'a> Run<'a> {
             Course::NoRadius => self.fault(Fault::ArcWithoutRadius, range),
             Course::Line => {}
         }
-        0.0
-    }
-
-    /// The odd joint, a spur or a reversed arc, at the beginning of a move.
-    fn examine(&mut self, made: &Move) -> Option<Fault> {
-        let reading = self.reading;
-        let shape = |made: Move| Shape {
-            made,
-            reading: &reading,
-        };
-        let [before, came] = self.after.trail.last;
-        let made = shape(made.at_origin());
-        let joint = joint(came.map(shape), &shape(before?), made)?;
-        let behind = self.behind();
-        let wanted = Move::goes_anywhere;
-        let next = corner::next_move(self.after, behind, &reading, wanted, &mut self.looked);
-        let next = next.map(|next| shape(next.at_origin()));
-        joint.fault(next.as_ref())
     }
 }
 

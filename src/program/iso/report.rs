@@ -25,7 +25,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use std::ops::Range;
 
 /// Twice the area of anything more than a line there and back, nm².
-const LEAST_TWICE_AREA: u128 = 2_000_000;
+const LEAST_TWICE_AREA: f64 = 2.0;
 
 /// A cut of fewer moves has no ways in and out of two blocks each.
 const LONGEST_LEADS: u32 = 6;
@@ -280,9 +280,8 @@ impl<'a> Report<'a> {
         let heard = contour.cuts.clone().flat_map(|cut| document.moves_of(cut));
         let ranges: Vec<Range<usize>> = heard.map(|(_, range)| range).collect();
         let way = document.way_of(&contour.cuts);
-        let all = 0..found.all().len();
-        let worded = all.filter_map(|index| found.worded(index, &way, &ranges, self.text));
-        self.findings.extend(worded);
+        self.findings
+            .extend(found.findings(&way, &ranges, self.text));
     }
 
     /// Checks a contour as a whole: does it close, does the wire run on the right side, is an arc too tight. `all` are
@@ -312,17 +311,18 @@ impl<'a> Report<'a> {
         self.off_too_early(cut);
         let has_passes = self.passes(cut);
         // Contours that are only a line there and back have no inside.
-        let orientation = if closes && sum.twice_area.unsigned_abs() > LEAST_TWICE_AREA {
-            sum.twice_area.signum()
+        let area = cut.verdict.twice_area;
+        let orientation = if closes && area.abs() > LEAST_TWICE_AREA {
+            area
         } else {
-            0
+            0.0
         };
         let side = match sum.side {
-            WireSide::One(side) if !is_fragment && orientation != 0 && !has_passes => Some(side),
+            WireSide::One(side) if !is_fragment && orientation != 0.0 && !has_passes => Some(side),
             _ => None,
         };
         if let Some(side) = side {
-            let is_inside = |area: i128| (side == Side::Left) == (area > 0);
+            let is_inside = |area: f64| (side == Side::Left) == (area > 0.0);
             let is_wrong = |inside: bool| match self.limits.side {
                 SideSetting::Opening => !inside,
                 SideSetting::Punch => inside,
@@ -377,7 +377,7 @@ impl<'a> Report<'a> {
 
     /// Twice the area of the contour of which a cut is the tab, or all but the tab, where both are cut from and to the
     /// thread hole.
-    fn area_with_tab(&self, cut: &Contour<'_>, all: &[Contour<'_>]) -> Option<i128> {
+    fn area_with_tab(&self, cut: &Contour<'_>, all: &[Contour<'_>]) -> Option<f64> {
         let begins = |sum: &Summary| sum.first.map(|step| step.to);
         let ends = |sum: &Summary| sum.last.map(|step| step.from);
         let tolerance = cut.tolerance();
@@ -387,18 +387,21 @@ impl<'a> Report<'a> {
             some.into_iter().filter(is_met)
         };
         let own = &cut.sum;
-        let area = |other: &Summary| {
+        let area = |other: &Contour<'_>| {
+            let (area, other) = (
+                cut.verdict.twice_area + other.verdict.twice_area,
+                &other.sum,
+            );
             let from = common(begins(own), ends(other));
             let mut tabs =
                 from.flat_map(|from| common(ends(own), begins(other)).map(move |to| (from, to)));
-            let area = own.twice_area.wrapping_add(other.twice_area);
             let are_one = other.start() == own.start()
                 && other.side == own.side
-                && area.unsigned_abs() > LEAST_TWICE_AREA
+                && area.abs() > LEAST_TWICE_AREA
                 && tabs.any(|(from, to)| !meet(from, to));
             are_one.then_some(area)
         };
-        all.iter().find_map(|other| area(&other.sum))
+        all.iter().find_map(area)
     }
 
     /// A G41 that becomes G42 within a cut, at the word that does so.

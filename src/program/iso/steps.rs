@@ -3,24 +3,13 @@
 use super::block::Stop;
 use super::document::Document;
 use super::machine::{Machine, Ran};
-use super::moves::{Move, Place, micrometres};
-use super::read::Run;
+use super::moves::{Move, micrometres};
 use crate::finding::{Rule, Severity};
 use crate::geometry::Point;
-use crate::program::path::{Kind, Step, Trace, Writing};
+use crate::program::path::{Kind, Step, Trace, Way, Writing};
 use crate::program::report::place_of;
 use crate::program::steps::{self, Program};
 use crate::text::SourceText;
-
-/// A cut that has begun before some line and may go on in it, nm.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct BegunCut {
-    /// Its first move, which is the way in where it has one.
-    pub(crate) from: Place,
-    pub(crate) to: Place,
-    pub(crate) last: Move,
-    pub(crate) moves: u32,
-}
 
 impl Document {
     /// The machine's way, move by move.
@@ -61,26 +50,14 @@ impl Document {
         self.run_up_to(line, true).map(|(_, run)| run.after)
     }
 
-    /// The cut in progress before a line.
-    pub(crate) fn begun_cut(&self, line: usize) -> Option<BegunCut> {
-        self.begun(self.run_up_to(line, false)?)
+    /// The cut in progress before a line, µm.
+    pub(crate) fn begun_cut(&self, line: usize) -> Way {
+        steps::way_before(self, self.text().line_start(line))
     }
 
     /// The cut in progress after a line.
-    pub(crate) fn begun_cut_with(&self, line: usize) -> Option<BegunCut> {
-        self.begun(self.run_up_to(line, true)?)
-    }
-
-    fn begun(&self, (cut, run): (usize, Run<'_>)) -> Option<BegunCut> {
-        let at = self.cuts.state_before(cut).at;
-        let sum = run.finished().0.sum()?.shifted(at, 0);
-        let [first, _] = sum.first;
-        sum.open.then_some(BegunCut {
-            from: first.from,
-            to: first.to,
-            last: sum.last[1],
-            moves: sum.moves,
-        })
+    pub(crate) fn begun_cut_with(&self, line: usize) -> Way {
+        steps::way_before(self, self.text().line_range(line).end)
     }
 }
 

@@ -1,6 +1,6 @@
 //! The moves of a cut, summed up, and its arcs that may be too tight.
 
-use super::moves::{Move, Place, added, apart};
+use super::moves::{Move, Place, added};
 use crate::geometry::Side;
 use std::ops::Range;
 
@@ -11,8 +11,6 @@ pub(crate) struct Summary {
     pub(crate) first: [Move; 2],
     pub(crate) last: [Move; 2],
     pub(crate) moves: u32,
-    /// Twice the signed area in nm², relative to the start.
-    pub(crate) twice_area: i128,
     /// The line that begins it, bytes from the start of the cut.
     pub(crate) range: (u32, u32),
     /// The line that ends it.
@@ -41,12 +39,11 @@ pub(crate) enum WireSide {
 }
 
 impl Summary {
-    pub(crate) fn begin(first: Move, cap: f64, range: (u32, u32), whole: bool) -> Summary {
+    pub(crate) fn begin(first: Move, range: (u32, u32), whole: bool) -> Summary {
         Summary {
             first: [first; 2],
             last: [first; 2],
             moves: 1,
-            twice_area: cap as i128,
             range,
             last_range: range,
             whole,
@@ -62,10 +59,7 @@ impl Summary {
         self.first[0].from
     }
 
-    pub(crate) fn push(&mut self, step: Move, cap: f64, range: (u32, u32)) {
-        let [from, to] = [step.from, step.to].map(|place| apart(place, self.start()));
-        let term = cross(from, to).wrapping_add(cap as i128);
-        self.twice_area = self.twice_area.wrapping_add(term);
+    pub(crate) fn push(&mut self, step: Move, range: (u32, u32)) {
         if self.moves == 1 {
             self.first[1] = step;
         }
@@ -86,13 +80,6 @@ impl Summary {
 
     /// Appends the moves behind a stop.
     pub(crate) fn append(&mut self, next: &Summary) {
-        // The area of the continuation was relative to its own beginning.
-        let (origin, its) = (self.start(), next.start());
-        let between = cross(apart(its, origin), apart(next.last[1].to, its));
-        self.twice_area = self
-            .twice_area
-            .wrapping_add(next.twice_area)
-            .wrapping_add(between);
         if self.moves == 1 {
             self.first[1] = next.first[0];
         }
@@ -121,11 +108,6 @@ impl Summary {
         (self.range, self.last_range) = (behind(self.range), behind(self.last_range));
         self
     }
-}
-
-fn cross(a: Place, b: Place) -> i128 {
-    let [[ax, ay], [bx, by]] = [a, b].map(|place| place.map(i128::from));
-    (ax * by).wrapping_sub(ay * bx)
 }
 
 /// The second move has the wire on the other side than the first.

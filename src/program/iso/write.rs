@@ -9,13 +9,10 @@ pub(crate) use offsets::{Carried, read_of_profile};
 use super::block::{Block, Motion, Offset};
 use super::encode::{Encoded, Moves};
 use super::machine::Machine;
-use super::moves::{CenterRule, MICROMETRE, Place, Reading, micrometres, to_center};
-use super::read::words_of;
+use super::moves::{CenterRule, MICROMETRE, Place, Reading, to_center};
 use crate::finding::Side;
 use crate::program::encode::encode_all;
 use crate::program::grid::Node;
-use crate::program::notes::Notes;
-use crate::program::path::Step;
 use crate::program::write::{
     BETWEEN_PASSES, MOST_BLOCKS, Piece, ProofError, Proved, ProvedProgram, TAB_STOP, Writer, cuts,
     does_not_stop, nothing_to_write, push_number, push_places, room, walk, way,
@@ -23,7 +20,6 @@ use crate::program::write::{
 use crate::settings::{Coordinates, Effective, LineEnd, NumberUnit, Profile, Zero};
 use crate::toolpath::{Source, WirePath, each};
 use fixed::Leading;
-use proof::Checked;
 
 /// Lines that one core reads back at a time.
 const AT_A_TIME: usize = 128;
@@ -46,20 +42,17 @@ pub(crate) fn write_keeping(
     lines.written(paths, unit_mm, &mut |_, _| true)
 }
 
-/// As [`write()`]; `go_on` gets the progress every few thousand segments, and ends the work with `false`. `notes` are
-/// taken of every move.
+/// As [`write()`]; `go_on` gets the progress every few thousand segments, and ends the work with `false`. `sources` get
+/// what each move follows.
 pub(crate) fn write_with(
     paths: &[WirePath],
     unit_mm: f64,
     settings: &Effective,
-    notes: Option<&mut Notes>,
+    sources: Option<&mut Vec<Source>>,
     go_on: &mut dyn FnMut(usize, usize) -> bool,
 ) -> Proved<ProvedProgram> {
     let mut lines = Lines::of(settings)?;
-    lines.notes = notes;
-    if let Some(notes) = &mut lines.notes {
-        notes.writing = lines.reading.writing();
-    }
+    lines.sources = sources;
     lines.written(paths, unit_mm, go_on)
 }
 
@@ -95,7 +88,8 @@ pub(super) struct Lines<'a> {
     pub(super) made: ProvedProgram,
     /// What each register that a contour has named has to hold, mm.
     holding: Vec<(Offset, f64)>,
-    notes: Option<&'a mut Notes>,
+    /// What each move follows.
+    pub(super) sources: Option<&'a mut Vec<Source>>,
     /// The most blocks.
     room: usize,
 }
@@ -167,6 +161,7 @@ impl Writer for Lines<'_> {
             }
             while let Some((_, step)) = left.next_if(|(of, _)| *of == nth) {
                 steps.push(step);
+                self.follows(piece.source);
             }
             self.made.length += piece.segment.length();
         }
@@ -217,6 +212,7 @@ impl Writer for Lines<'_> {
     fn move_over(&mut self, from: Node, to: Node) -> Proved {
         let piece = way(from, to);
         self.made.jumps += piece.length();
+        self.follows(Source::LeadIn);
         self.put(&[Encoded {
             motion: Motion::Rapid,
             from,
@@ -273,9 +269,15 @@ impl<'a> Lines<'a> {
             motion: None,
             made: ProvedProgram::default(),
             holding: Vec::new(),
-            notes: None,
+            sources: None,
             room: MOST_BLOCKS,
         })
+    }
+
+    fn follows(&mut self, source: Source) {
+        if let Some(sources) = &mut self.sources {
+            sources.push(source);
+        }
     }
 
     /// A stop by the word that is set under `key`.
@@ -296,7 +298,7 @@ impl<'a> Lines<'a> {
         unit_mm: f64,
         go_on: &mut dyn FnMut(usize, usize) -> bool,
     ) -> Proved<ProvedProgram> {
-        self.room = room(paths, self.notes.is_some());
+        self.room = room(paths, self.sources.is_some());
         let (steps, step_um) = (unit_mm * self.per_mm(), self.step_um());
         walk(paths, steps, step_um, go_on, &mut self)?;
         self.finish(cuts(paths))
@@ -361,23 +363,8 @@ impl<'a> Lines<'a> {
         let checked = each(steps.len(), AT_A_TIME, |nth| {
             own.check(&steps[nth], made[nth])
         });
-        for ((line, block), checked) in lines.iter().zip(&read).zip(checked) {
-            let Checked {
-                made,
-                decoded,
-                aside,
-            } = checked?;
-            self.made.deviation = self.made.deviation.max(aside);
-            let Some(notes) = &mut self.notes else {
-                continue;
-            };
-            let (start, end) = words_of(&self.out[line.clone()], line.start);
-            notes.start.get_or_insert(micrometres(made.from));
-            notes.note(Step {
-                range: start as usize..end as usize,
-                number: block.number,
-                ..made.step(Some(decoded))
-            });
+        for aside in checked {
+            self.made.deviation = self.made.deviation.max(aside?);
         }
         Ok(())
     }

@@ -24,30 +24,38 @@ const MET: f64 = 2.0;
 /// A way out and back of no more than this comes of rounding, µm.
 const SHORTEST: f64 = 4.0;
 
-/// The geometry of a block for its joints.
-pub(crate) trait Heading {
-    fn is_arc(&self) -> bool;
-    /// Its directions at its start and at its end, of any length; `None` for a block without length.
-    fn directions(&self) -> Option<[Vector; 2]>;
-    /// Those of the arc in the other direction between its ends.
-    fn exchanged(&self) -> Option<[Vector; 2]>;
-    /// From its start to its end, µm.
-    fn chord(&self) -> Vector;
-    /// From the start of an arc to its centre, µm.
-    fn to_center(&self) -> Option<Vector>;
-    /// It gives its centre; else the centre depends on its direction.
-    fn says_center(&self) -> bool;
+/// A block as its joints see it.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::program) struct Jointed {
+    pub(crate) curve: Segment,
+    /// An arc that gives its radius alone: its centre depends on its direction.
+    pub(crate) by_radius: bool,
     /// It is marked as a lead of a contour.
-    fn is_lead(&self) -> bool;
+    pub(crate) is_lead: bool,
 }
 
-impl Heading for Segment {
-    fn is_arc(&self) -> bool {
-        self.as_arc().is_some()
+impl Jointed {
+    /// A block of a language whose arcs give their centres.
+    pub(crate) fn of(curve: Segment) -> Jointed {
+        Jointed {
+            curve,
+            by_radius: false,
+            is_lead: false,
+        }
     }
 
+    fn is_arc(&self) -> bool {
+        self.curve.as_arc().is_some()
+    }
+
+    /// From its start to its end, µm.
+    fn chord(&self) -> Vector {
+        self.curve.end() - self.curve.start()
+    }
+
+    /// Its directions at its start and at its end, of any length; `None` for a block without length.
     fn directions(&self) -> Option<[Vector; 2]> {
-        let Segment::Arc(arc) = self else {
+        let Segment::Arc(arc) = &self.curve else {
             let along = self.chord();
             return (along != Vector::zeros()).then_some([along, along]);
         };
@@ -55,47 +63,69 @@ impl Heading for Segment {
         Some([across(arc.start), across(arc.end)])
     }
 
+    /// Those of the arc in the other direction between its ends.
     fn exchanged(&self) -> Option<[Vector; 2]> {
-        Some(self.directions()?.map(|direction| -direction))
+        let chord = self.chord();
+        let along = |way: Vector| chord * (2.0 * way.dot(&chord) / chord.norm_squared());
+        // With its radius, it lies on the other side of its chord.
+        Some(self.directions()?.map(|way| match self.by_radius {
+            true => along(way) - way,
+            false => -way,
+        }))
     }
 
-    fn chord(&self) -> Vector {
-        self.end() - self.start()
+    /// From the start of an arc to its centre, µm.
+    fn center_from_start(&self) -> Option<Vector> {
+        Some(self.curve.as_arc()?.center - self.curve.start())
     }
+}
 
-    fn to_center(&self) -> Option<Vector> {
-        Some(self.as_arc()?.center - self.start())
-    }
-
-    fn says_center(&self) -> bool {
-        true
-    }
-
-    fn is_lead(&self) -> bool {
-        false
-    }
+/// The odd joints of a cut, in order: the block that begins at each, and what is wrong there. `None` stands for a block
+/// whose way nobody knows.
+pub(in crate::program) fn odd_joints(
+    count: usize,
+    block: impl Fn(usize) -> Option<Jointed>,
+) -> Vec<(usize, Fault)> {
+    let fault = |nth: usize| {
+        let (before, made) = (block(nth - 1)?, block(nth)?);
+        let came = || block(nth.checked_sub(2)?);
+        let joint = may_be_odd(&before, &made).then(|| joint(came, &before, made))?;
+        Some((nth, joint?.fault(&block(nth + 1)?)?))
+    };
+    // The next block decides: nobody knows at the last.
+    (1..count.saturating_sub(1)).filter_map(fault).collect()
 }
 
 /// A joint that may be a fault: the next block decides.
 #[derive(Debug)]
-pub(crate) enum Joint<H> {
+enum Joint {
     /// An arc that would continue the block before without a corner if it ran the other way round.
     Reversed {
-        made: H,
+        made: Jointed,
         is_back: bool,
         is_in_row: bool,
     },
     /// Out, and back on the same way; the way before that, and the way out.
     Spur {
-        made: H,
+        made: Jointed,
         came: Vector,
         out: Vector,
         length: f64,
     },
 }
 
+/// Whether a joint may be odd: it turns back on itself, or nearly. Costs next to nothing.
+fn may_be_odd(before: &Jointed, made: &Jointed) -> bool {
+    let (Some([_, heading]), Some([start, _])) = (before.directions(), made.directions()) else {
+        return false;
+    };
+    let dot = heading.dot(&start);
+    let turns_back = dot < 0.0 && dot * dot > 0.87 * heading.norm_squared() * start.norm_squared();
+    turns_back || made.by_radius
+}
+
 /// The joint of a block with the two before it; `None` where nothing is odd about it.
-pub(crate) fn joint<H: Heading>(came: Option<H>, before: &H, made: H) -> Option<Joint<H>> {
+fn joint(came: impl FnOnce() -> Option<Jointed>, before: &Jointed, made: Jointed) -> Option<Joint> {
     let [out, heading] = before.directions()?;
     let [start, _] = made.directions()?;
     let turned = turn(heading, start);
@@ -106,8 +136,8 @@ pub(crate) fn joint<H: Heading>(came: Option<H>, before: &H, made: H) -> Option<
         let comes_back = (before.chord() + made.chord()).norm() <= MET;
         if !made.is_arc() || (comes_back && has_one_center(before, &made)) {
             let length = before.chord().norm().min(made.chord().norm());
-            let [_, came] = came?.directions()?;
-            let is_spur = length > SHORTEST && !before.is_lead() && !made.is_lead();
+            let [_, came] = came()?.directions()?;
+            let is_spur = length > SHORTEST && !before.is_lead && !made.is_lead;
             return is_spur.then_some(Joint::Spur {
                 made,
                 came,
@@ -128,10 +158,10 @@ pub(crate) fn joint<H: Heading>(came: Option<H>, before: &H, made: H) -> Option<
     })
 }
 
-impl<H: Heading> Joint<H> {
+impl Joint {
     /// The fault, given the next block of the same contour.
-    pub(crate) fn fault(&self, next: Option<&H>) -> Option<Fault> {
-        let [ahead, _] = next?.directions()?;
+    fn fault(&self, next: &Jointed) -> Option<Fault> {
+        let [ahead, _] = next.directions()?;
         match self {
             Joint::Reversed {
                 made,
@@ -141,9 +171,9 @@ impl<H: Heading> Joint<H> {
                 let ([_, end], [_, other]) = (made.directions()?, made.exchanged()?);
                 let now = turn(end, ahead);
                 // Equal half circles side by side are the edge of a shell, or the teeth of a rack.
-                let is_in_row = *is_in_row || now > BACK && are_of_a_row(made, next?);
+                let is_in_row = *is_in_row || now > BACK && are_of_a_row(made, next);
                 let found = now > CLEAR && turn(other, ahead) < tangent(made)? && !is_in_row;
-                let is_sure = *is_back && now > BACK && made.says_center();
+                let is_sure = *is_back && now > BACK && !made.by_radius;
                 found.then_some(Fault::ReversedArc { is_sure })
             }
             Joint::Spur {
@@ -163,37 +193,17 @@ impl<H: Heading> Joint<H> {
     }
 }
 
-/// The fault at the joint at which `made` begins, in a language whose blocks give their centres.
-pub(crate) fn odd_joint(
-    came: Option<Segment>,
-    before: Segment,
-    made: Segment,
-    next: &Segment,
-) -> Option<Fault> {
-    if !may_be_odd(&before, &made) {
-        return None;
-    }
-    joint(came, &before, made)?.fault(Some(next))
-}
-
-/// Whether a joint may be odd: it turns back on itself, or nearly. Costs next to nothing.
-pub(crate) fn may_be_odd(before: &Segment, made: &Segment) -> bool {
-    let (Some([_, heading]), Some([start, _])) = (before.directions(), made.directions()) else {
-        return false;
-    };
-    let dot = heading.dot(&start);
-    dot < 0.0 && dot * dot > 0.87 * heading.norm_squared() * start.norm_squared()
-}
-
-fn has_one_center<H: Heading>(before: &H, made: &H) -> bool {
-    let of_before = before.to_center().map(|center| center - before.chord());
-    matches!((of_before, made.to_center()), (Some(a), Some(b)) if (a - b).norm() <= MET)
+fn has_one_center(before: &Jointed, made: &Jointed) -> bool {
+    let of_before = before
+        .center_from_start()
+        .map(|center| center - before.chord());
+    matches!((of_before, made.center_from_start()), (Some(a), Some(b)) if (a - b).norm() <= MET)
 }
 
 /// Two arcs of one radius that turn the same way.
-fn are_of_a_row<H: Heading>(one: &H, other: &H) -> bool {
-    let turned = |arc: &H| {
-        let center = arc.to_center().filter(|_| arc.is_arc())?;
+fn are_of_a_row(one: &Jointed, other: &Jointed) -> bool {
+    let turned = |arc: &Jointed| {
+        let center = arc.center_from_start()?;
         let [start, _] = arc.directions()?;
         Some(center.norm() * cross(start, center).signum())
     };
@@ -203,9 +213,9 @@ fn are_of_a_row<H: Heading>(one: &H, other: &H) -> bool {
 
 /// The largest turn that counts as none beside an arc, radians; `None` where it is so small that rounding decides its
 /// direction.
-fn tangent<H: Heading>(made: &H) -> Option<f64> {
+fn tangent(made: &Jointed) -> Option<f64> {
     let radius = made
-        .to_center()
+        .center_from_start()
         .map_or(f64::INFINITY, |center| center.norm());
     Some(TANGENT + ROUNDING / radius).filter(|tangent| *tangent < CLEAR)
 }

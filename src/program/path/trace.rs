@@ -22,6 +22,13 @@ pub enum Kind {
     End,
 }
 
+/// A place in the control's table of corrections.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Register {
+    pub(crate) letter: u8,
+    pub(crate) index: u32,
+}
+
 /// One block or word of a program and the machine's action.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Step {
@@ -42,8 +49,16 @@ pub struct Step {
     pub contour: usize,
     /// The side of travel on which the control lets the wire run, where the program gives it.
     pub side: Option<Side>,
+    /// Where the control takes the correction from, where the program names it.
+    pub(crate) register: Option<Register>,
+    /// The side of travel on which the wire runs beside an arc of the part, in 4B.
+    pub(crate) part_side: Option<Side>,
     /// The block counts from its start, so its words do not give its end.
     pub(crate) is_relative: bool,
+    /// The end that the text states after the block, where that is as fine as the machine counts, µm.
+    pub(crate) stated: Option<Point>,
+    /// The radius by which an arc is given instead of its centre, µm.
+    pub(crate) radius: Option<f64>,
 }
 
 impl Step {
@@ -59,7 +74,11 @@ impl Step {
             ideal: None,
             contour: 0,
             side: None,
+            register: None,
+            part_side: None,
             is_relative: false,
+            stated: None,
+            radius: None,
         }
     }
 

@@ -106,37 +106,19 @@ impl Found {
         !crosses && self.losses.is_empty() && !self.is_too_long
     }
 
-    /// What there is to report: its rule, and the block that it is about; of the whole, the last.
-    pub(crate) fn all(&self) -> Vec<(Rule, Severity, usize)> {
-        let crossing = |crossing: &Crossing| {
-            let rule = Rule::PathCrossesItself;
-            (rule, rule.default_severity(), crossing.second)
-        };
-        let loss = |loss: &Loss| (loss.rule, loss.severity, loss.block);
-        let left_out = [self.is_crowded, self.is_too_long].into_iter();
-        let left_out = left_out.filter(|is_it| *is_it);
-        let left_out = left_out.map(|_| (Rule::NotJudged, Severity::Information, usize::MAX));
-        let crossings = self.crossings.iter().map(crossing);
-        crossings
-            .chain(self.losses.iter().map(loss))
-            .chain(left_out)
-            .collect()
-    }
-
-    /// One of these as a finding, of a way whose blocks stand at some bytes of the text.
-    pub(crate) fn worded(
+    /// What there is to report, of a way whose blocks stand at some bytes of the text.
+    pub(crate) fn findings(
         &self,
-        index: usize,
         way: &Way,
         ranges: &[Range<usize>],
         text: &SourceText,
-    ) -> Option<Finding> {
+    ) -> Vec<Finding> {
         let range = |block: usize| ranges.get(block).cloned();
         let related = |range: Option<Range<usize>>| {
             let place = range.map(|range| Place::Text { range });
             place.into_iter().collect()
         };
-        if let Some(crossing) = self.crossings.get(index) {
+        let crossing = |crossing: &Crossing| {
             let (from, own) = (range(crossing.first)?, range(crossing.second)?);
             // The corner that a control makes after a block belongs to that block.
             let before = crossing.second.checked_sub(1);
@@ -147,27 +129,32 @@ impl Found {
                 from_block: piece.map(|piece| (crossing.at - piece.start()) / 1000.0),
                 other: text.line_of(from.start),
             };
-            return Some(Finding {
+            Some(Finding {
                 related: related(Some(from)),
                 ..Finding::of(fault, own)
-            });
-        }
-        let index = index - self.crossings.len();
-        if let Some(loss) = self.losses.get(index) {
+            })
+        };
+        let loss = |loss: &Loss| {
             let own = range(loss.block)?;
-            return Some(Finding {
+            Some(Finding {
                 related: related(loss.other.and_then(range)),
                 ..Finding::in_text(loss.rule, own, loss.detail.clone()).with(loss.severity)
-            });
-        }
-        let blocks = way.count();
-        let what = match index == self.losses.len() && self.is_crowded {
-            true => NotJudged::Crossings { blocks },
-            false => NotJudged::Losses { blocks },
+            })
         };
-        let last = ranges.last()?.clone();
-        let finding = Finding::in_text(Rule::NotJudged, last, Detail::NotJudged(what));
-        Some(finding.with(Severity::Information))
+        let blocks = way.count();
+        let left_out = [
+            (self.is_crowded, NotJudged::Crossings { blocks }),
+            (self.is_too_long, NotJudged::Losses { blocks }),
+        ];
+        let left_out = left_out.into_iter().filter(|(is_it, _)| *is_it);
+        let left_out = left_out.filter_map(|(_, what)| {
+            let last = ranges.last()?.clone();
+            let finding = Finding::in_text(Rule::NotJudged, last, Detail::NotJudged(what));
+            Some(finding.with(Severity::Information))
+        });
+        let crossings = self.crossings.iter().filter_map(crossing);
+        let losses = self.losses.iter().filter_map(loss);
+        crossings.chain(losses).chain(left_out).collect()
     }
 }
 

@@ -2,19 +2,13 @@
 
 use crate::geometry::Segment;
 
-/// Runs without those that go back along the one before, where two of them `may` be a pass and its way back.
-pub(crate) fn without_ways_back<R: AsRef<[Segment]>>(
-    runs: Vec<R>,
-    near: f64,
-    may: impl Fn(&R, &R) -> bool,
-) -> Vec<R> {
-    let mut kept: Vec<R> = Vec::with_capacity(runs.len());
+/// Runs without those that go back along the one before.
+pub(crate) fn without_ways_back(runs: Vec<&[Segment]>, near: f64) -> Vec<&[Segment]> {
+    let mut kept: Vec<&[Segment]> = Vec::with_capacity(runs.len());
     let mut is_behind_way_back = false;
     for run in runs {
         let before = kept.last().filter(|_| !is_behind_way_back);
-        is_behind_way_back = before.is_some_and(|before| {
-            may(before, &run) && goes_back(before.as_ref(), run.as_ref(), near)
-        });
+        is_behind_way_back = before.is_some_and(|before| goes_back(before, run, near));
         kept.extend((!is_behind_way_back).then_some(run));
     }
     kept
@@ -67,7 +61,7 @@ mod tests {
         assert!(!goes_back(&there, &beside, 0.1), "the chord of the arc");
         assert!(!goes_back(&[], &[], 1e-6));
         let runs = vec![&there[..], &back[..], &there[..], &beside[..]];
-        let kept = without_ways_back(runs, 1e-6, |_, _| true);
+        let kept = without_ways_back(runs, 1e-6);
         assert_eq!(kept, [&there[..], &there[..], &beside[..]]);
     }
 }

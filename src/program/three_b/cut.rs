@@ -13,7 +13,7 @@ use super::rules::{self, Counts, Limits, Observation, Spot};
 use super::words::{Word, Words};
 use crate::geometry::{Bounds, Point, Segment};
 use crate::program::numbering::Numbering;
-use crate::program::path::{Found, Node, Verdict, Way, Writing, odd_joint};
+use crate::program::path::{Found, Jointed, Node, Verdict, Way, Writing, odd_joints};
 use crate::text::SourceText;
 use std::borrow::Cow;
 use std::ops::{Deref, Range};
@@ -197,25 +197,22 @@ impl Cut {
     /// Finds its odd joints: they count once its contour is known.
     fn join(&mut self, way: &Way) {
         let pieces = way.pieces();
+        let odd = odd_joints(pieces.len(), |nth| {
+            pieces.get(nth).copied().map(Jointed::of)
+        });
+        if odd.is_empty() {
+            return;
+        }
         let blocks = self.entries.iter().filter(|entry| entry.block().is_some());
-        let mut odd = Vec::new();
-        for (nth, entry) in blocks.enumerate().skip(1) {
-            let Some(next) = pieces.get(nth + 1) else {
-                break;
-            };
-            let came = nth.checked_sub(2).and_then(|came| pieces.get(came));
-            let fault = odd_joint(came.copied(), pieces[nth - 1], pieces[nth], next);
-            odd.extend(fault.map(|fault| Local {
-                range: entry.range(),
-                observation: Observation {
-                    counts: Counts::IfAlone,
-                    ..Observation::at(Spot::Block, fault)
-                },
-            }));
-        }
-        if !odd.is_empty() {
-            self.rare_mut().faults.extend(odd);
-        }
+        let ranges: Vec<Range<usize>> = blocks.map(Entry::range).collect();
+        let odd = odd.into_iter().map(|(nth, fault)| Local {
+            range: ranges[nth].clone(),
+            observation: Observation {
+                counts: Counts::IfAlone,
+                ..Observation::at(Spot::Block, fault)
+            },
+        });
+        self.rare_mut().faults.extend(odd);
     }
 
     /// True for what may be the way between two stops from one contour to the next. A way that returns to its start is not

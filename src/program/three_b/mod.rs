@@ -29,7 +29,6 @@ mod tests;
 pub(crate) mod words;
 mod write;
 
-pub(crate) use around::StatedPoint;
 pub use block::{Block, CountingAxis, Motion, Quadrant};
 pub use decode::decode;
 pub use document::Document;

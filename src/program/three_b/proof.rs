@@ -9,7 +9,6 @@ use crate::geometry::Vector;
 use crate::program::encode::proved_aside;
 use crate::program::grid::Node;
 use crate::program::path::tolerance;
-use std::ops::Range;
 
 /// Where the program stands, and what has been proved so far.
 #[derive(Clone, Debug)]
@@ -77,35 +76,19 @@ impl Proof {
     }
 }
 
-/// A line that was read back and is as it should be.
-pub(super) struct Checked {
-    /// Bytes of the block in the text.
-    pub(super) range: Range<usize>,
-    pub(super) number: Option<u32>,
-    /// Its largest distance from its piece of the path, µm.
-    pub(super) aside: f64,
-}
-
-/// Reads `line` back, which begins at byte `at` of the text, and compares its block with its piece of the path, from
-/// where the program stands. `drift` is how far it may stand beside its nodes, µm.
+/// Reads `line` back, and compares its block with its piece of the path, from where the program stands: its largest
+/// distance from that, µm. `drift` is how far it may stand beside its nodes, µm.
 pub(super) fn check_line(
     line: &[u8],
-    at: usize,
     words: &Words<'_>,
     planned: &Planned,
     part: Option<PartArc>,
     drift: f64,
-) -> Result<Checked, String> {
+) -> Result<f64, String> {
     let mut read = None;
     let mut fault = None;
     read_line(line, 0, words, |item| match item {
-        Item::Block {
-            block,
-            part,
-            range,
-            number,
-            ..
-        } => read = Some((block, part, range, number)),
+        Item::Block { block, part, .. } => read = Some((block, part)),
         Item::Fault(found) => fault = Some(found),
         _ => {}
     });
@@ -113,13 +96,7 @@ pub(super) fn check_line(
         return Err(say!(a_written_block_cannot_be_read_again, fault.sentence()));
     }
     match read {
-        Some((block, read, range, number)) if block == planned.encoded.block && read == part => {
-            Ok(Checked {
-                range: at + range.start..at + range.end,
-                number,
-                aside: check_block(planned, drift)?,
-            })
-        }
+        Some(read) if read == (planned.encoded.block, part) => check_block(planned, drift),
         _ => Err(say!(
             a_written_block_reads_otherwise,
             String::from_utf8_lossy(line),

@@ -4,7 +4,6 @@ use super::block::Node;
 use super::block::PartArc;
 use super::encode;
 use super::layout::{push_block, push_start_point};
-use super::machine::travel;
 use super::parse::{Item, read_line};
 use super::part::{CutCorners, is_concave, mm, rounded, rounded_with_tab, unwritable, wire_step};
 use super::proof::{Proof, check_line};
@@ -14,8 +13,7 @@ use crate::finding::{Side, Unwritable};
 use crate::geometry::{Point, Segment, Vector, turn};
 use crate::program::encode::encode_all;
 use crate::program::grid::point_of;
-use crate::program::notes::Notes;
-use crate::program::path::{Kind, Step, is_tight_in_four_b};
+use crate::program::path::is_tight_in_four_b;
 use crate::program::write::{
     BETWEEN_PASSES, CutCorner, Piece, ProofError, Proved, ProvedProgram, TAB_STOP, Writer, cuts,
     does_not_stop, nothing_to_write, room, scaled, walk, way,
@@ -32,16 +30,16 @@ pub fn write(paths: &[WirePath], unit_mm: f64, settings: &Effective) -> Proved<P
     write_with(paths, unit_mm, settings, None, &mut |_, _| true)
 }
 
-/// As [`write()`]; `go_on` gets the progress every few thousand segments, and ends the work with `false`. `notes` are
-/// taken of every block.
+/// As [`write()`]; `go_on` gets the progress every few thousand segments, and ends the work with `false`. `sources` get
+/// what each block follows.
 pub(crate) fn write_with(
     paths: &[WirePath],
     unit_mm: f64,
     settings: &Effective,
-    notes: Option<&mut Notes>,
+    sources: Option<&mut Vec<Source>>,
     go_on: &mut dyn FnMut(usize, usize) -> bool,
 ) -> Proved<ProvedProgram> {
-    let mut blocks = Blocks::new(settings, None, notes, paths);
+    let mut blocks = Blocks::new(settings, None, sources, paths);
     walk(paths, unit_mm * 1000.0, 1.0, go_on, &mut blocks)?;
     blocks.finish(cuts(paths))
 }
@@ -52,7 +50,7 @@ pub(crate) fn write_four_b(
     paths: &[WirePath],
     unit_mm: f64,
     settings: &Effective,
-    notes: Option<&mut Notes>,
+    sources: Option<&mut Vec<Source>>,
     go_on: &mut dyn FnMut(usize, usize) -> bool,
 ) -> Proved<ProvedProgram> {
     let (correction, radius) = transitions(settings);
@@ -88,7 +86,7 @@ pub(crate) fn write_four_b(
             side: Side::Left,
             direction: None,
         }),
-        notes,
+        sources,
         &paths,
     );
     walk(&paths, 1.0, 1.0, go_on, &mut blocks)?;
@@ -193,11 +191,9 @@ struct Blocks<'a> {
     /// The totals so far, in µm.
     made: ProvedProgram,
     proof: Proof,
-    notes: Option<&'a mut Notes>,
+    sources: Option<&'a mut Vec<Source>>,
     /// The most blocks.
     room: usize,
-    /// The table moves without the wire.
-    is_jump: bool,
 }
 
 /// A block as it is written.
@@ -223,9 +219,6 @@ impl Writer for Blocks<'_> {
         self.proof = Proof::from(first);
         if self.settings.header {
             push_start_point(&mut self.out, first);
-            if let Some(notes) = &mut self.notes {
-                notes.start = Some(point_of(first));
-            }
         }
         Ok(())
     }
@@ -285,14 +278,12 @@ impl Writer for Blocks<'_> {
 
     fn move_over(&mut self, from: Node, to: Node) -> Proved {
         let cut = self.made.length;
-        self.is_jump = true;
         self.pieces(&[Piece {
             segment: way(from, to),
             from,
             to,
             source: Source::LeadIn,
         }])?;
-        self.is_jump = false;
         self.made.jumps += self.made.length - cut;
         self.made.length = cut;
         Ok(())
@@ -309,14 +300,13 @@ impl<'a> Blocks<'a> {
     fn new(
         settings: &'a Effective,
         part: Option<FourB>,
-        notes: Option<&'a mut Notes>,
+        sources: Option<&'a mut Vec<Source>>,
         paths: &[WirePath],
     ) -> Blocks<'a> {
         Blocks {
             part,
-            room: room(paths, notes.is_some()),
-            notes,
-            is_jump: false,
+            room: room(paths, sources.is_some()),
+            sources,
             settings,
             words: Words {
                 pause: settings.pause.trim(),
@@ -337,6 +327,9 @@ impl<'a> Blocks<'a> {
     /// Writes a block.
     fn push_planned(&mut self, planned: Planned, source: Source) -> Proved<Line> {
         self.made.blocks += 1;
+        if let Some(sources) = &mut self.sources {
+            sources.push(source);
+        }
         let start = self.out.len();
         let part = self.part_of(&planned, source)?;
         let encoded = &planned.encoded;
@@ -355,37 +348,17 @@ impl<'a> Blocks<'a> {
         })
     }
 
-    /// Reads lines back, compares them with the path, and notes what they do.
+    /// Reads lines back, and compares them with the path.
     fn prove(&mut self, lines: &[Line]) -> Proved {
         let (out, words, drift) = (&self.out, &self.words, self.proof.allowed());
         let read = each(lines.len(), AT_A_TIME, |nth| {
             let line = &lines[nth];
-            let (written, start) = (&out[line.range.clone()], line.range.start);
-            check_line(written, start, words, &line.planned, line.part, drift)
+            let written = &out[line.range.clone()];
+            check_line(written, words, &line.planned, line.part, drift)
         });
-        for (line, read) in lines.iter().zip(read) {
-            let read = read.map_err(ProofError::Mismatch)?;
-            self.proof.deviation = self.proof.deviation.max(read.aside);
-            let Some(notes) = &mut self.notes else {
-                continue;
-            };
-            let start = notes.at();
-            let by = travel(&line.planned.encoded.block)
-                .map_or(Vector::zeros(), |to| point_of(to).coords);
-            notes.four_b |= line.part.is_some();
-            let kind = match line.planned.run {
-                _ if self.is_jump => Kind::Rapid,
-                Segment::Line(_) => Kind::Line,
-                Segment::Arc(_) => Kind::Arc,
-            };
-            notes.note(Step {
-                range: read.range,
-                number: read.number,
-                end: start + by,
-                ideal: Some(line.planned.run.moved(start - line.planned.before.exact)),
-                is_relative: true,
-                ..Step::stop(kind, start)
-            });
+        for aside in read {
+            let aside = aside.map_err(ProofError::Mismatch)?;
+            self.proof.deviation = self.proof.deviation.max(aside);
         }
         Ok(())
     }
@@ -446,10 +419,6 @@ impl<'a> Blocks<'a> {
                 the_word_between_blocks_cannot_be_read_again,
                 word
             )));
-        }
-        if let Some(notes) = &mut self.notes {
-            let start = self.out.len();
-            notes.stop(start..start + word.len(), notes.at(), what == Word::End);
         }
         self.out.extend_from_slice(word.as_bytes());
         self.out.push(b'\n');

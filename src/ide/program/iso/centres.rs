@@ -3,8 +3,8 @@
 use super::completion::Offer;
 use crate::geometry::{Point, left_normal};
 use crate::program::iso::block::Motion;
-use crate::program::iso::moves::{Course, Move, Reading, micrometres, to_center};
-use crate::program::iso::steps::BegunCut;
+use crate::program::iso::moves::{Course, Move, Reading, micrometres, nanometres, to_center};
+use crate::program::path::Way;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// A chord this nearly parallel to the way before it gives no tangent arc: the sine of the angle between them.
@@ -39,7 +39,7 @@ impl Offer<'_> {
                 });
                 followed.into_iter().collect()
             }
-            None => candidates(&made, self.document.begun_cut(self.line).as_ref(), &reading),
+            None => candidates(&made, &self.document.begun_cut(self.line), &reading),
         };
         for (center, about) in candidates {
             let Some(center) = self.style.center(center, made.from, made.to) else {
@@ -63,11 +63,7 @@ impl Offer<'_> {
 }
 
 /// Centres in µm, each with its description: the arc tangent to the cut before, that of R, a quarter and a half turn.
-fn candidates(
-    made: &Move,
-    begun: Option<&BegunCut>,
-    reading: &Reading,
-) -> Vec<(Point, &'static str)> {
+fn candidates(made: &Move, begun: &Way, reading: &Reading) -> Vec<(Point, &'static str)> {
     let (from, to) = (micrometres(made.from), micrometres(made.to));
     let chord = to - from;
     let turn = if made.motion == Motion::CounterClockwise {
@@ -79,11 +75,10 @@ fn candidates(
     if let Course::Arc(arc) = made.course(reading) {
         found.push((arc.center, say!(the_arc_that_r_means)));
     }
-    if let Some(last) = begun
-        .map(|begun| begun.last)
-        .filter(|last| last.to == made.from)
+    if let Some(last) = begun.pieces().last()
+        && nanometres(begun.end().machine) == made.from
     {
-        let normal = left_normal(last.segment(reading).end_tangent()) * turn;
+        let normal = left_normal(last.end_tangent()) * turn;
         let across = normal.dot(&chord);
         if across > chord.norm() * ALONG {
             found.push((

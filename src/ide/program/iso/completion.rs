@@ -1,6 +1,7 @@
 //! Completion of a line: words with their meanings, the centre of an arc from its end, the way back to the start of the
 //! cut, places of the control's table, the lines of the profile.
 
+use super::super::step::ways_back;
 use super::holds;
 use super::vocabulary::known;
 use crate::ide::{Completion, CompletionKind};
@@ -8,9 +9,8 @@ use crate::program::iso::block::{Block, Compensation, Motion, read_line};
 use crate::program::iso::document::Document;
 use crate::program::iso::line::words_of_move;
 use crate::program::iso::machine::Machine;
-use crate::program::iso::moves::Move;
+use crate::program::iso::moves::{Move, nanometres};
 use crate::program::iso::plain::{words, words_in};
-use crate::program::iso::steps::BegunCut;
 use crate::program::iso::style::Style;
 use crate::program::iso::word::{Number, Token, WordFault};
 use std::borrow::Cow;
@@ -307,18 +307,12 @@ impl Offer<'_> {
         }
     }
 
-    /// The straight ways back to the start of the cut and to the end of its way in, after the word that cuts where it
-    /// is missing.
+    /// The straight ways back, after the word that cuts where it is missing.
     fn ways_back(&mut self, motion: &str) {
-        let Some(BegunCut { from, to, .. }) = self.document.begun_cut(self.line) else {
-            return;
-        };
         let mut machine = self.machine;
         machine.incremental = self.typed.block.incremental.unwrap_or(machine.incremental);
-        for (target, about) in [
-            (from, say!(line_back_to_where_the_cut_began)),
-            (to, say!(line_to_the_end_of_the_way_in)),
-        ] {
+        for (target, about) in ways_back(&self.document.begun_cut(self.line)) {
+            let target = nanometres(target);
             if target == machine.at || machine.lost != [false, false] {
                 continue;
             }

@@ -161,7 +161,7 @@ fn a_new_line_is_offered_what_the_cut_and_the_profile_want() {
         cut,
         &any,
         &[
-            ("G01 X0. Y0.", "back to where the cut began"),
+            ("G01 X0. Y0.", "back to the start"),
             ("G01 X5. Y0.", "end of the lead-in"),
             ("G91", ""),
             ("M00", "stop"),

@@ -1,9 +1,9 @@
 //! Completion of a block: G, J and Z from X and Y, the way back to the start of the contour, the words between blocks.
 
+use super::super::step::ways_back;
 use crate::geometry::{Arc, Point, Segment};
 use crate::ide::amounts::{mm, point, turn};
 use crate::ide::{Completion, CompletionKind};
-use crate::program::path::closing;
 use crate::program::steps::{self, Program};
 use crate::program::three_b::Document;
 use crate::program::three_b::block::{Block, CountingAxis, Motion, Node, Quadrant};
@@ -225,18 +225,8 @@ fn beginnings(document: &Document, start: usize, offset: usize) -> Vec<Completio
     let range = start..offset;
     let word = |text: &str, about| Completion::new(text, about, &range, CompletionKind::Word);
     let mut found = Vec::new();
-    let mut targets: Vec<(&'static str, Point)> = Vec::new();
-    let way = steps::way_before(document, start);
-    if way.count() > 0 {
-        let [begin, lead_in] = [0, 1].map(|index| way.node(index).machine);
-        targets.push((say!(line_back_to_the_start_of_the_contour), begin));
-        // Where the contour is closed, only the way out is left.
-        if way.count() == 1 || !closing(&way).closed {
-            targets.push((say!(line_to_the_end_of_the_lead_in), lead_in));
-        }
-    }
     let from = snap(stand(document, start));
-    for (about, target) in targets {
+    for (target, about) in ways_back(&steps::way_before(document, start)) {
         if let (Some(from), Some(to)) = (from, snap(target))
             && from != to
         {

@@ -50,11 +50,7 @@ pub(super) fn stands_alone(document: &Document, lines: &Range<usize>) -> bool {
         has_corner |= block.corner.is_some();
         has_arc |= block.has_center();
     }
-    let is_begun = || {
-        document
-            .begun_cut(lines.start)
-            .is_some_and(|begun| begun.moves > 0)
-    };
+    let is_begun = || document.begun_cut(lines.start).count() > 0;
     let has_variable = lines
         .clone()
         .any(|line| memchr::memchr(b'#', document.line_bytes(line)).is_some());

@@ -10,7 +10,6 @@ use crate::program::iso::machine::Machine;
 use crate::program::iso::moves::{
     Bend, CenterRule, Move, Place, Reading, added, distance, micrometres,
 };
-use crate::program::iso::shape::directions;
 use crate::program::repair::slip::Sort;
 
 /// Characters of a block, and of an arc.
@@ -115,8 +114,13 @@ fn tangent_gaps(arc: &Move, reading: &Reading) -> Vec<Place> {
         return Vec::new();
     };
     let rule = reading.rule(false);
-    let (Some(center), Some((tangent, _))) = (arc.center(rule), directions(arc, reading)) else {
+    let Some(center) = arc.center(rule) else {
         return Vec::new();
+    };
+    let out = micrometres(arc.from) - micrometres(center);
+    let tangent = match arc.motion == Motion::CounterClockwise {
+        true => left_normal(out),
+        false => -left_normal(out),
     };
     let (along, lengths) = if rule == CenterRule::Absolute {
         let radius = distance(center, arc.to) / 1e3;

@@ -280,7 +280,7 @@ impl<'a> Way<'a> {
         let known = &self.rows[row].before;
         let is_alike = Machine {
             at: known.at,
-            trail: known.trail,
+            said: known.said,
             moved: known.moved,
             behind: known.behind,
             ..*machine

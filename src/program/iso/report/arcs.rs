@@ -37,7 +37,7 @@ impl Report<'_> {
 
     /// Arcs that the wire cannot follow at its distance: those of a part's contour, whether the control offsets it or
     /// nobody does.
-    pub(super) fn tight_arcs(&mut self, cut: &Contour<'_>, orientation: i128) {
+    pub(super) fn tight_arcs(&mut self, cut: &Contour<'_>, orientation: f64) {
         for (
             Tight {
                 arc: step, radius, ..
@@ -55,8 +55,7 @@ impl Report<'_> {
                 None if self.limits.compensation == Compensation::Path => continue,
                 None => {
                     let role = self.limits.side.role();
-                    let by_settings =
-                        role.and_then(|role| wire_side(role, true, orientation as f64));
+                    let by_settings = role.and_then(|role| wire_side(role, true, orientation));
                     by_settings.unwrap_or(side_of_center)
                 }
             };

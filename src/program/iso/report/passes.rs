@@ -270,7 +270,7 @@ impl Report<'_> {
             side: first.side.filter(|_| is_one)?,
             correction: self.document.stated_correction(first.offset),
             nodes: [vec![first.to, second.to], ends].concat(),
-            twice_area: cut.sum.twice_area as f64 / 1e6,
+            twice_area: cut.verdict.twice_area,
             from: cut.sum.range.0 as usize,
             off: None,
         })

@@ -1,29 +1,18 @@
-//! All findings before they are worded, with the blocks that may explain them.
+//! All findings, with the blocks that may explain them.
 
 use super::super::document::Document;
 use super::super::repair::found::Repair;
 use super::super::repair::{troubles, within};
 use crate::finding::{Fault, Finding, FixKind, Rule, Severity};
-use crate::program::report::{Found, Report, place_of};
+use crate::program::report::Report;
 use std::ops::Range;
 
 impl Report for Document {
-    type Source = Finding;
-
-    fn found(&self) -> impl Iterator<Item = Found<Finding>> {
+    fn all(&self) -> Vec<Finding> {
         let mut all = self.plain_findings();
         let troubles = troubles(&all);
         all.extend(suspects(self, &troubles));
-        all.into_iter().map(|finding| Found {
-            rule: finding.rule,
-            severity: finding.severity,
-            place: place_of(&finding),
-            source: finding,
-        })
-    }
-
-    fn worded(&self, source: Finding) -> Option<Finding> {
-        Some(source)
+        all
     }
 
     fn plain(&self) -> Vec<Finding> {

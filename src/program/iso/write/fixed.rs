@@ -5,8 +5,7 @@ use super::Lines;
 use crate::finding::Side;
 use crate::program::grid::Node;
 use crate::program::iso::block::{Note, Stop, read_line};
-use crate::program::iso::moves::{Reading, micrometres};
-use crate::program::iso::read::words_of;
+use crate::program::iso::moves::Reading;
 use crate::program::iso::tilt::Reader;
 use crate::program::iso::unfollowed::Frame;
 use crate::program::write::Proved;
@@ -103,13 +102,6 @@ impl Lines<'_> {
                 leading.turns.get_or_insert((text.clone(), word));
             }
             self.pauses += usize::from(block.stop == Some(Stop::Pause));
-            if let Some(stop) = block.stop
-                && let Some(notes) = &mut self.notes
-            {
-                let (start, end) = words_of(text.as_bytes(), self.out.len());
-                let at = micrometres(self.machine.at);
-                notes.stop(start as usize..end as usize, at, stop == Stop::End);
-            }
             self.out.extend_from_slice(text.as_bytes());
             self.end_line();
         }

@@ -9,18 +9,9 @@ use crate::program::iso::moves::FARTHEST;
 use crate::program::iso::moves::{Course, Move, Place};
 use crate::program::write::{ProofError, Proved, scaled, too_far_out};
 
-/// A line that was read back and is as it should be.
-pub(super) struct Checked {
-    pub(super) made: Move,
-    /// Its line or arc, µm.
-    pub(super) decoded: Segment,
-    /// Its largest distance from its piece of the path, µm.
-    pub(super) aside: f64,
-}
-
 impl Lines<'_> {
-    /// Compares the control's move for the line with the node and the piece of the path.
-    pub(super) fn check(&self, step: &Encoded, made: Option<Move>) -> Proved<Checked> {
+    /// Compares the control's move for the line with the node and the piece of the path: its largest distance from that, µm.
+    pub(super) fn check(&self, step: &Encoded, made: Option<Move>) -> Proved<f64> {
         let Some(made) = made else {
             if self.place(step.to).iter().any(|nm| nm.abs() > FARTHEST) {
                 return Err(too_far_out(point_of(step.to)));
@@ -62,13 +53,8 @@ impl Lines<'_> {
             &step.piece.moved(-point_of(self.zero).coords),
             self.step_um(),
         );
-        let aside = proved_aside(&decoded, &piece, 1e-6).map_err(|worst| {
+        proved_aside(&decoded, &piece, 1e-6).map_err(|worst| {
             ProofError::Mismatch(say!(the_move_runs_beside_the_path, step.to, worst))
-        })?;
-        Ok(Checked {
-            made,
-            decoded,
-            aside,
         })
     }
 }

@@ -5,92 +5,32 @@ use super::super::cut::Local;
 use super::super::entry::What;
 use super::super::fields::fields_of;
 use super::super::rules::{self, Counts};
+use super::Document;
 use super::contours::OneContour;
-use super::{At, Document};
 use crate::finding::{Detail, Fault, Finding, Severity};
 use crate::program::contours::Divided;
 use crate::program::path;
 use crate::program::repair::gate::Tried;
-use crate::program::report::{Found, Report, place_of};
+use crate::program::report::Report;
 use crate::program::steps::Program;
 use crate::settings::SideSetting;
 use std::ops::Range;
 
-/// What a finding is worded from.
-#[derive(Clone, Debug)]
-pub(in crate::program) enum Source {
-    /// A fault of a block, by its cut.
-    InBlock {
-        cut: usize,
-        index: usize,
-    },
-    /// Where a contour crosses itself, or what an offset loses of it.
-    InContour {
-        cuts: OneContour,
-        index: usize,
-    },
-    OnWhole {
-        index: usize,
-    },
-}
-
 impl Report for Document {
-    type Source = Source;
-
-    fn found(&self) -> impl Iterator<Item = Found<Source>> {
-        let in_blocks = (0..self.cuts.len()).flat_map(move |cut| {
-            let faults = self.cuts[cut].rare().faults.iter().enumerate();
-            let counting = faults.filter(move |(_, local)| self.counts(cut, local));
-            counting.map(move |(index, local)| {
-                let base = self.cuts.byte(cut);
-                Found {
-                    rule: local.rule,
-                    severity: self.own_severity(cut, local),
-                    place: (base + local.range.start, base + local.range.end),
-                    source: Source::InBlock { cut, index },
-                }
-            })
-        });
-        let in_contours = self.crossing().flat_map(move |(cuts, found)| {
-            let blocks: Vec<At> = self.blocks_of(&cuts).collect();
-            let all = found.all().into_iter().enumerate();
-            all.map(move |(index, (rule, severity, block))| {
-                let at = blocks.get(block).or(blocks.last());
-                let range = at.map_or(0..0, |at| self.range_of(*at));
-                let cuts = cuts.clone();
-                Found {
-                    rule,
-                    severity,
-                    place: (range.start, range.end),
-                    source: Source::InContour { cuts, index },
-                }
-            })
-        });
-        let on_whole = self.view.findings.iter().enumerate();
-        let on_whole = on_whole.map(|(index, finding)| Found {
-            rule: finding.rule,
-            severity: finding.severity,
-            place: place_of(finding),
-            source: Source::OnWhole { index },
-        });
-        in_blocks.chain(in_contours).chain(on_whole)
-    }
-
-    fn worded(&self, source: Source) -> Option<Finding> {
-        match source {
-            Source::InBlock { cut, index } => {
-                let local = self.cuts.get(cut)?.rare().faults.get(index)?;
-                Some(self.materialized(cut, local))
-            }
-            Source::InContour { cuts, index } => {
-                let ranges = self.blocks_of(&cuts).map(|at| self.range_of(at));
-                let ranges: Vec<Range<usize>> = ranges.collect();
-                let way = self.way_of(&cuts);
-                self.found_of(&cuts)?
-                    .worded(index, &way, &ranges, &self.text)
-            }
-            Source::OnWhole { index } => self.view.findings.get(index).cloned(),
+    fn all(&self) -> Vec<Finding> {
+        let mut all = Vec::new();
+        for (cut, own) in self.cuts.iter().enumerate() {
+            let faults = own.rare().faults.iter();
+            let counting = faults.filter(|local| self.counts(cut, local));
+            all.extend(counting.map(|local| self.materialized(cut, local)));
         }
+        for (cuts, found) in self.crossing() {
+            let ranges = self.blocks_of(&cuts).map(|at| self.range_of(at));
+            let ranges: Vec<Range<usize>> = ranges.collect();
+            all.extend(found.findings(&self.way_of(&cuts), &ranges, &self.text));
+        }
+        all.extend(self.view.findings.iter().cloned());
+        all
     }
 }
 
@@ -137,13 +77,6 @@ impl Document {
                 && !self.is_jump(cuts.start)
                 && !self.is_odd(cuts)
         })
-    }
-
-    fn found_of(&self, cuts: &OneContour) -> Option<&path::Found> {
-        match self.view.contours.of_cut(cuts.start) {
-            Some(contour) if contour.cuts == *cuts => Some(contour.found()),
-            _ => Some(&self.cuts.get(cuts.start)?.rare().found),
-        }
     }
 
     /// Whether an odd joint of a contour is reported.

@@ -1,17 +1,14 @@
 //! The machine on its way through a program.
 
-use super::super::around::StatedPoint;
 use super::super::decode::meant;
-use super::super::entry::{Entry, What};
+use super::super::entry::{BlockEntry, Entry, What};
 use super::super::pieces::{Field, pieces};
 use super::super::words::switch;
 use super::{At, Document};
-use crate::finding::Side;
 use crate::geometry::{Point, Vector};
 use crate::program::path::{Kind, Step, Trace, Writing};
 use crate::program::steps::{self, Program};
 use crate::text::{SourceText, says_anything};
-use rustc_hash::FxHashMap;
 use std::ops::Range;
 
 impl Document {
@@ -31,15 +28,6 @@ impl Document {
         let mut all = self.all_entries();
         let (at, entry) = all.find(|(_, entry)| is_of_part(entry))?;
         Some(self.line_of(at, entry))
-    }
-
-    /// On which side of the arcs of the part the wire runs in 4B, by the byte at which their blocks begin.
-    pub(in crate::program) fn part_sides(&self) -> FxHashMap<usize, Side> {
-        let all = self.all_entries();
-        let of_part = all.filter_map(|(at, entry)| Some((at, entry.block()?.side_of_wire()?)));
-        of_part
-            .map(|(at, side)| (self.range_of(at).start, side))
-            .collect()
     }
 
     /// The switches of pump and wire, each with its line, and whether remarks stand in the text.
@@ -78,10 +66,10 @@ impl Document {
         self.heading().map(|(at, _)| self.range_of(at))
     }
 
-    /// The end points after blocks, each with the byte at which its block begins.
-    pub(in crate::program) fn stated_ends(&self) -> impl Iterator<Item = (usize, StatedPoint)> {
-        let all = self.all_entries();
-        all.filter_map(|(at, entry)| Some((self.range_of(at).start, entry.block()?.stated_end()?)))
+    /// Whether end points stand after blocks.
+    pub(in crate::program) fn states_ends(&self) -> bool {
+        let mut blocks = self.all_entries().filter_map(|(_, entry)| entry.block());
+        blocks.any(|block| block.stated_end().is_some())
     }
 
     /// The line of an entry, from 0.
@@ -185,6 +173,9 @@ impl Program for Document {
             if self.view.end.is_some_and(|end| own > end) {
                 return;
             }
+            let block = what.block();
+            let fine = block.and_then(BlockEntry::stated_end);
+            let fine = fine.filter(|stated| stated.decimals >= 3);
             let (kind, end, ideal) = match &what.what {
                 What::Block(block) => {
                     start += self.taken_before(own).unwrap_or_default();
@@ -211,7 +202,12 @@ impl Program for Document {
                 end,
                 ideal,
                 contour: *contour,
+                part_side: block.and_then(BlockEntry::side_of_wire),
                 is_relative: true,
+                stated: fine.map(|stated| {
+                    let [x, y] = stated.at.map(|mm| (mm * 1e6).round() / 1e3);
+                    Point::new(x, y)
+                }),
                 ..Step::stop(kind, start)
             });
             start = end;

@@ -40,7 +40,7 @@ pub(crate) fn guarded(
     let edits = laid(Ends::OfLayout);
     let before = document.findings();
     let adds = layout == Layout::Checking;
-    let is_sound = before.is_empty() && (adds || document.stated_ends().next().is_none());
+    let is_sound = before.is_empty() && (adds || !document.states_ends());
     let changed_by = |edits: &[TextEdit]| {
         let after = findings_after(document, settings, edits);
         changed(&before, &after).cloned()
