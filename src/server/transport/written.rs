@@ -62,10 +62,6 @@ impl Written {
         &self.0
     }
 
-    pub(crate) fn into_json(self) -> Vec<u8> {
-        self.0
-    }
-
     /// Leaves the text with the reply to the request whose handler calls this.
     pub(crate) fn leave(self) {
         let _ = REPLY.try_with(|reply| *reply.lock() = Some(self));
