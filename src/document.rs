@@ -3,15 +3,11 @@
 //! The differences between DXF text, drawings sent by a CAD program and programs end here: nothing
 //! above knows them.
 
-mod changes;
 mod compared;
 mod file_kind;
 mod rounds;
-mod since;
 
 pub(crate) use file_kind::FileKind;
-use since::EditedLines;
-pub(crate) use since::Since;
 
 use crate::analysis::Analysis;
 use crate::compare::{Beside, Drawn, Traced};
@@ -45,7 +41,6 @@ pub struct Document {
     /// The drawing of a program, or the programs of a drawing.
     beside: Beside,
     asked: Asked,
-    since: Since,
 }
 
 /// Answers for the present state of the document: an editor asks for actions at every step of the cursor.
@@ -102,7 +97,6 @@ impl Document {
             analysis,
             beside: Beside::default(),
             asked: Asked::default(),
-            since: Since::default(),
         }
     }
 
@@ -126,7 +120,6 @@ impl Document {
             }
             assume_unit(&mut self.source, &settings);
             self.analysis = judged(&self.source, settings);
-            self.since = Since::default();
         }
     }
 
@@ -192,6 +185,11 @@ impl Document {
         })
     }
 
+    /// Makes ready what the first edit of a drawing needs.
+    pub(crate) fn make_ready(&mut self) {
+        self.analysis.make_ready();
+    }
+
     /// All pairs of a drawing, each laid in the other, where that is known already.
     pub(crate) fn laid(&self) -> Option<Laid> {
         self.analysis.laid(self.drawing()?)
@@ -202,15 +200,11 @@ impl Document {
         self.asked = Asked::default();
         match &mut self.source {
             Source::Dxf(document) => {
-                let lines = EditedLines::before(document.text(), &range);
                 let delta = document.edit(range, replacement);
-                self.since.add_edit(lines, document, &delta.touched);
                 self.analysis.update(document.drawing(), &delta);
             }
             Source::Program(program) => {
-                let touched = program.text().line_of(range.start).saturating_sub(1);
-                let moved = program.edit(range, replacement);
-                self.since.add_program_edit(touched.min(moved));
+                program.edit(range, replacement);
             }
             Source::Cad(_) => {}
         }
@@ -227,10 +221,7 @@ impl Document {
             return None;
         };
         self.asked = Asked::default();
-        Some(change(Arc::make_mut(drawing)).map(|delta| {
-            self.since.add_touched(&delta.touched);
-            self.analysis.update(drawing, &delta)
-        }))
+        Some(change(Arc::make_mut(drawing)).map(|delta| self.analysis.update(drawing, &delta)))
     }
 
     /// At most `limit` findings of reader and rules, errors first; and how many there are in all.

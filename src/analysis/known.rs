@@ -25,8 +25,6 @@ pub(crate) struct Known {
     pub(crate) stated: Option<Role>,
     /// The number of its workpiece.
     pub(crate) part: u16,
-    /// Number of runs at the last check.
-    runs: u32,
     /// What each local rule has seen; empty where none has seen anything, as in most contours.
     by_rule: Box<[Seen]>,
 }
@@ -46,14 +44,12 @@ impl Known {
             index,
             stated,
             part,
-            runs: 0,
             by_rule: Box::default(),
         }
     }
 
-    /// Runs every local rule on the segments of `changed` and those within its reach; on all later
-    /// ones when the number of segments has changed. `all` is the whole contour, where that is at
-    /// hand.
+    /// Runs every local rule on the segments of `changed` and those within its reach. `all` is the
+    /// whole contour, where that is at hand.
     pub(crate) fn check(
         &mut self,
         drawing: &Drawing,
@@ -72,8 +68,6 @@ impl Known {
             at_hand: None,
         };
         let (count, runs) = (contour.len(), self.index.run_count());
-        let recounted = self.runs as usize != runs;
-        self.runs = runs as u32;
         // Which rule checks which run, run by run.
         let mut asked: Vec<(usize, usize)> = Vec::new();
         for (number, rule) in LOCAL_RULES.iter().enumerate() {
@@ -81,11 +75,7 @@ impl Known {
                 continue;
             }
             let (before, behind) = (rule.reach)(&outlook, changed.clone());
-            let end = if recounted {
-                count
-            } else {
-                (changed.end + behind).min(count)
-            };
+            let end = (changed.end + behind).min(count);
             let mut ranges: Vec<Range<usize>> =
                 once(changed.start.saturating_sub(before)..end).collect();
             if contour.closed && changed.start < before {
@@ -93,13 +83,6 @@ impl Known {
             }
             if contour.closed && changed.end + behind > count {
                 ranges.push(0..(changed.end + behind - count).min(count));
-            }
-            let seen = self.by_rule.get_mut(number);
-            if let Some(seen) = seen.filter(|seen| !seen.observations.is_empty()) {
-                for gone in seen.observations.iter().skip(runs).flatten() {
-                    seen.counts.take(gone);
-                }
-                seen.observations.resize(runs, Vec::new());
             }
             asked.extend(
                 ranges

@@ -156,13 +156,13 @@ impl Analysis {
         let Some(before) = self.chains.piece_of(entity) else {
             return false;
         };
-        let recounted = before.count() != geometry.segment_count();
-        if recounted {
+        let is_recounted = before.count() != geometry.segment_count();
+        if is_recounted {
             self.chains.recount(drawing, entity);
             self.answers.retain(|(other, _), _| *other != key);
         }
         self.lost.remove(&key);
-        let edited = self.chains.piece_of(entity).filter(|_| !recounted);
+        let edited = self.chains.piece_of(entity).filter(|_| !is_recounted);
         let edited = edited.zip(vertices).map(|(piece, vertices)| {
             let own = segments_of(Some(vertices), piece.count(), geometry.is_closed());
             own.into_iter().map(|own| within(&piece, own)).collect()
@@ -176,15 +176,15 @@ impl Analysis {
         let mut known = Arc::unwrap_or_clone(known);
         let mut forgotten = FxHashSet::default();
         let spliced = vertices
-            .filter(|_| recounted)
+            .filter(|_| is_recounted)
             .and_then(|vertices| self.splice(drawing, key, &mut known, vertices, &mut forgotten));
-        let (vertices, recounted) = match spliced {
-            Some(vertices) => (Some(vertices), false),
-            None => (vertices, recounted),
-        };
-        if recounted {
+        if is_recounted && spliced.is_none() {
             self.pairs.renumber();
+            self.pairs.forget(key, &known.index);
+            self.learn(drawing, &[key]);
+            return true;
         }
+        let vertices = spliced.or(vertices);
         let Some(contour) = self.chains.get(key) else {
             return false;
         };
@@ -198,40 +198,25 @@ impl Analysis {
             own.extend([0..1, piece.count() - 1..piece.count()]);
         }
         let is_all = contour.pieces.len() == 1;
-        let ranges = own.into_iter().map(|range| {
-            let Range { start, end } = within(&piece, range);
-            // Later segments have other indices now; in a piece travelled against its own
-            // direction, and in the pieces after it, that reaches past the splice.
-            match (recounted, known.index.is_as_afresh()) {
-                (false, _) => start..end,
-                (true, true) => start..contour.len(),
-                (true, false) => 0..contour.len(),
-            }
-        });
+        let ranges = own.into_iter().map(|range| within(&piece, range));
         let ranges: Vec<Range<usize>> = ranges.collect();
-        // What a pair rule sees at a segment depends on its neighbours, too. Runs after a segment that came or went
-        // have other segments.
+        // What a pair rule sees at a segment depends on its neighbours, too.
         let mut runs: BTreeSet<usize> = forgotten.iter().copied().collect();
         for (nth, range) in ranges.iter().enumerate() {
             // For an entity that is a contour by itself there is nothing to check as a whole where
             // no other comes near its ends.
-            let is_end = nth >= changed && is_all && !recounted;
+            let is_end = nth >= changed && is_all;
             let bounds_of = |index: usize| known.index.bounds_of_run(known.index.run_of(index));
             if is_end && !self.pairs.comes_near_others(key, &bounds_of(range.start)) {
                 continue;
             }
             let (index, count) = (&known.index, contour.len());
             let from = range.start.saturating_sub(NEIGHBOURS);
-            if recounted {
-                let last = index.run_count().max(count.div_ceil(RUN));
-                runs.extend(index.run_of(from)..last);
-            } else {
-                runs.extend(index.runs_over(from..(range.end + NEIGHBOURS).min(count)));
-            }
-            if contour.closed && !recounted && range.start < NEIGHBOURS {
+            runs.extend(index.runs_over(from..(range.end + NEIGHBOURS).min(count)));
+            if contour.closed && range.start < NEIGHBOURS {
                 runs.extend(index.runs_over(count.saturating_sub(NEIGHBOURS)..count));
             }
-            if contour.closed && (recounted || range.end + NEIGHBOURS > count) {
+            if contour.closed && range.end + NEIGHBOURS > count {
                 runs.extend(index.runs_over(0..NEIGHBOURS.min(count)));
             }
         }
@@ -256,14 +241,15 @@ impl Analysis {
             }
         }
         for &run in &runs {
-            if run < known.index.run_count() && forgotten.insert(run) {
+            if forgotten.insert(run) {
                 self.pairs
                     .forget_run((key, run as u32), &known.index.bounds_of_run(run));
             }
         }
         for range in ranges {
             let mut changed = known.index.bounds_about(range.clone());
-            (known.index).update(drawing, contour, self.tight_below(), range.clone());
+            let runs = known.index.runs_over(range.clone());
+            (known.index).look_again(drawing, contour, self.tight_below(), runs);
             changed.merge(&known.index.bounds_about(range.clone()));
             known.check(
                 drawing,
@@ -276,15 +262,10 @@ impl Analysis {
             self.answers
                 .retain(|(other, _), (_, region)| *other != key || !region.touches(&changed));
         }
-        let count = known.index.run_count();
-        let runs = runs
-            .into_iter()
-            .filter(|&run| run < count)
-            .map(|run| (key, run as u32));
-        let runs: BTreeSet<RunId> = runs.collect();
         self.enter_known(key, Arc::new(known));
         self.note(drawing, key);
-        let runs: Vec<RunId> = runs.into_iter().chain(beginnings).collect();
+        let runs = runs.into_iter().map(|run| (key, run as u32));
+        let runs: Vec<RunId> = runs.chain(beginnings).collect();
         self.look_at_pairs(drawing, &runs);
         true
     }

@@ -16,7 +16,7 @@ const LONG: usize = 4;
 impl Analysis {
     /// Follows an edit that adds or removes vertices of an entity that is a long contour by itself: what is known of the
     /// segments after them stays, under other indices. Returns the vertices that are to be looked at, as a splice that
-    /// keeps the count; `None` where everything after it is to be looked at. The runs about the splice are `forgotten`.
+    /// keeps the count; `None`, with nothing done, where all of it is to be looked at. The runs about the splice are `forgotten`.
     pub(super) fn splice(
         &mut self,
         drawing: &Drawing,
@@ -36,17 +36,18 @@ impl Analysis {
         if piece.reversed || !is_inside || come > RUN || index.run_count() < LONG {
             return None;
         }
-        for run in index.runs_over(about) {
-            if forgotten.insert(run) {
-                let bounds = index.bounds_of_run(run);
-                self.pairs.forget_run((key, run as u32), &bounds);
-            }
-        }
+        let about = index.runs_over(about);
+        let about: Vec<_> = about.map(|run| (run, index.bounds_of_run(run))).collect();
         let behind = index.runs_over(gone.clone()).end;
         let first = index.range_of(behind).start;
         let tight = self.tight_below();
         if !index.splice(drawing, contour, tight, (gone, come)) {
             return None;
+        }
+        for (run, bounds) in about {
+            if forgotten.insert(run) {
+                self.pairs.forget_run((key, run as u32), &bounds);
+            }
         }
         let by = inserted as isize - removed as isize;
         let runs = behind as u32..index.run_count() as u32;

@@ -60,7 +60,16 @@ impl ContourIndex {
             starts: None,
             origin,
         };
-        index.extend(drawing, contour, threshold, 0);
+        for run in 0..index.run_count() {
+            let mut tight = Vec::new();
+            let segments = contour.segments_in(drawing, index.range_of(run));
+            let looked = index.look(run, segments, threshold, &mut tight);
+            match run {
+                0 => index.first = looked,
+                _ => index.others.push(looked),
+            }
+            index.tight.append(&mut tight);
+        }
         index
     }
 
@@ -82,30 +91,8 @@ impl ContourIndex {
         index
     }
 
-    /// Reads the segments of `changed` again; everything after its start when the count has changed too, and all where
-    /// the runs are not as afresh then.
-    pub(crate) fn update(
-        &mut self,
-        drawing: &Drawing,
-        contour: &Contour,
-        threshold: f64,
-        changed: Range<usize>,
-    ) {
-        if contour.len() != self.len() {
-            let kept = match self.starts.take() {
-                Some(_) => 0,
-                None => (changed.start / RUN).min(self.run_count()),
-            };
-            self.others.truncate(kept.saturating_sub(1));
-            self.tight.truncate(self.tight_before(kept * RUN));
-            self.segments = contour.len() as u32;
-            self.extend(drawing, contour, threshold, kept);
-            return;
-        }
-        self.look_again(drawing, contour, threshold, self.runs_over(changed));
-    }
-
-    fn look_again(
+    /// Reads some runs again, whose segments are as many as they were.
+    pub(crate) fn look_again(
         &mut self,
         drawing: &Drawing,
         contour: &Contour,
@@ -116,7 +103,11 @@ impl ContourIndex {
             let mut tight = Vec::new();
             let range = self.range_of(run);
             let segments = contour.segments_in(drawing, range.clone());
-            self.set_run(run, self.look(run, segments, threshold, &mut tight));
+            let looked = self.look(run, segments, threshold, &mut tight);
+            match run.checked_sub(1) {
+                None => self.first = looked,
+                Some(behind) => self.others[behind] = looked,
+            }
             let old = self.tight_before(range.start)..self.tight_before(range.end);
             self.tight.splice(old, tight);
         }
@@ -184,28 +175,6 @@ impl ContourIndex {
         }
     }
 
-    fn set_run(&mut self, run: usize, looked: Run) {
-        match run.checked_sub(1) {
-            None => self.first = looked,
-            Some(behind) if behind < self.others.len() => self.others[behind] = looked,
-            Some(_) => self.others.push(looked),
-        }
-    }
-
-    /// Reads the runs from one on.
-    fn extend(&mut self, drawing: &Drawing, contour: &Contour, threshold: f64, from: usize) {
-        if self.segments == 0 {
-            self.first = Run::EMPTY;
-        }
-        for run in from..self.run_count() {
-            let mut tight = Vec::new();
-            let segments = contour.segments_in(drawing, self.range_of(run));
-            let looked = self.look(run, segments, threshold, &mut tight);
-            self.set_run(run, looked);
-            self.tight.append(&mut tight);
-        }
-    }
-
     fn look(
         &self,
         run: usize,
@@ -258,11 +227,6 @@ impl ContourIndex {
             _ => first,
         };
         first..behind.min(self.run_count()).max(first)
-    }
-
-    /// True where the runs are those of a contour that was looked at as a whole.
-    pub(crate) fn is_as_afresh(&self) -> bool {
-        self.starts.is_none()
     }
 
     /// Twice the signed area, positive counter-clockwise; meaningful for a closed contour. Zero for a contour that

@@ -53,7 +53,6 @@ impl Document {
     pub fn edit(&mut self, range: Range<usize>, replacement: &str) -> Delta {
         let end = range.end.min(self.text.len());
         let range = range.start.min(end)..end;
-        self.read_last = 0..0;
         let vertex = self.vertex_zone(&range);
         let reference = self.reference_zone(&range, replacement);
         let run = self.vertex_run(&range);

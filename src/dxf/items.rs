@@ -39,7 +39,6 @@ impl Document {
             new_start as i64 - bytes
         });
         self.replace_findings(first, old_end.map(|end| end as usize), bytes, findings);
-        self.read_last = first..first + read.len();
         let delta = self.replace_items(first..next, read, (plan, &names), lines);
         self.tell_renamed(&names);
         self.name_unsupported();

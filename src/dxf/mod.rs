@@ -49,7 +49,7 @@ mod write;
 
 pub use write::write;
 
-use crate::drawing::{Drawing, EntityId, Unit};
+use crate::drawing::{Drawing, Unit};
 use crate::finding::{Detail, Finding, Place, Rule};
 use crate::geometry::Tolerances;
 use crate::text::{Again, SourceText};
@@ -59,7 +59,6 @@ use code_page::CodePage;
 use layer_table::LayerStates;
 use layers::Layers;
 use reading::{Reading, is_fitted};
-use std::ops::Range;
 use std::sync::Arc;
 use table::Table;
 use unit::fit_tolerance;
@@ -77,8 +76,6 @@ pub struct Document {
     table: Box<Table>,
     layers: Box<Layers>,
     suspended: Option<Box<vertex_run::Suspended>>,
-    /// Records that were read again for the last edit, unless that was everything or one vertex.
-    read_last: Range<usize>,
     is_binary: bool,
     /// The largest distance of arcs from the curves that they replace, in mm; the default where unset.
     arc_fit: Option<f64>,
@@ -204,12 +201,6 @@ impl Document {
 
     pub fn drawing(&self) -> &Arc<Drawing> {
         &self.drawing
-    }
-
-    /// The entities in the records that were read again for the last edit, including unchanged ones.
-    pub(crate) fn read_last(&self) -> impl Iterator<Item = EntityId> + '_ {
-        let items = self.table.items.get(self.read_last.clone());
-        items.into_iter().flatten().flat_map(|item| item.entities())
     }
 
     /// Faults of the text, and what in it is not cut, in the order of the text.

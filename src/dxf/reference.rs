@@ -15,7 +15,6 @@ use std::sync::Arc;
 
 /// The reference that holds an edit, its lines, and what it draws.
 pub(super) struct ReferenceZone {
-    item: usize,
     lines: Range<usize>,
     ids: Range<u32>,
 }
@@ -53,7 +52,6 @@ impl Document {
             && !self.is_at_fault(own.start, own.end)
             && !self.is_spoken_of(&own);
         (stands && is_value && is_within_line && is_number()).then(|| ReferenceZone {
-            item,
             lines: own,
             ids: first.0..first.0.saturating_add(count),
         })
@@ -112,7 +110,6 @@ impl Document {
                 delta.touched.push(Touched::Entity { entity: id });
             }
         }
-        self.read_last = zone.item..zone.item + 1;
         self.shift_findings(range.end, bytes);
         Some(delta)
     }

@@ -2,7 +2,6 @@
 
 use super::convert;
 use super::kind::Kind;
-use super::shown::{self, Shown};
 use super::transport::{Written, panic_text};
 use crate::compare::{Beside, Form};
 use crate::document::{Document, Source};
@@ -230,12 +229,11 @@ impl Content {
         encoding: Encoding,
         related_of: Option<&str>,
         settings: &Arc<Effective>,
-        shown: &mut Shown,
     ) -> (Written, usize) {
         match self {
             Content::Read(document) => {
                 let found = catch_unwind(AssertUnwindSafe(|| {
-                    shown::publish_of(Arc::make_mut(document), encoding, related_of, shown)
+                    convert::published(Arc::make_mut(document), encoding, related_of)
                 }));
                 found.unwrap_or_else(|panic| {
                     report(&*panic);

@@ -4,7 +4,8 @@ use super::transport::Written;
 use crate::document::Document;
 use crate::drawing::Entity;
 use crate::finding;
-use crate::finding::{Finding, Place, Rule};
+use crate::finding::{Finding, Place};
+use crate::job;
 use crate::protocol::{
     CodeDescription, Diagnostic, FindingData, Location, Position, Range, RelatedInformation,
     severity_number,
@@ -17,19 +18,41 @@ use serde::Serialize;
 /// The most findings in a publish.
 pub(super) const PUBLISH_LIMIT: usize = 500;
 
+/// The findings of one publish as JSON: at most [`PUBLISH_LIMIT`], errors first, then one that counts the others. And how many
+/// there are in all.
+///
+/// With the document's `uri`, for a client that shows them, the other places of a finding are included.
+pub(super) fn published(
+    document: &mut Document,
+    encoding: Encoding,
+    uri: Option<&str>,
+) -> (Written, usize) {
+    let (findings, count) = job::check(document, PUBLISH_LIMIT);
+    let told = each(document, findings.iter(), encoding, uri);
+    (written(&told), count)
+}
+
 pub(super) fn diagnostics(
     document: &Document,
     findings: &[Finding],
     encoding: Encoding,
 ) -> Vec<Diagnostic> {
-    let mut whereabouts = document.whereabouts();
     let shown = findings.iter().take(PUBLISH_LIMIT);
-    shown
-        .map(|finding| {
-            let data = FindingData::of(document, finding, &mut whereabouts);
-            diagnostic(document, finding, data, encoding, None)
-        })
-        .collect()
+    each(document, shown, encoding, None)
+}
+
+fn each<'a>(
+    document: &Document,
+    findings: impl Iterator<Item = &'a Finding>,
+    encoding: Encoding,
+    uri: Option<&str>,
+) -> Vec<Diagnostic> {
+    let mut whereabouts = document.whereabouts();
+    let shown = |finding: &Finding| {
+        let data = FindingData::of(document, finding, &mut whereabouts);
+        diagnostic(document, finding, data, encoding, uri)
+    };
+    findings.map(shown).collect()
 }
 
 /// A finding of `document` as the client is shown it.
@@ -47,26 +70,6 @@ pub(super) fn diagnostic(
         related_information: related,
         ..diagnostic_at(document, finding, data, encoding)
     }
-}
-
-/// The ranges of a finding's place and, if sent, of its other places, in the order of [`diagnostic`].
-pub(super) fn ranges_of(
-    document: &Document,
-    finding: &Finding,
-    encoding: Encoding,
-    with_related: bool,
-) -> impl Iterator<Item = Range> {
-    let related = finding
-        .related
-        .iter()
-        .filter(move |place| with_related && entity_of(document, place).is_some());
-    let own = match finding.rule {
-        Rule::More => &Place::Document,
-        _ => &finding.place,
-    };
-    std::iter::once(own)
-        .chain(related)
-        .map(move |place| range_at(document, place, encoding))
 }
 
 /// The range of a place; in a drawing the line is the index of the segment within its entity.
@@ -113,9 +116,7 @@ fn diagnostic_at(
     encoding: Encoding,
 ) -> Diagnostic {
     Diagnostic {
-        range: ranges_of(document, finding, encoding, false)
-            .next()
-            .unwrap_or_default(),
+        range: range_at(document, &finding.place, encoding),
         severity: severity_number(finding.severity),
         code: finding.rule.name().into(),
         code_description: document

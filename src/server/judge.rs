@@ -4,7 +4,6 @@
 use super::changes;
 use super::content::{Content, Remains, is_small_drawing, is_small_text};
 use super::kind::Kind;
-use super::shown::Shown;
 use super::transport::Written;
 use crate::compare::{Beside, Form};
 use crate::drawing::Drawing;
@@ -53,8 +52,6 @@ pub(super) struct Job {
     pub(crate) shows_related: bool,
     /// The last judging took long.
     pub(crate) is_slow: bool,
-    /// The findings that the client has been shown.
-    pub(crate) shown: Shown,
     pub(crate) beside: Beside,
     /// Other documents are compared with it.
     pub(crate) wants_form: bool,
@@ -67,7 +64,6 @@ pub(super) struct Judged {
     pub(crate) uri: Arc<str>,
     pub(crate) version: i64,
     pub(crate) content: Content,
-    pub(crate) shown: Shown,
     /// The findings for the client and how many there are in all; `None` where nothing has changed.
     pub(crate) told: Option<(Written, usize)>,
     /// Judging took long.
@@ -135,7 +131,6 @@ impl Job {
             encoding,
             shows_related,
             is_slow,
-            mut shown,
             beside,
             wants_form,
             has_form,
@@ -203,12 +198,10 @@ impl Job {
         let is_asked = wants_form && (is_other || !has_form);
         let form = if is_asked { content.form() } else { None };
         let related_of = shows_related.then_some(&*uri);
-        let told =
-            is_changed.then(|| content.diagnostics(encoding, related_of, &settings, &mut shown));
+        let told = is_changed.then(|| content.diagnostics(encoding, related_of, &settings));
         Judged {
             version,
             content,
-            shown,
             told,
             is_slow: began.elapsed() > LONG,
             remarks,

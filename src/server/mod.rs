@@ -25,7 +25,6 @@ mod parent;
 mod partner;
 mod projects;
 mod settings;
-mod shown;
 mod state;
 mod texts;
 mod token_memory;

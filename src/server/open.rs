@@ -4,7 +4,6 @@ use super::content::Content;
 use super::judge::Task;
 use super::kind::Kind;
 use super::links::Link;
-use super::shown::Shown;
 use super::token_memory::TokenMemory;
 use crate::compare::Form;
 use crate::document::Document;
@@ -36,8 +35,6 @@ pub(super) struct Open {
     pub(crate) is_slow: bool,
     /// Dropped at the next change, which requests about the earlier state notice.
     revision: Arc<()>,
-    /// The findings that the client has been shown, as they were written.
-    pub(crate) shown: Shown,
     /// The documents that it belongs to.
     pub(crate) link: Link,
     /// The data for comparing others with it, if there are any.
@@ -83,7 +80,6 @@ impl Open {
             published: false,
             is_slow: false,
             revision: Arc::default(),
-            shown: Shown::default(),
             link: Link::default(),
             form: None,
             tokens: Arc::default(),

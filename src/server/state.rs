@@ -356,7 +356,6 @@ impl State {
             encoding: self.encoding,
             shows_related: self.client.abilities.related_information,
             is_slow: open.is_slow,
-            shown: std::mem::take(&mut open.shown),
             beside,
             wants_form,
             has_form: open.form.is_some(),
@@ -390,7 +389,6 @@ impl State {
             uri,
             version,
             content,
-            shown,
             told,
             is_slow,
             remarks,
@@ -402,7 +400,6 @@ impl State {
             return;
         };
         (open.version, open.content, open.is_slow) = (version, content, is_slow);
-        open.shown = shown;
         let is_form_new = (is_other || form.is_some()) && open.form != form;
         if is_form_new {
             open.form = form;
