@@ -111,15 +111,13 @@ impl<C: Send + Sync, S: Clone + PartialEq + Send + Sync> Cuts<C, S> {
         }
     }
 
-    /// Replaces a range of bytes of the text and rereads what that touched. Returns the first cut that may differ from what
-    /// stood there.
+    /// Replaces a range of bytes of the text and rereads what that touched.
     pub(crate) fn edit<L>(
         &mut self,
         language: &L,
         text: &mut SourceText,
         (range, replacement): (Range<usize>, &str),
-    ) -> usize
-    where
+    ) where
         L: Reader<Cut = C, State = S>,
     {
         let end = range.end.min(text.len());
@@ -157,7 +155,6 @@ impl<C: Send + Sync, S: Clone + PartialEq + Send + Sync> Cuts<C, S> {
         let line = self.lines(from).start;
         let state = self.state_before(from).clone();
         self.read_on(language, text, [from, to], (line, state));
-        from
     }
 
     /// Runs lines from one on in place of the cuts from `from` on, of which those before `to` are gone, until one that

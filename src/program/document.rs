@@ -99,19 +99,9 @@ impl Document {
         of_language!(self, document => document.text())
     }
 
-    /// Replaces a range of bytes and rereads what it touched. Returns the first line at which the machine may stand
-    /// elsewhere than before.
-    pub fn edit(&mut self, range: Range<usize>, replacement: &str) -> usize {
-        let first = of_language!(self, document => document.edit(range, replacement));
-        let program = self.program();
-        let cuts = program.cut_count();
-        // Before all steps the machine stands where the first of them begins.
-        let mut before = 0..first.min(cuts);
-        match before.any(|cut| program.has_steps(cut)) {
-            true if first < cuts => program.first_line(first),
-            true => program.text().line_count(),
-            false => 0,
-        }
+    /// Replaces a range of bytes and rereads what it touched.
+    pub fn edit(&mut self, range: Range<usize>, replacement: &str) {
+        of_language!(self, document => document.edit(range, replacement));
     }
 
     /// Rereads where the settings change the meaning of a text or its faults; costs nothing otherwise.

@@ -30,9 +30,6 @@ pub(crate) trait Program: Sync {
     /// The first cut that may hold something that stands behind a line.
     fn first_behind(&self, line: usize) -> usize;
 
-    /// The first line of a cut.
-    fn first_line(&self, cut: usize) -> usize;
-
     /// How many contours end within a cut: pauses, except those before tabs.
     fn contours_in(&self, cut: usize) -> usize;
 

@@ -218,9 +218,8 @@ impl Document {
         Some((cut, self.run_again(cut, end, |_| {})))
     }
 
-    /// Replaces a range of bytes and runs again what it touched. Returns the first cut in which the machine may stand
-    /// elsewhere than before.
-    pub fn edit(&mut self, range: Range<usize>, replacement: &str) -> usize {
+    /// Replaces a range of bytes and runs again what it touched.
+    pub fn edit(&mut self, range: Range<usize>, replacement: &str) {
         self.repairs_before = self.repairs.take().or(self.repairs_before.take());
         self.labels = OnceLock::new();
         // The byte before belongs to the edit: a CR there may become one line end with an inserted LF.
@@ -232,7 +231,7 @@ impl Document {
             let end = range.end.min(self.text.len());
             self.text.replace(range.start.min(end)..end, replacement);
             self.read_all();
-            return 0;
+            return;
         }
         let control = Control {
             reading: self.reading,
@@ -242,17 +241,11 @@ impl Document {
             order: None,
         };
         let edit = (range, replacement);
-        let first = self.cuts.edit(&control, &mut self.text, edit);
+        self.cuts.edit(&control, &mut self.text, edit);
         self.evidence = self.evidence_of_cuts();
         match leader(&self.text) == self.leader && !self.must_run_again() {
-            true => {
-                self.look();
-                first
-            }
-            false => {
-                self.read_all();
-                0
-            }
+            true => self.look(),
+            false => self.read_all(),
         }
     }
 

@@ -115,10 +115,6 @@ impl Program for Document {
         self.order().map_or_else(|| self.cuts.first_at(line), |_| 0)
     }
 
-    fn first_line(&self, cut: usize) -> usize {
-        self.sequence().line(self.cuts.lines(cut).start)
-    }
-
     fn contours_in(&self, cut: usize) -> usize {
         let own = &self.cuts[cut];
         let is_pause = matches!(own.stop, Some((Stop::Pause, _)));

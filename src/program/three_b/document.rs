@@ -133,22 +133,15 @@ impl Document {
         }
     }
 
-    /// Replaces a range of bytes and rereads what it touched. Returns the first cut in which the machine may stand
-    /// elsewhere than before.
-    pub fn edit(&mut self, range: Range<usize>, replacement: &str) -> usize {
+    /// Replaces a range of bytes and rereads what it touched.
+    pub fn edit(&mut self, range: Range<usize>, replacement: &str) {
         let reader = Lines {
             words: self.words.words(),
             limits: &self.limits,
         };
         let edit = (range, replacement);
-        let first = self.cuts.edit(&reader, &mut self.text, edit);
-        let taken = std::mem::take(&mut self.view.taken);
-        let begin = self.view.begins.first().copied();
+        self.cuts.edit(&reader, &mut self.text, edit);
         self.judge_again();
-        match self.view.begins.first().copied() == begin {
-            true => first.min(self.first_taken_elsewhere(&taken)),
-            false => 0,
-        }
     }
 
     fn entry(&self, at: At) -> Option<&Entry> {

@@ -16,7 +16,7 @@ const BACKLOG: usize = 32 * 1024 * 1024;
 /// Bodies up to this length, and diagnostics, are copied after their header; longer ones are not held twice.
 const ONE_WRITE: usize = 1024 * 1024;
 
-/// JSON text: the diagnostics of a document, of which an edit makes only some anew.
+/// JSON text: the diagnostics of a document, written where they are made and not by the thread that sends them.
 #[derive(Clone, Debug)]
 pub(crate) struct Written(Vec<u8>);
 
@@ -27,13 +27,6 @@ impl Default for Written {
     }
 }
 
-impl From<Vec<u8>> for Written {
-    /// Takes finished JSON.
-    fn from(json: Vec<u8>) -> Written {
-        Written(json)
-    }
-}
-
 impl Written {
     pub(crate) fn of(result: &impl Serialize) -> serde_json::Result<Written> {
         serde_json::to_vec(result).map(Written)
@@ -41,10 +34,6 @@ impl Written {
 
     pub(crate) fn json(&self) -> &[u8] {
         &self.0
-    }
-
-    pub(crate) fn into_json(self) -> Vec<u8> {
-        self.0
     }
 }
 

@@ -94,18 +94,6 @@ impl Document {
         begins.collect()
     }
 
-    /// The first cut in which the wire is taken elsewhere by hand than it was `before`.
-    pub(super) fn first_taken_elsewhere(&self, before: &[(At, Vector)]) -> usize {
-        let now = &self.view.taken;
-        let same = before
-            .iter()
-            .zip(now)
-            .take_while(|(before, now)| before == now);
-        let same = same.count();
-        let others = [before.get(same), now.get(same)].into_iter().flatten();
-        others.map(|(at, _)| at.cut).min().unwrap_or(usize::MAX)
-    }
-
     /// How far the wire was taken before a block, µm.
     pub(super) fn taken_before(&self, at: At) -> Option<Vector> {
         let taken = &self.view.taken;
@@ -149,10 +137,6 @@ impl Program for Document {
 
     fn first_behind(&self, line: usize) -> usize {
         self.cuts.first_at(line)
-    }
-
-    fn first_line(&self, cut: usize) -> usize {
-        self.cuts.lines(cut).start
     }
 
     fn contours_in(&self, cut: usize) -> usize {
