@@ -7,6 +7,7 @@ use super::drawings::{self, Sent, SentChanges};
 use super::errors::internal;
 use super::handlers::*;
 use super::state::{Mailbox, Reply, State};
+use super::transport::AsWritten;
 use super::{parent, texts};
 use crate::protocol::RulePageText;
 use crate::protocol::method::{Message, SCALE_COMMAND, messages};
@@ -20,7 +21,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use tower_lsp::jsonrpc::{Error, Result};
 use tower_lsp::{LanguageServer, LspService, LspServiceBuilder};
 
-/// A request about an open document.
+/// A request about an open document. Its result leaves as text, whatever its size.
 struct Method<P, R> {
     name: &'static str,
     /// The title of its progress.
@@ -42,7 +43,7 @@ macro_rules! requests {
                 reach: Reach::$reach,
                 handler: $handler,
             };
-            self.perform(method, About::from(&params), params).await
+            self.answer(method, About::from(&params), params).await
         }
     )*};
 }
@@ -52,18 +53,18 @@ macro_rules! requests {
 macro_rules! own_requests {
     ($($name:ident: $message:ident, $reach:ident, $title:ident => $handler:path;)*) => {
         impl Backend {$(
-            async fn $name(
-                &self,
-                params: Value,
-            ) -> Result<<messages::$message as Message>::Answer> {
+            async fn $name(&self, params: Value) -> Result<Value> {
                 let (params, about) = read(params)?;
-                let method = Method {
+                let method = Method::<
+                    <messages::$message as Message>::Params,
+                    <messages::$message as Message>::Answer,
+                > {
                     name: messages::$message::NAME,
                     title: say!($title),
                     reach: Reach::$reach,
                     handler: $handler,
                 };
-                self.perform(method, about, params).await
+                self.answer(method, about, params).await
             }
         )*}
 
@@ -222,7 +223,9 @@ impl LanguageServer for Backend {
             uri: factor.uri.as_str().into(),
             ..About::default()
         };
-        let edit = self.perform(scaling, about, factor).await?;
+        let edit = self
+            .perform(scaling, about, factor, |result| result)
+            .await?;
         self.ask(ExecuteCommand::METHOD, None, move |state, reply| {
             commands::apply_edit(state, edit, reply)
         })
@@ -310,13 +313,15 @@ impl Backend {
             .unwrap_or_else(|_| Err(internal(say!(internal_error_in, name))))
     }
 
-    /// Has a request about a document answered in its turn. It is cancelled with this future.
-    async fn perform<P: Send + 'static, R: Send + 'static>(
+    /// Has a request about a document answered in its turn; `finish` makes the result. It is cancelled with this
+    /// future.
+    async fn perform<P: Send + 'static, R: 'static, T: Send + 'static>(
         &self,
         method: Method<P, R>,
         about: About,
         params: P,
-    ) -> Result<R> {
+        finish: impl FnOnce(Result<R>) -> Result<T> + Send + 'static,
+    ) -> Result<T> {
         let alive = Arc::new(());
         let Method {
             name,
@@ -333,9 +338,26 @@ impl Backend {
             client: Arc::downgrade(&alive),
         };
         self.ask(name, Some(uri), move |state, reply| {
-            state.answer(asked, reply, move |context| handler(context, params));
+            state.answer(asked, reply, move |context| {
+                finish(handler(context, params))
+            });
         })
         .await
+    }
+
+    /// Answers with text, which replaces the framework's empty result.
+    async fn answer<P: Send + 'static, R: AsWritten + 'static, T: Default>(
+        &self,
+        method: Method<P, R>,
+        about: About,
+        params: P,
+    ) -> Result<T> {
+        let written = |result: Result<R>| {
+            let answer = result?.written();
+            answer.map_err(|error| internal(error.to_string()))
+        };
+        self.perform(method, about, params, written).await?.leave();
+        Ok(T::default())
     }
 
     fn ignored(&self, method: &str, reason: &str) {
@@ -379,13 +401,14 @@ impl Backend {
     }
 
     /// The settings in force do not depend on the document's content: this does not wait for judging.
-    async fn settings(&self, params: Value) -> Result<<messages::Settings as Message>::Answer> {
+    async fn settings(&self, params: Value) -> Result<Value> {
         let (params, _) = read::<<messages::Settings as Message>::Params>(params)?;
         self.ask(messages::Settings::NAME, None, move |state, reply| {
             let folder = state.config.folder_of(&params.uri);
             state.look_for_file(folder, Vec::new(), move |state, file| {
                 let in_force = settings::settings(state, &params.uri, file.as_deref());
-                let _ = reply.send(Ok(in_force));
+                let in_force = serde_json::to_value(in_force);
+                let _ = reply.send(in_force.map_err(|error| internal(error.to_string())));
             });
         })
         .await

@@ -1,13 +1,16 @@
-//! `textDocument/semanticTokens`: of the whole text, of the changes in it, and of the visible lines.
+//! `textDocument/semanticTokens`: of the whole text, of the changes in it, and of the visible lines. The answers leave
+//! as JSON text: the tokens of a large text take only eight bytes each.
 
 use crate::ide::{Token, TokenKind, tokens_in};
 use crate::server::context::RequestContext;
+use crate::server::token_memory::{Difference, Fields, Packed};
+use crate::server::transport::Written;
 use crate::text::{Encoding, SourceText};
 use ls_types::{
-    Range, SemanticToken, SemanticTokenType, SemanticTokens, SemanticTokensDelta,
-    SemanticTokensDeltaParams, SemanticTokensFullDeltaResult, SemanticTokensParams,
-    SemanticTokensRangeParams, SemanticTokensRangeResult, SemanticTokensResult,
+    Range, SemanticTokenType, SemanticTokensDeltaParams, SemanticTokensParams,
+    SemanticTokensRangeParams,
 };
+use std::sync::Arc;
 use tower_lsp::jsonrpc::Result;
 
 /// Tokens of one answer about a whole text.
@@ -38,59 +41,82 @@ fn type_of(kind: TokenKind) -> SemanticTokenType {
 pub(in crate::server) fn full(
     context: &RequestContext,
     _: SemanticTokensParams,
-) -> Result<Option<SemanticTokensResult>> {
-    let Some(data) = all(context)? else {
-        return Ok(None);
+) -> Result<Written> {
+    let Some(tokens) = all(context)? else {
+        return Ok(Written::null());
     };
-    let result_id = result_id(context);
-    if result_id.is_some() {
-        context.tokens.replace(None, context.stamp, &data);
-    }
-    Ok(Some(SemanticTokens { result_id, data }.into()))
+    let (result_id, _) = kept(context, None, &tokens);
+    Ok(whole(result_id, &tokens))
 }
 
 /// Answers with the difference to the answer that the client names, if that is known, else with all tokens.
 pub(in crate::server) fn delta(
     context: &RequestContext,
     params: SemanticTokensDeltaParams,
-) -> Result<Option<SemanticTokensFullDeltaResult>> {
-    let result_id = result_id(context);
+) -> Result<Written> {
     let previous = params.previous_result_id;
-    if result_id.is_some() && context.tokens.is_current(&previous, context.stamp) {
-        let edits = Vec::new();
-        return Ok(Some(SemanticTokensDelta { result_id, edits }.into()));
+    if context.abilities.token_deltas && context.tokens.is_current(&previous, context.stamp) {
+        return Ok(edits(Some(previous), None));
     }
-    let Some(data) = all(context)? else {
-        return Ok(None);
+    let Some(tokens) = all(context)? else {
+        return Ok(Written::null());
     };
-    let edit = match result_id {
-        Some(_) => context
-            .tokens
-            .replace(Some(&previous), context.stamp, &data),
-        None => None,
-    };
-    Ok(Some(match edit {
-        Some(edit) => {
-            let edits = vec![edit];
-            SemanticTokensDelta { result_id, edits }.into()
-        }
-        None => SemanticTokens { result_id, data }.into(),
-    }))
+    Ok(match kept(context, Some(&previous), &tokens) {
+        (result_id, Some(edit)) => edits(result_id, Some((edit, &tokens))),
+        (result_id, None) => whole(result_id, &tokens),
+    })
 }
 
-/// The name of an answer, a number, where the client asks for differences.
-fn result_id(context: &RequestContext) -> Option<String> {
-    let is_named = context.abilities.token_deltas;
-    is_named.then(|| context.stamp.to_string())
+/// Remembers the tokens sent, where the client asks for differences; returns the name of the answer, and the difference
+/// to `previous`.
+fn kept(
+    context: &RequestContext,
+    previous: Option<&str>,
+    tokens: &Arc<Packed>,
+) -> (Option<String>, Option<Difference>) {
+    if context.abilities.token_deltas {
+        context.tokens.replace(previous, context.stamp, tokens)
+    } else {
+        (None, None)
+    }
+}
+
+/// `SemanticTokens`. The name of an answer is a number.
+fn whole(result_id: Option<String>, tokens: &Packed) -> Written {
+    let mut json = named(result_id);
+    json.extend_from_slice(b"\"data\":");
+    tokens.write(0..tokens.len(), &mut json);
+    json.push(b'}');
+    json.into()
+}
+
+/// `SemanticTokensDelta` of at most one edit.
+fn edits(result_id: Option<String>, edit: Option<(Difference, &Packed)>) -> Written {
+    let mut json = named(result_id);
+    json.extend_from_slice(b"\"edits\":[");
+    if let Some((edit, tokens)) = edit {
+        let (start, count) = (edit.start, edit.delete_count);
+        let head = format!("{{\"start\":{start},\"deleteCount\":{count},\"data\":");
+        json.extend_from_slice(head.as_bytes());
+        tokens.write(edit.tokens, &mut json);
+        json.push(b'}');
+    }
+    json.extend_from_slice(b"]}");
+    json.into()
+}
+
+fn named(result_id: Option<String>) -> Vec<u8> {
+    let id = result_id.map(|id| format!("\"resultId\":\"{id}\","));
+    format!("{{{}", id.unwrap_or_default()).into_bytes()
 }
 
 /// All tokens, up to [`LIMIT`]; `None` where the document has none.
-fn all(context: &RequestContext) -> Result<Option<Vec<SemanticToken>>> {
+fn all(context: &RequestContext) -> Result<Option<Arc<Packed>>> {
     let Some(whole) = context.whole() else {
         return Ok(None);
     };
     let text = whole.text();
-    let mut encoder = Encoder::new(text, context.encoding);
+    let mut encoder = Encoder::new(text, context.encoding, text.line_count().min(LIMIT));
     whole.tokens(LIMIT, &|| context.is_cancelled(), |token| {
         encoder.push(token)
     })?;
@@ -101,30 +127,26 @@ fn all(context: &RequestContext) -> Result<Option<Vec<SemanticToken>>> {
         );
     }
     context.check()?;
-    Ok(Some(encoder.tokens))
+    Ok(Some(Arc::new(encoder.tokens)))
 }
 
 pub(in crate::server) fn range(
     context: &RequestContext,
     params: SemanticTokensRangeParams,
-) -> Result<Option<SemanticTokensRangeResult>> {
+) -> Result<Written> {
     let Range { start, end } = params.range;
     let first = start.line as usize;
     // A range that ends at the beginning of a line does not touch it.
     let end = end.line as usize + usize::from(end.character > 0);
     let lines = first..end.min(first.saturating_add(LINES));
     let Some((document, text)) = context.document_and_text() else {
-        return Ok(None);
+        return Ok(Written::null());
     };
-    let mut encoder = Encoder::new(text, context.encoding);
+    let mut encoder = Encoder::new(text, context.encoding, 0);
     for token in tokens_in(document, lines) {
         encoder.push(token);
     }
-    let tokens = SemanticTokens {
-        result_id: None,
-        data: encoder.tokens,
-    };
-    Ok(Some(tokens.into()))
+    Ok(whole(None, &encoder.tokens))
 }
 
 /// Counts tokens as the client does, each from the one before.
@@ -139,11 +161,11 @@ struct Encoder<'a> {
     /// A byte of the line and its character, so that nothing is counted twice: a whole program may be one line.
     known: usize,
     counted: usize,
-    tokens: Vec<SemanticToken>,
+    tokens: Packed,
 }
 
 impl<'a> Encoder<'a> {
-    fn new(text: &'a SourceText, encoding: Encoding) -> Encoder<'a> {
+    fn new(text: &'a SourceText, encoding: Encoding, capacity: usize) -> Encoder<'a> {
         Encoder {
             text,
             encoding,
@@ -152,7 +174,7 @@ impl<'a> Encoder<'a> {
             character: 0,
             known: 0,
             counted: 0,
-            tokens: Vec::new(),
+            tokens: Packed::with_capacity(capacity),
         }
     }
 
@@ -175,13 +197,13 @@ impl<'a> Encoder<'a> {
         let from = self.counted + before;
         let length = self.text.counted(at, end, self.encoding).1;
         let number = |number: usize| u32::try_from(number).unwrap_or(u32::MAX);
-        self.tokens.push(SemanticToken {
-            delta_line: number(delta_line),
-            delta_start: number(from.saturating_sub(self.character)),
-            length: number(length),
-            token_type: token.kind as u32,
-            token_modifiers_bitset: 0,
-        });
+        let fields: Fields = [
+            number(delta_line),
+            number(from.saturating_sub(self.character)),
+            number(length),
+            token.kind as u32,
+        ];
+        self.tokens.push(fields);
         (self.known, self.counted, self.character) = (at, from, from);
     }
 }

@@ -13,10 +13,12 @@ mod message;
 mod stdio;
 mod weight;
 mod writer;
+mod written;
 
 pub(crate) use lost::LostChange;
 pub(crate) use memory::give_back;
-pub(crate) use writer::{Publish, Writer, Written};
+pub(crate) use writer::{Publish, Writer};
+pub(crate) use written::{AsWritten, Written};
 
 #[cfg_attr(not(feature = "testing"), allow(unreachable_pub))]
 pub use frame::{Frame, Frames};
@@ -36,6 +38,7 @@ use std::time::{Duration, Instant};
 use tower::Service;
 use tower_lsp::jsonrpc::{Error, ErrorCode, Id, Request, Response};
 use tower_lsp::{ExitedError, LanguageServer, LspService};
+use written::{REPLY, Reply};
 
 pub(crate) use stdio::pipes;
 
@@ -66,8 +69,7 @@ pub(crate) struct Transport<S, I> {
 impl<S: LanguageServer, I: Inbox> Transport<S, I> {
     pub(crate) fn new(service: LspService<S>, inbox: I, writer: Writer) -> std::io::Result<Self> {
         let runtime = tokio::runtime::Builder::new_multi_thread()
-            // While one makes JSON of a long answer, the other goes on.
-            .worker_threads(2)
+            .worker_threads(1)
             .enable_time()
             .thread_name("wedm-replies")
             .build()?;
@@ -170,20 +172,21 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
         });
         let taken = self.inbox.taken();
         let guard = self.runtime.enter();
+        let reply = Reply::default();
         let answer = match catch_unwind(AssertUnwindSafe(|| self.service.call(request))) {
             Ok(answer) => Guarded {
-                answer: Box::pin(answer),
+                answer: Box::pin(REPLY.scope(reply.clone(), answer)),
             },
             Err(panic) => {
                 drop(guard);
-                return self.finish(id, Err(panic));
+                return self.finish(&reply, id, Err(panic));
             }
         };
         drop(guard);
         // `initialize` ends before the next message: a client that sends `didOpen` right after it loses nothing.
         if inline {
             let outcome = self.runtime.block_on(answer);
-            return self.finish(id, outcome);
+            return self.finish(&reply, id, outcome);
         }
         let mut answer = answer;
         let first = {
@@ -202,21 +205,21 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
                         uris: uri.into_iter().collect(),
                     }));
                 }
-                self.finish(id, outcome);
+                self.finish(&reply, id, outcome);
             }
             Poll::Pending => {
                 self.waiting.fetch_add(1, Ordering::AcqRel);
                 let (writer, waiting) = (self.writer.clone(), self.waiting.clone());
                 self.runtime.spawn(async move {
                     let outcome = answer.await;
-                    finish(&writer, id, outcome);
+                    finish(&writer, &reply, id, outcome);
                     waiting.fetch_sub(1, Ordering::AcqRel);
                 });
             }
         }
     }
 
-    fn finish(&mut self, id: Option<Id>, outcome: Outcome) {
+    fn finish(&mut self, reply: &Reply, id: Option<Id>, outcome: Outcome) {
         if outcome.is_err()
             && let Some(id) = &id
         {
@@ -230,7 +233,7 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
                 .as_mut()
                 .poll(&mut Context::from_waker(Waker::noop()));
         }
-        finish(&self.writer, id, outcome);
+        finish(&self.writer, reply, id, outcome);
     }
 
     fn answer_broken(&self, error: Error, position: i64) {
@@ -253,7 +256,7 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
 /// The end of a handler: its answer, or its panic.
 type Outcome = Result<Result<Option<Response>, ExitedError>, Box<dyn Any + Send>>;
 
-fn finish(writer: &Writer, id: Option<Id>, outcome: Outcome) {
+fn finish(writer: &Writer, reply: &Reply, id: Option<Id>, outcome: Outcome) {
     let response = match outcome {
         Ok(Ok(response)) => response,
         Ok(Err(_exited)) => None,
@@ -273,8 +276,10 @@ fn finish(writer: &Writer, id: Option<Id>, outcome: Outcome) {
             })
         }
     };
-    if let Some(response) = response {
-        writer.send_json(&response);
+    let Some(response) = response else { return };
+    match reply.body(&response) {
+        Ok(body) => writer.send(body),
+        Err(error) => tracing::error!("a reply cannot be written: {error}"),
     }
 }
 

@@ -3,6 +3,7 @@
 //! Diagnostics wait in a slot for each document, where newer ones replace older ones; everything else waits in order.
 //! The reading thread pauses while too much waits: a client that stops reading cannot make memory grow.
 
+use super::Written;
 use rustc_hash::FxHashMap;
 use serde::Serialize;
 use std::collections::VecDeque;
@@ -15,27 +16,6 @@ const BACKLOG: usize = 32 * 1024 * 1024;
 
 /// Bodies up to this length, and diagnostics, are copied after their header; longer ones are not held twice.
 const ONE_WRITE: usize = 1024 * 1024;
-
-/// JSON text: the diagnostics of a document, written where they are made and not by the thread that sends them.
-#[derive(Clone, Debug)]
-pub(crate) struct Written(Vec<u8>);
-
-impl Default for Written {
-    /// An empty array.
-    fn default() -> Written {
-        Written(b"[]".to_vec())
-    }
-}
-
-impl Written {
-    pub(crate) fn of(result: &impl Serialize) -> serde_json::Result<Written> {
-        serde_json::to_vec(result).map(Written)
-    }
-
-    pub(crate) fn json(&self) -> &[u8] {
-        &self.0
-    }
-}
 
 /// Params of `textDocument/publishDiagnostics`. The URI is the client's own spelling.
 #[derive(Clone, Debug)]
