@@ -57,3 +57,29 @@ seeds! {
     three_b_controller
     three_b_reader
 }
+
+/// The targets have a lock file of their own, with which `fuzz/run` builds them.
+#[test]
+fn the_lock_file_of_the_targets_knows_what_wedm_needs() {
+    let manifest: toml::Table = include_str!("../Cargo.toml").parse().unwrap();
+    let lock: toml::Table = include_str!("../fuzz/Cargo.lock").parse().unwrap();
+    let packages = lock["package"].as_array().unwrap();
+    let wedm = packages
+        .iter()
+        .find(|package| package["name"].as_str() == Some("wedm"));
+    let known = wedm.unwrap()["dependencies"].as_array().unwrap();
+    for (name, stated) in manifest["dependencies"].as_table().unwrap() {
+        let package = stated
+            .get("package")
+            .and_then(toml::Value::as_str)
+            .unwrap_or(name);
+        // Where a crate is there in two versions, its version follows.
+        let is_it = |known: &toml::Value| {
+            known.as_str().and_then(|known| known.split(' ').next()) == Some(package)
+        };
+        assert!(
+            known.iter().any(is_it),
+            "fuzz/Cargo.lock lacks {package}: `cargo check` in fuzz/ writes it"
+        );
+    }
+}
