@@ -173,6 +173,69 @@ fn chords_without_number_are_made_arcs_by_one_fix() {
     assert!(all_segments(&drawing) <= 5, "{}", all_segments(&drawing));
 }
 
+/// Chords so short that the rounding of their ends to 0.001 mm turns them more than the arc does.
+#[test]
+fn the_rounding_of_short_chords_hides_no_arc() {
+    let arc = |[x, y, r]: [f64; 3], from: f64, sweep: f64, chords: usize| {
+        let at = move |nth: usize| {
+            let angle = from + sweep * nth as f64 / chords as f64;
+            let rounded = |value: f64| (value * 1e3).round() / 1e3;
+            (
+                rounded(x + r * angle.cos()),
+                rounded(y + r * angle.sin()),
+                0.0,
+            )
+        };
+        (0..=chords).map(at)
+    };
+    for (chords, radius) in [
+        (60, 1.0),
+        (360, 1.0),
+        (1000, 1.0),
+        (720, 5.0),
+        (1000, 5.0),
+        (3000, 20.0),
+    ] {
+        let corners: Vec<_> = arc([3.0, 4.0, radius], 0.0, 2.0 * PI, chords)
+            .skip(1)
+            .collect();
+        becomes(&corners, 1, 2);
+    }
+    for chords in [10, 40, 150, 400] {
+        let ends = [(10.0, -0.5 * PI), (-10.0, 0.5 * PI)];
+        let slot = ends.map(|(x, from)| arc([x, 0.0, 3.0], from, PI, chords));
+        becomes(&slot.into_iter().flatten().collect::<Vec<_>>(), 2, 4);
+        let corners = [(10.0, 5.0), (-10.0, 5.0), (-10.0, -5.0), (10.0, -5.0)];
+        let rounded = (0..4).flat_map(|nth| {
+            let (x, y) = corners[nth];
+            arc([x, y, 1.5], 0.5 * PI * nth as f64, 0.5 * PI, chords)
+        });
+        becomes(&rounded.collect::<Vec<_>>(), 4, 8);
+    }
+}
+
+/// A closed outline of chords has one finding, of so many arcs, and "fix all" leaves so many segments.
+fn becomes(corners: &[(f64, f64, f64)], arcs: usize, segments: usize) {
+    let mut drawing = closed(corners).as_polyline(None);
+    let of_chords = |drawing: &Drawing| {
+        let (analysis, findings) = analysed(drawing);
+        let finding = findings
+            .into_iter()
+            .find(|its| its.rule == Rule::ArcAsChords);
+        finding.map(|finding| (analysis.fixes(drawing, &finding), finding))
+    };
+    let found = match of_chords(&drawing).map(|(_, finding)| finding.detail) {
+        Some(Detail::ArcAsChords { .. }) => 1,
+        Some(Detail::ArcsAsChords { arcs, .. }) => arcs,
+        _ => 0,
+    };
+    assert_eq!(found, arcs, "{} chords", corners.len());
+    while let Some((fixes, _)) = of_chords(&drawing) {
+        drawing.apply(&fixes[0].edit).unwrap();
+    }
+    assert_eq!(all_segments(&drawing), segments, "{} chords", corners.len());
+}
+
 fn all_segments(drawing: &Drawing) -> usize {
     drawing
         .entities()
