@@ -12,7 +12,7 @@ use super::super::repair::{
 use super::super::rules::TextFix;
 use super::contours::OneContour;
 use super::{At, Document};
-use crate::finding::{Fault, Finding, FixKind, Rule};
+use crate::finding::{Detail, Fault, Finding, FixKind, Rule};
 use crate::program::grid::Node;
 use crate::program::repair::offered;
 use crate::program::three_b::block::{Block, Motion};
@@ -23,6 +23,12 @@ impl Document {
     /// The repairs of the contour with a finding, the most likely one first.
     pub(super) fn contour_fixes(&self, finding: &Finding) -> Option<Vec<TextFix>> {
         let range = finding.place.in_text()?;
+        // The contour closes: nothing in it is to be repaired.
+        if let Detail::Program(fault) = &finding.detail
+            && matches!(**fault, Fault::EndsElsewhere { .. })
+        {
+            return None;
+        }
         let scope = match finding.rule {
             Rule::NotClosed
             | Rule::PathCrossesItself
