@@ -115,7 +115,7 @@ fn the_wire_comes_from_what_drops_out() {
                 .into_iter()
                 .enumerate()
                 {
-                    let is_left_out = !(number + shape + nth).is_multiple_of(by_day(3, 1));
+                    let is_left_out = !(number + shape + nth).is_multiple_of(by_day(5, 1));
                     if is_left_out || !keys.is_empty() && clearance != 0.15 {
                         continue;
                     }

@@ -248,7 +248,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: cases(by_day(2, 4)), failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: cases(by_day(1, 4)), failure_persistence: None, ..ProptestConfig::default() })]
 
     /// Of many runs, in rows over each other, with teeth that are pointed or square: what depends on runs that an edit does not reach
     /// is kept, also while a vertex that is thrown across them makes the contour cross itself.

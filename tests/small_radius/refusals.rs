@@ -2,6 +2,7 @@
 //! is mended as the same arc is elsewhere.
 
 use super::support::{drawing_of, faults};
+use crate::size::by_day;
 use crate::star::{Corner, Star, star};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
@@ -113,7 +114,7 @@ fn cases(usual: u32) -> u32 {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: cases(30), failure_persistence: None, rng_seed: RngSeed::Fixed(20261122), ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: cases(by_day(4, 30)), failure_persistence: None, rng_seed: RngSeed::Fixed(20261122), ..ProptestConfig::default() })]
 
     #[test]
     fn every_refusal_says_why(star in star(), role in 0..3usize, share in 0.1..0.9f64, decimals in 3..13i32) {

@@ -98,6 +98,8 @@ class Ended:
     seconds: float
     log: str
     why: str
+    # Seconds of the processor, of all that it waited for.
+    worked: float = 0
 
 
 class Run:
@@ -195,7 +197,8 @@ class Run:
                     self.spoke = time.monotonic()
                     sys.stdout.buffer.write(text)
                     sys.stdout.flush()
-            code = process.wait()
+            _, status, usage = os.wait4(process.pid, 0)
+            code = process.returncode = os.waitstatus_to_exitcode(status)
             if not ticking.is_alive():
                 why = f"(ended after {part.limit} s, its limit)"
             ticking.cancel()
@@ -203,7 +206,8 @@ class Run:
         end_group(process)
         del self.running[part.name]
         text = path.read_text(errors="replace")
-        return Ended(part, part.counts(text, code), time.monotonic() - begin, text, why)
+        worked = usage.ru_utime + usage.ru_stime
+        return Ended(part, part.counts(text, code), time.monotonic() - begin, text, why, worked)
 
     def summary(self) -> int:
         everything, failed = Counts(), []
@@ -217,7 +221,9 @@ class Run:
                 continue
             print(f"\n== {ended.part.name} failed {ended.why}; all that it printed: target/tests/{ended.part.name}.log")
             print("\n".join(shown(ended.log.splitlines())))
-        print("\ntime: " + ", ".join(f"{part.name} {self.results[part.name].seconds:.0f} s" for part in self.parts), end="")
+        # By the clock, and of the processor.
+        times = [(part.name, self.results[part.name]) for part in self.parts]
+        print("\ntime: " + ", ".join(f"{name} {ended.seconds:.0f} s ({ended.worked:.0f} s)" for name, ended in times), end="")
         print(f", together {clock(time.monotonic() - self.began)}")
         for ended in failed:
             for reason in reasons(ended):
