@@ -1,6 +1,6 @@
 //! ISO text as an open document: its lines, their effects, and what an edit leaves unchanged.
 
-use super::block::{Block, Offset};
+use super::block::{Block, Register};
 use super::control::{Control, way_of};
 use super::cut::{Cut, Entry, Heard};
 use super::evidence::{Evidence, UsualDecimals};
@@ -114,12 +114,12 @@ impl Document {
     }
 
     /// The correction in a place of the control's table, µm: from the program's own table, else the settings.
-    pub(super) fn correction(&self, offset: Option<Offset>) -> f64 {
+    pub(super) fn correction(&self, offset: Option<Register>) -> f64 {
         correction_in(&self.table, &self.limits, offset)
     }
 
     /// The same where the program itself states it.
-    pub(super) fn stated_correction(&self, offset: Option<Offset>) -> Option<f64> {
+    pub(super) fn stated_correction(&self, offset: Option<Register>) -> Option<f64> {
         stated_in(&self.table, offset)
     }
 

@@ -296,7 +296,7 @@ fn closing_fix(document: &Document, range: &Range<usize>) -> Option<TextFix> {
     let begun = document.begun_cut_with(line);
     let machine = document.machine_behind(line)?;
     let near = |place: Place| distance(machine.at, place);
-    let [from, to] = [0, 1].map(|node| nanometres(begun.node(node).machine));
+    let [from, to] = [0, 1].map(|node| nanometres(begun.node(node).machine.coords));
     let target = if begun.count() > 2 && near(to) < near(from) {
         to
     } else {
