@@ -43,7 +43,7 @@ fn searched(document: &Document, finding: &Finding) -> Option<Vec<TextFix>> {
         return None;
     }
     let line = document.text().line_of(finding.place.in_text()?.start);
-    let mut of_cuts = document.repairs().of_cuts.iter();
+    let mut of_cuts = document.repairs().iter();
     let (_, repairs) = of_cuts.find(|(lines, _)| lines.contains(&line))?;
     let found = repairs
         .iter()

@@ -233,8 +233,4 @@ impl Cut for Suspect<'_> {
         let own = self.pieces.all.get(index..index + count);
         self.beside.likeness(own.unwrap_or_default(), pieces)
     }
-
-    fn offers_lost(&self) -> bool {
-        true
-    }
 }
