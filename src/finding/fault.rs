@@ -80,13 +80,6 @@ faults! {
             say!(j_is_not_the_projection_of_the_line, j, axis, projection, off, how)
         }
     };
-    /// J does not lead to the contour's end: with `meant` it closes.
-    JKeepsOpen {
-        j: i64,
-        meant: i64,
-        /// Evidence other than the closing supports it.
-        is_sure: bool
-    } [Rule::WrongJ] => keeps_open(&format!("J {j}"), &format!("J {meant}"), *is_sure);
     /// J is more than one turn counts.
     JOverTurn { j: i64, turn: i64 } [Rule::JOverTurn] => say!(j_is_more_than_one_turn_counts, j, turn);
     /// R of a 4B block is not √(X² + Y²), µm.
@@ -96,33 +89,22 @@ faults! {
         let [own, other] = [*axis, axis.other()].map(Axis::letter);
         say!(g_counts_the_smaller_projection, own, counted, larger, other)
     };
-    /// With the other axis the contour closes.
-    AxisKeepsOpen {
-        axis: Axis,
-        /// Evidence other than the closing supports it.
-        is_sure: bool
-    } [Rule::WrongCountingAxis] => {
-        let [own, other] = [*axis, axis.other()].map(|axis| format!("G{}", axis.letter()));
-        keeps_open(&own, &other, *is_sure)
-    };
     /// `found` is not the quadrant of a line along an axis.
     AxisQuadrant { found: &'static str, expected: [&'static str; 2], axis: Axis } [Rule::WrongQuadrant]
         => say!(contradicts_a_line_along_an_axis, found, axis.letter(), expected[0], expected[1]);
     /// The same where the contour closes with it: a zero has no sign.
     UnusualQuadrant { found: &'static str, expected: [&'static str; 2], axis: Axis } [Rule::WrongQuadrant]
         => say!(is_unusual_for_a_line_along_an_axis, found, axis.letter(), expected[0], expected[1]);
-    /// With `meant` instead of `found` the contour closes.
-    QuadrantKeepsOpen {
-        found: &'static str,
-        meant: &'static str,
+    /// With `meant` instead of `found` in a field of the block the contour closes.
+    FieldKeepsOpen {
+        rule: Rule,
+        found: String,
+        meant: String,
+        /// The same of a number, µm.
+        numbers: Option<[i64; 2]>,
         /// Evidence other than the closing supports it.
         is_sure: bool
-    } [Rule::WrongQuadrant] => keeps_open(found, meant, *is_sure);
-    /// With `meant` instead of `value` the contour closes.
-    NumberKeepsOpen { axis: Axis, value: i64, meant: i64 } [Rule::SuspectBlock] => {
-        let [found, meant] = [value, meant].map(|number| format!("{} {number}", axis.letter()));
-        keeps_open(&found, &meant, true)
-    };
+    } [*rule] => keeps_open(found, meant, *is_sure);
     /// With X and Y exchanged the contour closes.
     ExchangedKeepsOpen [Rule::SuspectBlock] => say!(x_and_y_stand_for_each_other);
     /// The block is repeated: without it the contour closes.

@@ -14,7 +14,7 @@ use self::switches::Parted;
 
 use super::document::Document;
 use super::format::Format;
-use super::iso::{self, Offset};
+use super::iso::{self, Register};
 use super::path::{Follower, Kind, MOST_BY_BULGE, tolerance};
 use crate::drawing::EntityId;
 use crate::finding::Side;
@@ -45,9 +45,9 @@ pub struct CutPath {
     /// The line in which that changes within the contour, from 0.
     pub(crate) switched: Option<usize>,
     /// Where the control finds the correction by which it does.
-    offset: Option<Offset>,
+    offset: Option<Register>,
     /// The line in which another place is named before the correction is switched off, from 0, and that place.
-    renamed: Option<(usize, Offset)>,
+    renamed: Option<(usize, Register)>,
     /// It begins where the one before it ends, and nothing stops the machine there.
     goes_on: bool,
     /// The side of travel on which the wire runs beside a contour of 4B, where an arc of it says that.

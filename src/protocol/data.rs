@@ -250,16 +250,16 @@ impl FindingData {
                 self.length = Some(mm(j));
                 self.required = Some(mm(projection));
             }
-            Fault::JKeepsOpen {
-                j, meant: required, ..
+            Fault::FieldKeepsOpen {
+                numbers: Some([length, required]),
+                ..
             }
-            | Fault::JOverTurn { j, turn: required } => {
-                self.length = Some(mm(j));
+            | Fault::JOverTurn {
+                j: length,
+                turn: required,
+            } => {
+                self.length = Some(mm(length));
                 self.required = Some(mm(required));
-            }
-            Fault::NumberKeepsOpen { value, meant, .. } => {
-                self.length = Some(mm(value));
-                self.required = Some(mm(meant));
             }
             Fault::SmallerProjection {
                 counted, larger, ..

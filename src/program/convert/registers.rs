@@ -2,7 +2,7 @@
 
 use super::{CutPath, Cuts};
 use crate::program::format::Format;
-use crate::program::iso::{self, Carried, Offset};
+use crate::program::iso::{self, Carried, Register};
 use crate::program::path::Step;
 use crate::program::write::{Proved, ProvedProgram};
 use crate::settings::Effective;
@@ -20,15 +20,15 @@ impl CutPath {
 }
 
 /// A place of the table as the profile of the settings names it in a program; `None` where it names none, or another.
-fn named(offset: Offset, settings: &Effective) -> Option<Offset> {
+fn named(offset: Register, settings: &Effective) -> Option<Register> {
     let profile = settings.profile.as_ref().ok()?;
     let read = iso::read_of_profile(profile, offset.index)?;
     (read.index == offset.index).then_some(read)
 }
 
 /// The first of some places in a row.
-fn several(offsets: &[Offset]) -> String {
-    let names: Vec<String> = offsets.iter().take(5).map(Offset::to_string).collect();
+fn several(offsets: &[Register]) -> String {
+    let names: Vec<String> = offsets.iter().take(5).map(Register::to_string).collect();
     names.join(", ")
 }
 
@@ -53,8 +53,8 @@ impl Cuts {
                     return Some(say!(of_profile, profile.name, reason));
                 }
                 let of_index = |index: u32| offsets.iter().filter(move |own| own.index == index);
-                let is_same = |own: &&Offset| of_index(own.index).count() > 1;
-                let same: Vec<Offset> = offsets.iter().filter(is_same).copied().collect();
+                let is_same = |own: &&Register| of_index(own.index).count() > 1;
+                let same: Vec<Register> = offsets.iter().filter(is_same).copied().collect();
                 (!same.is_empty()).then(|| say!(one_place_of_several_corrections, several(&same)))
             }
             _ => None,
@@ -117,7 +117,7 @@ impl Cuts {
     }
 
     /// The places of their corrections, each once.
-    fn offsets(&self) -> Vec<Offset> {
+    fn offsets(&self) -> Vec<Register> {
         let mut offsets = Vec::new();
         for offset in self.offset_cuts().filter_map(|cut| cut.offset) {
             if !offsets.contains(&offset) {

@@ -111,7 +111,7 @@ pub struct Block {
     /// `,R2.` or `,C1.`
     pub(crate) corner: Option<Corner>,
     /// `D1` or `H1`: the place of the correction in the control's table.
-    pub(crate) offset: Option<Offset>,
+    pub(crate) offset: Option<Register>,
     pub(crate) stop: Option<Stop>,
     /// `M98 P1`.
     pub(crate) call: Option<u32>,
@@ -136,7 +136,7 @@ pub(crate) struct Corner {
     pub(crate) size: Number,
 }
 
-pub(crate) use crate::program::path::Register as Offset;
+pub(crate) use crate::program::path::Register;
 
 /// Something besides the block that a line shows.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -145,7 +145,7 @@ pub enum Note {
     Foreign { code: Code, range: Range<usize> },
     /// `H001=110`, or `H001=.0085+H175`.
     Definition {
-        offset: Offset,
+        offset: Register,
         terms: Vec<Term>,
         range: Range<usize>,
     },
@@ -165,7 +165,7 @@ impl Note {
         let terms = terms.filter(|_| matches!(letter, b'D' | b'H'));
         match place.index().zip(terms) {
             Some((index, terms)) => Note::Definition {
-                offset: Offset { letter, index },
+                offset: Register { letter, index },
                 terms,
                 range,
             },
@@ -371,7 +371,7 @@ impl Block {
             b'N' => self.number = Some(index),
             b'O' => self.program = Some(index),
             b'L' => self.repeat = Some(index),
-            _ => self.offset = Some(Offset { letter, index }),
+            _ => self.offset = Some(Register { letter, index }),
         }
     }
 

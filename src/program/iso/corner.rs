@@ -3,7 +3,7 @@
 
 use super::block::{Corner, Motion, read_under};
 use super::machine::Machine;
-use super::moves::{Bend, Move, Reading, added, apart, bend_about};
+use super::moves::{Bend, Move, Reading, added, apart, bend_about, nanometres};
 use crate::geometry::{Locus, Point, Segment, cross, turn};
 
 /// The next move is searched for in this many lines after a corner's.
@@ -92,8 +92,7 @@ fn cut_off(
     } else {
         chamfered(&one, &other, length)?
     };
-    let nm = |um: f64| (um * 1e3).round() as i64;
-    let place = |point: Point| added(made.to, [nm(point.x), nm(point.y)]);
+    let place = |point: Point| added(made.to, nanometres(point.coords));
     let (begin, end) = (place(begin), place(end));
     let mut short = Move {
         to: begin,

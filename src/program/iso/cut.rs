@@ -3,7 +3,7 @@
 //! Places count from where the wire stands when it enters these lines, bytes from the first of them, so that an edit
 //! elsewhere changes nothing here.
 
-use super::block::{Code, Offset, Stop};
+use super::block::{Code, Register, Stop};
 use super::evidence::Kept;
 use super::machine::Machine;
 use super::moves::{Move, Place};
@@ -69,7 +69,7 @@ pub(crate) struct Foreign {
 /// A value for the control's table.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Definition {
-    pub(crate) offset: Offset,
+    pub(crate) offset: Register,
     pub(crate) terms: Vec<Term>,
     pub(crate) inch: bool,
     pub(crate) range: (u32, u32),

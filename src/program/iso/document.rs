@@ -1,6 +1,6 @@
 //! ISO text as an open document: its lines, their effects, and what an edit leaves unchanged.
 
-use super::block::{Block, Offset};
+use super::block::{Block, Register};
 use super::control::{Control, way_of};
 use super::cut::{Cut, Entry, Heard};
 use super::evidence::{Evidence, UsualDecimals};
@@ -11,10 +11,12 @@ use super::machine::{Machine, Ran};
 use super::moves::Reading;
 use super::order::{Order, Sequence, labels, order};
 use super::read::{Placed, Run, words_of};
-use super::repair::found::Repairs;
+use super::repair::found::{Meant, Repairs};
 use crate::program::contours::Contours;
 use crate::program::cuts::Cuts;
 use crate::program::path::Way;
+use crate::program::repair::searches::Searches;
+use crate::program::repair::slip;
 use crate::settings::Effective;
 use crate::text::SourceText;
 use rustc_hash::FxHashMap;
@@ -46,8 +48,7 @@ pub struct Document {
     pub(crate) table: Box<Table>,
     /// The slips that may explain the findings, once somebody has asked for them.
     pub(super) repairs: OnceLock<Arc<Repairs>>,
-    /// Those before the last edit.
-    pub(super) repairs_before: Option<Arc<Repairs>>,
+    pub(super) searches: Searches<Vec<slip::Repair<Meant>>>,
     /// Whether its words stand apart, once somebody has asked.
     is_parted: OnceLock<bool>,
     /// The line of each N and O number, once somebody has asked.
@@ -73,7 +74,7 @@ impl Document {
             limits: Box::new(limits),
             table: Box::default(),
             repairs: OnceLock::new(),
-            repairs_before: None,
+            searches: Searches::default(),
             is_parted: OnceLock::new(),
             labels: OnceLock::new(),
         };
@@ -114,12 +115,12 @@ impl Document {
     }
 
     /// The correction in a place of the control's table, µm: from the program's own table, else the settings.
-    pub(super) fn correction(&self, offset: Option<Offset>) -> f64 {
+    pub(super) fn correction(&self, offset: Option<Register>) -> f64 {
         correction_in(&self.table, &self.limits, offset)
     }
 
     /// The same where the program itself states it.
-    pub(super) fn stated_correction(&self, offset: Option<Offset>) -> Option<f64> {
+    pub(super) fn stated_correction(&self, offset: Option<Register>) -> Option<f64> {
         stated_in(&self.table, offset)
     }
 
@@ -220,7 +221,8 @@ impl Document {
 
     /// Replaces a range of bytes and runs again what it touched.
     pub fn edit(&mut self, range: Range<usize>, replacement: &str) {
-        self.repairs_before = self.repairs.take().or(self.repairs_before.take());
+        self.repairs = OnceLock::new();
+        self.searches.edited();
         self.labels = OnceLock::new();
         // The byte before belongs to the edit: a CR there may become one line end with an inserted LF.
         let first = range.start.min(self.text.len()).saturating_sub(1);

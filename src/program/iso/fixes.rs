@@ -43,7 +43,7 @@ fn searched(document: &Document, finding: &Finding) -> Option<Vec<TextFix>> {
         return None;
     }
     let line = document.text().line_of(finding.place.in_text()?.start);
-    let mut of_cuts = document.repairs().of_cuts.iter();
+    let mut of_cuts = document.repairs().iter();
     let (_, repairs) = of_cuts.find(|(lines, _)| lines.contains(&line))?;
     let found = repairs
         .iter()
@@ -296,7 +296,7 @@ fn closing_fix(document: &Document, range: &Range<usize>) -> Option<TextFix> {
     let begun = document.begun_cut_with(line);
     let machine = document.machine_behind(line)?;
     let near = |place: Place| distance(machine.at, place);
-    let [from, to] = [0, 1].map(|node| nanometres(begun.node(node).machine));
+    let [from, to] = [0, 1].map(|node| nanometres(begun.node(node).machine.coords));
     let target = if begun.count() > 2 && near(to) < near(from) {
         to
     } else {

@@ -1,6 +1,6 @@
 //! The settings that decide what is a fault of an ISO program.
 
-use super::block::{Block, Code, Note, Offset, Stop, read_line};
+use super::block::{Block, Code, Note, Register, Stop, read_line};
 use super::moves::CenterRule;
 use crate::settings::{Effective, NumberUnit, Profile, UnitSetting, shipped_profiles};
 use rustc_hash::FxHashMap;
@@ -123,15 +123,15 @@ fn end_word(settings: &Effective) -> String {
 }
 
 /// The last value of each place of the control's table, nm.
-pub(crate) type Table = FxHashMap<Offset, i64>;
+pub(crate) type Table = FxHashMap<Register, i64>;
 
 /// The correction in a place of a table, µm: from there, else from the settings.
-pub(super) fn correction_in(table: &Table, limits: &Limits, offset: Option<Offset>) -> f64 {
+pub(super) fn correction_in(table: &Table, limits: &Limits, offset: Option<Register>) -> f64 {
     stated_in(table, offset).unwrap_or(limits.correction * 1e3)
 }
 
 /// The same where the table states it.
-pub(super) fn stated_in(table: &Table, offset: Option<Offset>) -> Option<f64> {
+pub(super) fn stated_in(table: &Table, offset: Option<Register>) -> Option<f64> {
     let stated = table.get(&offset?)?;
     Some((*stated as f64 / 1e3).abs())
 }

@@ -1,11 +1,13 @@
 //! The control, as far as geometry goes: the modal state, the wire's position, and the move of each line.
 
-use super::block::{Block, Compensation, Corner, Motion, Offset, Stop};
+use super::block::{Block, Compensation, Corner, Motion, Register, Stop};
 use super::variables::Variables;
 use super::word::Number;
 use crate::finding::Side;
 
-use super::moves::{Bend, CenterRule, Course, Move, Place, Reading, added, apart, bend_about};
+use super::moves::{
+    Bend, CenterRule, Course, Move, Place, Reading, added, apart, bend_about, nanometres,
+};
 
 /// The modal state, and the wire's position.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -24,7 +26,7 @@ pub(crate) struct Machine {
     pub(crate) center: Option<CenterRule>,
     pub(crate) inch: bool,
     pub(crate) side: Option<Side>,
-    pub(crate) offset: Option<Offset>,
+    pub(crate) offset: Option<Register>,
     /// The last G40, G41 or G42 has not been followed by a move yet.
     pub(crate) switches: Option<bool>,
     /// The wire has moved since the beginning or the last stop.
@@ -75,10 +77,7 @@ impl Steered {
         if let Course::Arc(arc) = made.course(reading) {
             let center = match made.center(reading.rule(made.incremental)) {
                 Some(center) => center,
-                None => [
-                    (arc.center.x * 1e3).round() as i64,
-                    (arc.center.y * 1e3).round() as i64,
-                ],
+                None => nanometres(arc.center.coords),
             };
             made.bend = bend_about(center, added(made.from, by), made.incremental, reading);
         }

@@ -45,7 +45,7 @@ mod variables;
 pub(crate) mod word;
 mod write;
 
-pub(crate) use block::Offset;
+pub(crate) use block::Register;
 pub use block::read_line;
 pub use document::Document;
 pub(crate) use dropped::Dropped;

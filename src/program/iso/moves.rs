@@ -3,10 +3,10 @@
 //! Places are whole nanometres, so that a micrometre, four decimals of an inch and six of a millimetre are all exact,
 //! and sums do not depend on their order.
 
-use super::block::{Corner, Motion, Offset};
+use super::block::{Corner, Motion, Register};
 use super::word::Number;
 use crate::finding::Side;
-use crate::geometry::{Arc, Point, Segment};
+use crate::geometry::{Arc, Point, Segment, Vector};
 use crate::program::path::{Kind, Step, Writing};
 pub(crate) use crate::settings::CenterRule;
 
@@ -120,7 +120,7 @@ pub(crate) struct Move {
     pub(crate) incremental: bool,
     /// The side of travel on which the control lets the wire run beside this move.
     pub(crate) side: Option<Side>,
-    pub(crate) offset: Option<Offset>,
+    pub(crate) offset: Option<Register>,
     /// G41 or G42 (true) or G40 (false) takes effect with this move.
     pub(crate) switches: Option<bool>,
     /// The corner that the control makes at its end.
@@ -331,9 +331,9 @@ pub(crate) fn apart(a: Place, b: Place) -> Place {
     [a[0].wrapping_sub(b[0]), a[1].wrapping_sub(b[1])]
 }
 
-/// A point in µm as a place.
-pub(crate) fn nanometres(point: Point) -> Place {
-    [point.x, point.y].map(|um| (um * 1e3).round() as i64)
+/// A way in µm as nm.
+pub(crate) fn nanometres(way: Vector) -> Place {
+    [way.x, way.y].map(|um| (um * 1e3).round() as i64)
 }
 
 pub(crate) fn distance(a: Place, b: Place) -> f64 {

@@ -66,25 +66,18 @@ impl Document {
         self.repairs
             .get_or_init(|| Arc::new(repairs(self, troubles)))
     }
-
-    /// The search that is marked so, perhaps as it was made before the last edit.
-    fn searched(&self, mark: u64) -> Option<Vec<slip::Repair<Meant>>> {
-        let before = self.repairs_before.as_ref()?;
-        let known = before.searched.iter().find(|(its, _)| *its == mark);
-        known.map(|(_, found)| found.clone())
-    }
 }
 
 /// Searches the faulty cuts.
 fn repairs(document: &Document, troubles: &[usize]) -> Repairs {
-    let (mut found, mut passed) = (Repairs::default(), Vec::<Range<usize>>::new());
+    let (mut found, mut passed) = (Repairs::new(), Vec::<Range<usize>>::new());
     for trouble in troubles {
         let line = document.text().line_of(*trouble);
-        let known = found.of_cuts.iter().map(|(lines, _)| lines);
+        let known = found.iter().map(|(lines, _)| lines);
         if known.chain(&passed).any(|lines| lines.contains(&line)) {
             continue;
         }
-        if found.of_cuts.len() == MOST_CUTS {
+        if found.len() == MOST_CUTS {
             break;
         }
         let stops = cut_around(document, line);
@@ -99,17 +92,16 @@ fn repairs(document: &Document, troubles: &[usize]) -> Repairs {
         let lines = way.lines();
         // A single slip does not cause so many faults.
         if within(document, troubles, &lines).len() > MOST_TROUBLES {
-            found.of_cuts.push((lines, Vec::new()));
+            found.push((lines, Vec::new()));
             continue;
         }
-        let of_cut = searched(document, way, &mut found);
-        found.of_cuts.push(of_cut);
+        found.push(searched(document, way));
     }
     found
 }
 
 /// The repairs of a cut, together with the open ones beside it: of two slips nothing says in which of the two each is.
-fn searched(document: &Document, way: Way<'_>, found: &mut Repairs) -> (Range<usize>, Vec<Repair>) {
+fn searched(document: &Document, way: Way<'_>) -> (Range<usize>, Vec<Repair>) {
     let own = way.lines();
     let [before, behind] = beside(document, &own);
     let others = || before.iter().chain(&behind);
@@ -133,7 +125,7 @@ fn searched(document: &Document, way: Way<'_>, found: &mut Repairs) -> (Range<us
             && let Some(whole) = Way::of(document, first..end)
         {
             let whole = Suspect::of(whole, &pieces);
-            let mut repairs = whole.repairs(found);
+            let mut repairs = whole.repairs();
             repairs.retain(|repair| repair.is_whole);
             if !repairs.is_empty() {
                 let repairs = repairs.iter().filter_map(|repair| whole.repair(repair));
@@ -142,13 +134,10 @@ fn searched(document: &Document, way: Way<'_>, found: &mut Repairs) -> (Range<us
             is_alone = false;
         }
     }
-    let repairs = suspect
-        .repairs(found)
-        .into_iter()
-        .map(|repair| slip::Repair {
-            is_sure: repair.is_sure && is_alone,
-            ..repair
-        });
+    let repairs = suspect.repairs().into_iter().map(|repair| slip::Repair {
+        is_sure: repair.is_sure && is_alone,
+        ..repair
+    });
     let repairs = repairs.filter_map(|repair| suspect.repair(&repair));
     (own, repairs.collect())
 }
@@ -210,19 +199,14 @@ pub(super) fn is_plainly_twice(document: &Document, line: usize) -> bool {
 }
 
 impl Suspect<'_> {
-    /// Searches it, unless that was done before the last edit.
-    fn repairs(&self, found: &mut Repairs) -> Vec<slip::Repair<Meant>> {
-        if self.tells_too_little() {
-            return Vec::new();
+    fn repairs(&self) -> Vec<slip::Repair<Meant>> {
+        match self.tells_too_little() {
+            true => Vec::new(),
+            false => {
+                let searches = &self.way.document.searches;
+                searches.found(self.mark(), || search(self))
+            }
         }
-        let mark = self.mark();
-        let repairs = self
-            .way
-            .document
-            .searched(mark)
-            .unwrap_or_else(|| search(self));
-        found.searched.push((mark, repairs.clone()));
-        repairs
     }
 
     /// A mark of all that a search looks at.

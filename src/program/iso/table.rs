@@ -1,6 +1,6 @@
 //! The control's table of corrections, as far as a program gives it.
 
-use super::block::Offset;
+use super::block::Register;
 use super::cut::Definition;
 use super::document::Document;
 use super::limits::Table;
@@ -12,7 +12,7 @@ use std::fmt;
 /// Lines that are searched for the places of the table that a program uses.
 const LOOKED_AT: usize = 2_000;
 
-impl fmt::Display for Offset {
+impl fmt::Display for Register {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}{}", self.letter as char, self.index)
     }
@@ -45,7 +45,7 @@ impl Document {
     }
 
     /// The correction in nm that the program itself puts into a place of the control's table.
-    pub(crate) fn table_value(&self, offset: Offset) -> Option<i64> {
+    pub(crate) fn table_value(&self, offset: Register) -> Option<i64> {
         self.table.get(&offset).copied()
     }
 
@@ -94,7 +94,7 @@ impl Document {
     }
 
     /// The place of the table that a program names, where it names but one.
-    pub(crate) fn only_offset(&self) -> Option<Offset> {
+    pub(crate) fn only_offset(&self) -> Option<Register> {
         let mut all = self
             .table
             .keys()
@@ -104,7 +104,7 @@ impl Document {
         all.all(|offset| offset == first).then_some(first)
     }
 
-    fn used_places(&self) -> impl Iterator<Item = Offset> + '_ {
+    fn used_places(&self) -> impl Iterator<Item = Register> + '_ {
         let lines = 0..self.text().line_count().min(LOOKED_AT);
         lines.filter_map(|line| self.block(line).offset)
     }
@@ -127,7 +127,7 @@ fn value(table: &Table, definition: &Definition, reading: &Reading) -> Result<i6
                 .length_within(number, definition.inch)
                 .ok_or(NoValue::TooFar)?,
             Value::Place { letter, index } => *table
-                .get(&Offset { letter, index })
+                .get(&Register { letter, index })
                 .ok_or(NoValue::Unfilled)?,
         };
         // Each is far below what overflows.

@@ -11,7 +11,7 @@ mod words;
 pub(crate) use angle::{Doubtful, STEEPEST};
 pub(super) use words::{Upper, upper_words};
 
-use super::block::{Offset, read_line};
+use super::block::{Register, read_line};
 use super::document::Document;
 use super::machine::Machine;
 use super::moves::{Move, Place, Reading, added, apart, micrometres};
@@ -72,7 +72,7 @@ pub(crate) struct TiltedArc {
     /// The control lets the wire run within the arc.
     pub(crate) is_inside: bool,
     /// Where the control finds its correction.
-    pub(crate) offset: Option<Offset>,
+    pub(crate) offset: Option<Register>,
 }
 
 impl TiltedArc {
@@ -109,7 +109,7 @@ struct Leaning {
     lower: Segment,
     is_cut: bool,
     side: Option<Side>,
-    offset: Option<Offset>,
+    offset: Option<Register>,
     lean: Lean,
 }
 

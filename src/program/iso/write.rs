@@ -6,7 +6,7 @@ mod proof;
 
 pub(crate) use offsets::{Carried, read_of_profile};
 
-use super::block::{Block, Motion, Offset};
+use super::block::{Block, Motion, Register};
 use super::encode::{Encoded, Moves};
 use super::machine::Machine;
 use super::moves::{CenterRule, MICROMETRE, Place, Reading, to_center};
@@ -87,7 +87,7 @@ pub(super) struct Lines<'a> {
     /// The totals so far, in steps.
     pub(super) made: ProvedProgram,
     /// What each register that a contour has named has to hold, mm.
-    holding: Vec<(Offset, f64)>,
+    holding: Vec<(Register, f64)>,
     /// What each move follows.
     pub(super) sources: Option<&'a mut Vec<Source>>,
     /// The most blocks.

@@ -6,6 +6,7 @@ pub(super) mod gap;
 pub(super) mod gate;
 pub(super) mod keys;
 pub(super) mod rule;
+pub(super) mod searches;
 pub(super) mod slip;
 mod weigh;
 

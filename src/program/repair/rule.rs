@@ -103,12 +103,10 @@ impl<'a, C: Cut> Search<'a, C> {
         }
     }
 
-    /// Whether blocks are searched for that may be lost: for an offer, or against slips of which nothing but the gap speaks.
+    /// Whether a lost block may be all that is wrong.
     fn may_lack_a_block(&self) -> bool {
         let is_read = self.before.unread + self.before.unsound == 0;
-        let may_be = is_read && (self.before.is_open || self.before.off > 0);
-        let depends = |one: &Candidate<C::Meant>| one.left == 0 && one.is_text() && !one.is_wrong;
-        may_be && (self.cut.offers_lost() || self.found.iter().any(depends))
+        is_read && (self.before.is_open || self.before.off > 0)
     }
 
     /// Lines, and arcs, that fill the gap before a piece.
@@ -264,8 +262,7 @@ impl<'a, C: Cut> Search<'a, C> {
         let offered = kept
             .into_iter()
             .filter(|one| !one.is_near && one.slip.sort != Sort::Deletion)
-            .filter(|one| !(one.doubles && is_any_plain))
-            .filter(|one| self.cut.holds(&one.slip.change));
+            .filter(|one| !(one.doubles && is_any_plain));
         let repair = |(nth, one): (usize, Candidate<C::Meant>)| Repair {
             change: one.slip.change,
             is_sure: nth == 0 && sure.is_some(),

@@ -110,14 +110,6 @@ pub(in crate::program) trait Cut {
     fn likeness(&self, _index: usize, _count: usize, _pieces: &[Piece]) -> i32 {
         0
     }
-
-    /// Whether lost blocks are offered.
-    fn offers_lost(&self) -> bool;
-
-    /// Whether a change is offered. All are searched: a possibly lost block counts against a possibly wrong one.
-    fn holds(&self, _change: &Change<Self::Meant>) -> bool {
-        true
-    }
 }
 
 /// Where a piece in the place of another one must end, seen from the other one's end, for the cut to close, µm.

@@ -3,7 +3,6 @@
 //! The text is read as cuts, from one stop to the next. Lines are independent, so an edit rereads the cuts that it touched;
 //! everything about the whole program (contours, numbers, the end) comes from what is known of each cut.
 
-mod asked;
 mod contours;
 mod fixes;
 mod judge;
@@ -21,12 +20,14 @@ use crate::finding::Finding;
 use crate::geometry::{Point, Vector};
 use crate::program::contours::Contours;
 use crate::program::cuts::{Cuts, Reader};
+use crate::program::repair::searches::Searches;
 use crate::settings::Effective;
 use crate::text::SourceText;
-use asked::Asked;
 use sequence::Numbers;
+use std::collections::BTreeMap;
 use std::ops::Range;
-use told::Blamed;
+use std::sync::Arc;
+use told::Found;
 
 /// A 3B or 4B program as text, and its reading.
 #[derive(Clone, Debug)]
@@ -81,9 +82,11 @@ struct View {
     numbers: Numbers,
     /// The findings about contours and the whole, in no order, at bytes of the text.
     findings: Vec<Finding>,
-    /// What the searches for blocks to blame have found.
-    blamed: Blamed,
-    asked: Asked,
+    /// The blocks with a finding about their numbers, and the number of each one's turn, where that is known.
+    faulty_numbers: BTreeMap<At, Option<u32>>,
+    /// Of each cut, what a search for its slip may see of it from beside.
+    marks: Vec<u64>,
+    searches: Searches<Arc<Found>>,
 }
 
 impl Document {
@@ -171,7 +174,11 @@ impl Document {
         };
         self.view.contours = Contours::of(self, contours);
         let mut findings = self.judge(&off);
-        self.judge_contours(before.blamed, &mut findings);
+        self.view.faulty_numbers = self.judge_numbers(&mut findings);
+        self.view.marks = self.marks();
+        self.view.searches = before.searches;
+        self.view.searches.edited();
+        self.judge_contours(&mut findings);
         self.view.findings = findings;
     }
 }

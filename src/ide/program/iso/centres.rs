@@ -76,7 +76,7 @@ fn candidates(made: &Move, begun: &Way, reading: &Reading) -> Vec<(Point, &'stat
         found.push((arc.center, say!(the_arc_that_r_means)));
     }
     if let Some(last) = begun.pieces().last()
-        && nanometres(begun.end().machine) == made.from
+        && nanometres(begun.end().machine.coords) == made.from
     {
         let normal = left_normal(last.end_tangent()) * turn;
         let across = normal.dot(&chord);

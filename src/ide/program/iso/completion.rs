@@ -312,7 +312,7 @@ impl Offer<'_> {
         let mut machine = self.machine;
         machine.incremental = self.typed.block.incremental.unwrap_or(machine.incremental);
         for (target, about) in ways_back(&self.document.begun_cut(self.line)) {
-            let target = nanometres(target);
+            let target = nanometres(target.coords);
             if target == machine.at || machine.lost != [false, false] {
                 continue;
             }

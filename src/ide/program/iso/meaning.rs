@@ -2,7 +2,7 @@
 
 use super::names;
 use super::vocabulary::{known, usual};
-use crate::program::iso::block::{Block, Offset, read_line};
+use crate::program::iso::block::{Block, Register, read_line};
 use crate::program::iso::document::Document;
 use crate::program::iso::machine::Machine;
 use crate::program::iso::moves::CenterRule;
@@ -76,9 +76,9 @@ pub(crate) fn meaning(document: &Document, word: Range<usize>) -> Option<String>
 }
 
 /// A place of the control's table; `None` where the number does not name a place.
-fn offset(letter: u8, index: Number) -> Option<Offset> {
+fn offset(letter: u8, index: Number) -> Option<Register> {
     let index = index.index()?;
-    Some(Offset { letter, index })
+    Some(Register { letter, index })
 }
 
 /// nm as mm, with as many decimals as needed, at least three.
@@ -185,7 +185,7 @@ impl About<'_> {
     }
 
     fn place(&self, letter: u8, number: Number) -> String {
-        let place = offset(letter, number).unwrap_or(Offset {
+        let place = offset(letter, number).unwrap_or(Register {
             letter,
             index: u32::MAX,
         });

@@ -1,7 +1,6 @@
 //! The results of a search through the faulty cuts.
 
 use crate::finding::FixKind;
-use crate::program::repair::slip;
 use crate::text::TextEdit;
 use std::ops::Range;
 
@@ -39,11 +38,5 @@ impl Repair {
     }
 }
 
-/// The repairs of a program.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Repairs {
-    /// By the lines of the cuts that they belong to.
-    pub(crate) of_cuts: Vec<(Range<usize>, Vec<Repair>)>,
-    /// The searches for them, each by a mark of all that it looks at.
-    pub(super) searched: Vec<(u64, Vec<slip::Repair<Meant>>)>,
-}
+/// The repairs of a program, by the lines of the cuts that they belong to.
+pub(crate) type Repairs = Vec<(Range<usize>, Vec<Repair>)>;

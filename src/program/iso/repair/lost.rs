@@ -8,7 +8,7 @@ use crate::program::iso::block::Motion;
 use crate::program::iso::line::{with_word, words_of_move};
 use crate::program::iso::machine::Machine;
 use crate::program::iso::moves::{
-    Bend, CenterRule, Move, Place, Reading, added, distance, micrometres,
+    Bend, CenterRule, Move, Place, Reading, added, distance, micrometres, nanometres,
 };
 use crate::program::repair::slip::Sort;
 
@@ -22,7 +22,6 @@ impl Suspect<'_> {
         let before = self.machine_at(index)?;
         let style = self.style(&before);
         let (along, arc) = (way.end() - way.start(), way.as_arc());
-        let nm = |by: Vector| [by.x, by.y].map(|um| (um * 1e3).round() as i64);
         let (mut motion, mut center) = (Motion::Line, None);
         if let Some(arc) = arc {
             let sign = match document.reading().rule(before.incremental) {
@@ -32,10 +31,16 @@ impl Suspect<'_> {
             };
             motion = Motion::turning(arc.sweep > 0.0);
             let to_center = (along + left_normal(along) / (arc.sweep / 2.0).tan()) / 2.0;
-            center = Some(nm(to_center * sign));
+            center = Some(nanometres(to_center * sign));
         }
         let is_parted = document.is_parted();
-        let words = words_of_move(&before, style, motion, added(before.at, nm(along)), center);
+        let words = words_of_move(
+            &before,
+            style,
+            motion,
+            added(before.at, nanometres(along)),
+            center,
+        );
         let meant = words.join(if is_parted { " " } else { "" });
         let line = match self.free_number(self.way.first + row) {
             Some(number) => with_word(meant.as_bytes(), &format!("N{number}"), is_parted),
@@ -143,8 +148,8 @@ fn tangent_gaps(arc: &Move, reading: &Reading) -> Vec<Place> {
     };
     let along = along.normalize();
     let is_likely = |length: &f64| length.is_finite() && *length > 0.0;
-    let place = |length: f64| [along.x, along.y].map(|part| (part * length * 1e3).round() as i64);
-    lengths.into_iter().filter(is_likely).map(place).collect()
+    let ways = lengths.into_iter().filter(is_likely);
+    ways.map(|length| nanometres(along * length)).collect()
 }
 
 fn rotated(vector: Vector, by: f64) -> Vector {

@@ -8,7 +8,7 @@ use super::words::{self, Words};
 use crate::geometry::{Segment, Vector};
 use crate::program::iso::block::Compensation;
 use crate::program::iso::machine::Machine;
-use crate::program::iso::moves::Place;
+use crate::program::iso::moves::{Place, nanometres};
 use crate::program::iso::plain::plain;
 use crate::program::iso::style::Style;
 use crate::program::repair::cut::{Against, Piece, Pieces};
@@ -170,8 +170,7 @@ impl Cut for Suspect<'_> {
         let is_read =
             own.line.faults == 0 && self.pieces.all.get(index).is_some_and(|own| !own.is_unread);
         let mut found = Vec::new();
-        let nm = |gap: &Vector| [gap.x, gap.y].map(|um| (um * 1e3).round() as i64);
-        let gaps: Vec<Place> = ends.all().iter().map(nm).collect();
+        let gaps: Vec<Place> = ends.all().iter().copied().map(nanometres).collect();
         words.readings(&gaps, &mut |reading| {
             if let Some((letter, number)) = reading.number {
                 let found = if letter == b'X' { block.x } else { block.y };
@@ -233,9 +232,5 @@ impl Cut for Suspect<'_> {
     fn likeness(&self, index: usize, count: usize, pieces: &[Piece]) -> i32 {
         let own = self.pieces.all.get(index..index + count);
         self.beside.likeness(own.unwrap_or_default(), pieces)
-    }
-
-    fn offers_lost(&self) -> bool {
-        true
     }
 }

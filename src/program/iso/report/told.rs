@@ -25,7 +25,7 @@ fn suspects(document: &Document, troubles: &[usize]) -> Vec<Finding> {
     let found = document.repairs_of(troubles);
     let is_said = |line: usize| !within(document, troubles, &(line..line + 1)).is_empty();
     let first = |(_, repairs): &(Range<usize>, Vec<Repair>)| repairs.first().cloned();
-    let repairs = found.of_cuts.iter().filter_map(first);
+    let repairs = found.iter().filter_map(first);
     let suspect = |repair: Repair| {
         let range = document.words_of(repair.line);
         if repair.is_sure && repair.closes && matches!(repair.kind, FixKind::DeleteBlock) {

@@ -2,7 +2,7 @@
 
 use super::Lines;
 use crate::program::grid::Node;
-use crate::program::iso::block::{Block, Offset};
+use crate::program::iso::block::{Block, Register};
 use crate::program::iso::limits::example_of;
 use crate::program::write::Proved;
 use crate::settings::Profile;
@@ -20,7 +20,7 @@ pub(crate) struct Carried {
 
 /// The place of the correction that a control reads from the lines of a profile at the begin of a contour, where the
 /// program that they come from names the place of a number.
-pub(crate) fn read_of_profile(profile: &Profile, register: u32) -> Option<Offset> {
+pub(crate) fn read_of_profile(profile: &Profile, register: u32) -> Option<Register> {
     let word = numbered(&profile.register, register);
     let offset = |line: &String| Block::of(example_of(line, &word).as_bytes()).offset;
     profile.contour_begin.iter().filter_map(offset).next_back()
@@ -50,10 +50,10 @@ impl Lines<'_> {
         let Some((offset, &own)) = self.machine.offset.zip(corrections.get(self.pass - 1)) else {
             return Ok(());
         };
-        let is_same = |(register, _): &&(Offset, f64)| *register == offset;
+        let is_same = |(register, _): &&(Register, f64)| *register == offset;
         match self.holding.iter().find(is_same) {
             Some((_, held)) if (held - own).abs() > 1e-9 => {
-                let Offset { letter, index } = offset;
+                let Register { letter, index } = offset;
                 let word = format!("{}{index}", char::from(letter));
                 Err(self.refused(&say!(its_register_is_of_two_corrections, word, held, own)))
             }

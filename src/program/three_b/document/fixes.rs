@@ -247,16 +247,9 @@ impl Document {
     }
 
     fn number_fixes(&self, range: &Range<usize>, renumbering: Renumbering) -> Option<Vec<TextFix>> {
-        let faulty = self.view.asked.faulty_numbers(|| {
-            let (places, blocks) = self.numbered(self.view.end);
-            let found = numbering::check(&blocks).into_iter();
-            let of_place = found.filter_map(|(index, _, meant)| Some((*places.get(index)?, meant)));
-            // Of several findings of one block the first.
-            of_place.rev().collect()
-        });
         let own = self.entry_at(range);
         let at = own.filter(|at| self.range_of(*at) == *range)?;
-        let meant = *faulty.get(&at)?;
+        let meant = *self.view.faulty_numbers.get(&at)?;
         let edit = |at: At, number: u32| {
             self.with_number(self.digits_before(at), self.range_of(at).start, number)
         };

@@ -17,7 +17,6 @@ impl Document {
         let mut findings = Vec::new();
         self.judge_end(&mut findings);
         self.judge_texts(&mut findings);
-        self.judge_numbers(&mut findings);
         self.judge_positions(&mut findings, off);
         self.judge_size(&mut findings);
         self.judge_ways(&mut findings);

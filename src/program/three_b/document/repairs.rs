@@ -6,16 +6,14 @@ use super::super::fields::fields_of;
 use super::super::layout::{
     layout_in, number_edit, push_end_point, push_fields, push_to_comment_column,
 };
-use super::super::repair::{
-    BLOCKS, Change, Loose, Number, Path, Repair, Scope, Slip, Written, loose, repairs,
-};
-use super::super::rules::TextFix;
+use super::super::repair::{BLOCKS, Change, Loose, Path, Repair, Slip, Written, loose, repairs};
+use super::super::rules::{TextFix, kind_of};
 use super::contours::OneContour;
 use super::{At, Document};
-use crate::finding::{Detail, Fault, Finding, FixKind, Rule};
+use crate::finding::{Detail, Fault, Finding, FixKind, Rule, Severity};
 use crate::program::grid::Node;
 use crate::program::repair::offered;
-use crate::program::three_b::block::{Block, Motion};
+use crate::program::three_b::block::Block;
 use crate::text::TextEdit;
 use std::ops::Range;
 
@@ -29,144 +27,55 @@ impl Document {
         {
             return None;
         }
-        let scope = match finding.rule {
+        let contour = self.contour_at(self.entry_at(range)?)?;
+        let is_of_way = matches!(
+            finding.rule,
             Rule::NotClosed
-            | Rule::PathCrossesItself
-            | Rule::Spur
-            | Rule::ReversedArc
-            | Rule::DoubledBlock
-            | Rule::SuspectBlock
-            | Rule::BlockNumber
-            | Rule::PositionMismatch => Scope::All,
+                | Rule::PathCrossesItself
+                | Rule::Spur
+                | Rule::ReversedArc
+                | Rule::DoubledBlock
+                | Rule::SuspectBlock
+                | Rule::BlockNumber
+                | Rule::PositionMismatch
+        );
+        // Of a sound contour that closes a block may be unusual, and nothing is to be repaired.
+        let is_of_block = matches!(
+            finding.rule,
             Rule::WrongJ
-            | Rule::LengthInJ
-            | Rule::JOverTurn
-            | Rule::WrongCountingAxis
-            | Rule::WrongQuadrant
-            | Rule::Syntax
-            | Rule::MissingB
-            | Rule::ZeroBlock
-            | Rule::ArcWithoutRadius
-            | Rule::ArcOffRadius
-            | Rule::TooManyDigits => Scope::Blocks,
-            _ => return None,
-        };
-        let cut = self.contour_at(self.entry_at(range)?)?;
-        // Every finding of a contour asks for the same.
-        let found = || self.fixes_of_cut(&cut, scope);
-        Some(self.view.asked.fixes_of(&cut, scope, found))
-    }
-
-    fn fixes_of_cut(&self, cut: &OneContour, scope: Scope) -> Vec<TextFix> {
-        let Some(whole) = self.with_open_beside(cut) else {
-            return self.searched(cut, scope, |_| true);
-        };
-        // A single slip may leave both open; of two slips nothing says in which of the two each is.
-        let fixes = self.searched(&whole, scope, |repair| repair.is_whole);
-        match scope {
-            Scope::All if fixes.is_empty() => self.searched(cut, scope, |repair| {
-                repair.is_sure = false;
-                true
-            }),
-            _ => fixes,
+                | Rule::LengthInJ
+                | Rule::JOverTurn
+                | Rule::WrongCountingAxis
+                | Rule::WrongQuadrant
+                | Rule::Syntax
+                | Rule::MissingB
+                | Rule::ZeroBlock
+                | Rule::ArcWithoutRadius
+                | Rule::ArcOffRadius
+                | Rule::TooManyDigits
+        ) && finding.severity < Severity::Information;
+        if !is_of_way && !is_of_block {
+            return None;
         }
+        let found = self.found(&contour);
+        let cuts = found.cuts(&contour);
+        let (places, pieces) = self.pieces_of(&cuts)?;
+        let fixes = found.repairs.iter().map(|repair| {
+            let (kind, mut edit) =
+                self.edit_of(&repair.change, &places, &pieces, self.is_jump(cuts.start))?;
+            edit.sort_by_key(|edit| edit.range.start);
+            Some((kind, edit, repair.is_sure))
+        });
+        Some(offered(fixes))
     }
 
-    /// The repairs of a cut that are `wanted`.
-    fn searched(
-        &self,
-        cut: &OneContour,
-        scope: Scope,
-        wanted: impl FnMut(&mut Repair) -> bool,
-    ) -> Vec<TextFix> {
+    /// The repairs of a cut.
+    pub(super) fn repairs(&self, cut: &OneContour) -> Vec<Repair> {
         let Some((places, pieces)) = self.pieces_of(cut) else {
             return Vec::new();
         };
         let is_closed = self.closes(cut) && self.unread(cut) == 0;
-        let path = self.path_of(cut, &places, &pieces, is_closed);
-        let mut found = repairs(&path, scope);
-        found.retain_mut(wanted);
-        let fixes = found.iter().map(|repair| {
-            let (kind, mut edit) =
-                self.edit_of(&repair.change, &places, &pieces, self.is_jump(cut.start))?;
-            edit.sort_by_key(|edit| edit.range.start);
-            Some((kind, edit, repair.is_sure))
-        });
-        offered(fixes)
-    }
-
-    /// The block that keeps a contour open, by its number in the cut, where no other repair is as
-    /// likely. It is searched for in `whole`, the cut together with the open ones beside it.
-    pub(super) fn blamed(&self, cut: &OneContour, whole: &OneContour) -> Option<(usize, Fault)> {
-        let (places, pieces) = self.pieces_of(whole)?;
-        let first = self.blocks_of(cut).next()?;
-        let before = places.iter().position(|at| *at == first)?;
-        let (index, fault) = self.blamed_of(whole, &places, &pieces)?;
-        let own = index.checked_sub(before)?;
-        (own < self.block_count(cut)).then_some((own, fault))
-    }
-
-    fn blamed_of(
-        &self,
-        cut: &OneContour,
-        places: &[At],
-        pieces: &[Written],
-    ) -> Option<(usize, Fault)> {
-        let path = self.path_of(cut, places, pieces, false);
-        let found = repairs(&path, Scope::Blocks);
-        let (best, others) = found.split_first().filter(|(best, _)| best.is_whole)?;
-        let (index, block, slip) = match best.change {
-            Change::Delete { index } if best.is_sure => {
-                return Some((index, Fault::TwinKeepsOpen));
-            }
-            Change::Replace { index, meant } => (index, meant.0, meant.1),
-            _ => return None,
-        };
-        let is_sure = best.is_sure;
-        // One field of another block would do as well.
-        let is_field =
-            |slip: &Slip| matches!(slip, Slip::Motion | Slip::Axis | Slip::Number(Number::J));
-        let is_rival = |other: &Repair| {
-            let Change::Replace {
-                meant: (_, slip), ..
-            } = &other.change
-            else {
-                return false;
-            };
-            other.is_whole && is_field(slip)
-        };
-        if !is_sure && (!is_field(&slip) || others.iter().any(is_rival)) {
-            return None;
-        }
-        let old = pieces.get(index)?.block?;
-        let fault = match slip {
-            Slip::Motion => {
-                let [found, meant] = [old.motion, block.motion].map(Motion::name);
-                Fault::QuadrantKeepsOpen {
-                    found,
-                    meant,
-                    is_sure,
-                }
-            }
-            Slip::Axis => Fault::AxisKeepsOpen {
-                axis: old.axis,
-                is_sure,
-            },
-            Slip::Exchanged([Number::X, Number::Y]) => Fault::ExchangedKeepsOpen,
-            Slip::Number(number) => match number.axis() {
-                Some(axis) => {
-                    let [value, meant] = [old, block].map(|block| axis.of([block.x, block.y]));
-                    Fault::NumberKeepsOpen { axis, value, meant }
-                }
-                None => Fault::JKeepsOpen {
-                    j: old.j,
-                    meant: block.j,
-                    is_sure,
-                },
-            },
-            Slip::Coordinates | Slip::Unread | Slip::Exchanged(_) => return None,
-        };
-        Some((index, fault))
+        repairs(&self.path_of(cut, &places, &pieces, is_closed))
     }
 
     fn path_of<'a>(
@@ -272,10 +181,11 @@ impl Document {
                     return self.restoration(own(*index)?, pieces[*index].loose.as_ref()?, block);
                 };
                 let fields = fields_of(text, own(*index)?)?;
-                Some((
-                    kind_of(&old, block, slip),
-                    fields.changed(text, &old, block),
-                ))
+                let kind = match slip {
+                    Slip::Coordinates => FixKind::FollowCoordinates,
+                    _ => kind_of(&old, block),
+                };
+                Some((kind, fields.changed(text, &old, block)))
             }
             Change::Delete { index } => {
                 let range = match is_alone(*index)? {
@@ -401,37 +311,6 @@ impl Document {
         };
         let (length, is_arc) = (x.hypot(y) / 1000.0, !block.motion.is_line());
         Some((FixKind::InsertBlock { length, is_arc }, vec![edit]))
-    }
-}
-
-fn kind_of(old: &Block, new: &Block, slip: &Slip) -> FixKind {
-    let numbers = |block: &Block| [block.x, block.y, block.j];
-    let pairs = numbers(old).into_iter().zip(numbers(new));
-    let are_several = pairs.filter(|(old, new)| old != new).count() > 1;
-    match slip {
-        Slip::Motion => FixKind::SetMotion {
-            name: new.motion.name(),
-        },
-        Slip::Axis => FixKind::SetAxis {
-            axis: new.axis,
-            j: (old.j != new.j).then_some(new.j),
-        },
-        Slip::Exchanged([Number::X, Number::Y]) => FixKind::ExchangeXAndY,
-        Slip::Exchanged(_) | Slip::Number(_) if are_several => {
-            let shown = |block: &Block| numbers(block).map(|number| format!("B{number}")).concat();
-            FixKind::Rewrite {
-                found: shown(old),
-                meant: shown(new),
-            }
-        }
-        Slip::Number(number) => match number.axis() {
-            Some(axis) => FixKind::SetEnd {
-                axis,
-                value: axis.of([new.x, new.y]),
-            },
-            None => FixKind::SetJ { j: new.j },
-        },
-        Slip::Coordinates | Slip::Unread | Slip::Exchanged(_) => FixKind::FollowCoordinates,
     }
 }
 

@@ -8,6 +8,7 @@ use crate::finding::{Fault, Finding};
 use crate::geometry::Vector;
 use crate::program::numbering::{self, Numbered, Numbering};
 use crate::program::steps::Program;
+use std::collections::BTreeMap;
 
 /// A block, and by how much its end point is off, µm.
 pub(super) type OffPosition = (At, [f64; 2]);
@@ -66,16 +67,22 @@ impl Document {
         own.or_else(|| *self.view.numbers.before.get(at.cut)?)
     }
 
-    pub(super) fn judge_numbers(&self, findings: &mut Vec<Finding>) {
+    /// The blocks with a wrong number, and the number of each one's turn, where that is known.
+    pub(super) fn judge_numbers(&self, findings: &mut Vec<Finding>) -> BTreeMap<At, Option<u32>> {
+        let mut faulty = BTreeMap::new();
         let all = self.cuts.iter().map(|cut| cut.numbering);
         let numbering = all.fold(Numbering::Empty, Numbering::then);
         if numbering != Numbering::Irregular || self.cuts.iter().all(|cut| cut.numbered == 0) {
-            return;
+            return faulty;
         }
         let (places, blocks) = self.numbered(self.view.end);
-        for (index, fault, _) in numbering::check(&blocks) {
-            findings.push(Finding::of(fault, self.range_of(places[index])));
+        for (index, fault, meant) in numbering::check(&blocks) {
+            let at = places[index];
+            findings.push(Finding::of(fault, self.range_of(at)));
+            // Of several findings of one block the first.
+            faulty.entry(at).or_insert(meant);
         }
+        faulty
     }
 
     /// Blocks and numbered words up to the end, with their numbers.

@@ -1,17 +1,18 @@
-//! The findings about open contours. The search for the block to blame is repeated only where something has changed that
-//! it looks at.
+//! The findings about open contours, and the searches for the slips behind them: each is repeated only where something has
+//! changed that it looks at.
 
-use super::super::repair::FEWEST_BLAMED;
-use super::super::rules;
+use super::super::repair::{Change, FEWEST_BLAMED, Number, Repair, Slip};
+use super::super::rules::Spot;
 use super::Document;
 use super::contours::OneContour;
-use crate::finding::{Axis, Fault, Finding};
+use crate::finding::{Fault, Finding, Rule};
 use crate::program::contours::Divided;
 use crate::program::numbering;
 use crate::program::steps::Program;
 use crate::toolpath::each;
-use rustc_hash::{FxHashMap, FxHasher};
+use rustc_hash::FxHasher;
 use std::hash::{Hash, Hasher};
+use std::sync::Arc;
 
 /// The search for a block to blame looks at this many cuts on either side of a contour at most: at its stops, and at the
 /// cuts beside it.
@@ -20,17 +21,36 @@ const CUTS_ABOUT: usize = 24;
 /// Searches that one core makes at a time.
 const FEW_SEARCHES: usize = 16;
 
-/// The block to blame in an open contour, by its number in there, for each mark of what the search looks at.
-pub(super) type Blamed = FxHashMap<u64, Option<Box<(usize, Fault)>>>;
+/// One slip has at most this many faults.
+const MOST_ERRORS: usize = 6;
+
+/// What a search for the slip of a contour has found.
+#[derive(Debug)]
+pub(super) struct Found {
+    /// How many cuts before the contour were searched with it, since they are open, too; and how many behind it.
+    before: usize,
+    behind: usize,
+    pub(super) repairs: Vec<Repair>,
+}
+
+impl Found {
+    /// The cuts that were searched.
+    pub(super) fn cuts(&self, contour: &OneContour) -> OneContour {
+        contour.start - self.before..contour.end + self.behind
+    }
+}
 
 impl Document {
-    /// Judges the contours that do not close; the results of some searches are `known`.
-    pub(super) fn judge_contours(&mut self, mut known: Blamed, findings: &mut Vec<Finding>) {
-        let open = (0..self.cut_count()).filter(|cut| self.is_open(*cut));
+    /// What a search may see of each cut from beside it.
+    pub(super) fn marks(&self) -> Vec<u64> {
         let mark = |cut: usize| 2 * self.id(cut) + u64::from(self.is_open(cut));
-        let marks: Vec<u64> = (0..self.cut_count()).map(mark).collect();
-        let mut searched: Vec<(OneContour, u64)> = Vec::new();
-        for cut in open {
+        (0..self.cut_count()).map(mark).collect()
+    }
+
+    /// Judges the contours that do not close.
+    pub(super) fn judge_contours(&self, findings: &mut Vec<Finding>) {
+        let mut searched: Vec<OneContour> = Vec::new();
+        for cut in (0..self.cut_count()).filter(|cut| self.is_open(*cut)) {
             let contour = cut..cut + 1;
             let own = &self.cuts[cut];
             let ends = own.verdict().ends;
@@ -43,40 +63,59 @@ impl Document {
             }
             let may_be_one_field = own.rare().errors == 0 && own.blocks as usize >= FEWEST_BLAMED;
             if may_be_one_field && !is_fragment && !self.lacks_a_number(&contour) {
-                let mark = self.mark_of_search(&contour, &marks);
-                searched.push((contour, mark));
+                searched.push(contour);
             }
         }
-        let is_new = |(_, mark): &&(OneContour, u64)| !known.contains_key(mark);
-        let mut unknown: Vec<&(OneContour, u64)> = searched.iter().filter(is_new).collect();
-        unknown.sort_by_key(|(_, mark)| *mark);
-        unknown.dedup_by_key(|(_, mark)| *mark);
-        let blamed = each(unknown.len(), FEW_SEARCHES, |nth| {
-            let (cuts, mark) = unknown[nth];
-            let whole = self.with_open_beside(cuts);
-            let blamed = self.blamed(cuts, whole.as_ref().unwrap_or(cuts));
-            (*mark, blamed.map(Box::new))
+        let blamed = each(searched.len(), FEW_SEARCHES, |nth| {
+            self.blame(&searched[nth])
         });
-        known.extend(blamed);
-        let mut kept = Blamed::default();
-        for (cuts, mark) in &searched {
-            let Some(blamed) = known.get(mark) else {
-                continue;
-            };
-            findings.extend(blamed.as_ref().and_then(|blamed| self.blame(cuts, blamed)));
-            kept.insert(*mark, blamed.clone());
-        }
-        self.view.blamed = kept;
+        findings.extend(blamed.into_iter().flatten());
     }
 
-    /// A mark of all that the search for a block to blame looks at: the cuts about it, by the `marks` of all, and what is
-    /// known at its beginning.
-    fn mark_of_search(&self, cuts: &OneContour, marks: &[u64]) -> u64 {
+    /// The slips that may be behind the faults of a contour, the most likely one first.
+    pub(super) fn found(&self, contour: &OneContour) -> Arc<Found> {
+        let search = || Arc::new(self.search(contour));
+        let searches = &self.view.searches;
+        searches.found(self.mark_of_search(contour), search)
+    }
+
+    fn search(&self, contour: &OneContour) -> Found {
+        let found = |cuts: &OneContour, repairs| Found {
+            before: contour.start - cuts.start,
+            behind: cuts.end - contour.end,
+            repairs,
+        };
+        if self.errors(contour) > MOST_ERRORS {
+            return found(contour, Vec::new());
+        }
+        let Some(whole) = self.with_open_beside(contour) else {
+            return found(contour, self.repairs(contour));
+        };
+        // A single slip may leave both open; of two slips nothing says in which of the two each is.
+        let mut repairs = self.repairs(&whole);
+        repairs.retain(|repair| repair.is_whole);
+        if !repairs.is_empty() {
+            return found(&whole, repairs);
+        }
+        let mut repairs = self.repairs(contour);
+        repairs.iter_mut().for_each(|repair| repair.is_sure = false);
+        found(contour, repairs)
+    }
+
+    /// A mark of all that a search looks at: the cuts about it, and what is known at its beginning.
+    fn mark_of_search(&self, cuts: &OneContour) -> u64 {
         let mut hasher = FxHasher::default();
+        let marks = &self.view.marks;
         let end = (cuts.end + CUTS_ABOUT).min(marks.len());
         marks[cuts.start.saturating_sub(CUTS_ABOUT)..end].hash(&mut hasher);
         let numbers = &self.view.numbers;
-        (marks[cuts.start], numbers.before[cuts.start], numbers.step).hash(&mut hasher);
+        (
+            marks[cuts.start],
+            cuts.len(),
+            numbers.before[cuts.start],
+            numbers.step,
+        )
+            .hash(&mut hasher);
         let first = self.blocks_of(cuts).next();
         let stated = first.and_then(|first| self.stated_begin(first));
         let stated = stated.map(|stated| (stated.at.map(f64::to_bits), stated.decimals));
@@ -93,19 +132,69 @@ impl Document {
         before.then(&self.cuts[cut].verdict().ends).returns()
     }
 
-    /// The finding of the block to blame.
-    fn blame(&self, cuts: &OneContour, (nth, fault): &(usize, Fault)) -> Option<Finding> {
-        let at = self.blocks_of(cuts).nth(*nth)?;
-        let spot = match fault {
-            Fault::QuadrantKeepsOpen { .. } => rules::Spot::Motion,
-            Fault::AxisKeepsOpen { .. } => rules::Spot::Axis,
-            Fault::JKeepsOpen { .. } => rules::Spot::J,
-            Fault::NumberKeepsOpen { axis: Axis::X, .. } => rules::Spot::X,
-            Fault::NumberKeepsOpen { axis: Axis::Y, .. } => rules::Spot::Y,
-            _ => rules::Spot::Block,
+    /// The finding of the block that keeps a contour open, where no other repair is as likely.
+    fn blame(&self, contour: &OneContour) -> Option<Finding> {
+        let found = self.found(contour);
+        let cuts = found.cuts(contour);
+        let whole = self.with_open_beside(contour);
+        if cuts != whole.unwrap_or_else(|| contour.clone()) {
+            return None;
+        }
+        let is_of_blocks = |repair: &&Repair| {
+            !matches!(
+                repair.change,
+                Change::Insert { .. } | Change::Exchange { .. }
+            )
+        };
+        let mut repairs = found.repairs.iter().filter(is_of_blocks);
+        let best = repairs.next().filter(|best| best.is_whole)?;
+        let at = self.blocks_of(&cuts).nth(best.change.index())?;
+        let (block, slip) = match &best.change {
+            Change::Replace { meant, .. } => meant,
+            _ if best.is_sure && contour.contains(&at.cut) => {
+                return Some(Finding::of(Fault::TwinKeepsOpen, self.range_of(at)));
+            }
+            _ => return None,
+        };
+        // One field of another block would do as well.
+        let is_field =
+            |slip: &Slip| matches!(slip, Slip::Motion | Slip::Axis | Slip::Number(Number::J));
+        let is_rival = |other: &Repair| match &other.change {
+            Change::Replace { meant, .. } => other.is_whole && is_field(&meant.1),
+            _ => false,
+        };
+        let is_plain = best.is_sure || is_field(slip) && !repairs.any(is_rival);
+        let both = [&self.entry(at)?.block()?.block(), block];
+        let (spot, rule) = match slip {
+            Slip::Motion => (Spot::Motion, Rule::WrongQuadrant),
+            Slip::Axis => (Spot::Axis, Rule::WrongCountingAxis),
+            Slip::Number(Number::J) => (Spot::J, Rule::WrongJ),
+            Slip::Number(Number::X) => (Spot::X, Rule::SuspectBlock),
+            Slip::Number(Number::Y) => (Spot::Y, Rule::SuspectBlock),
+            Slip::Exchanged([Number::X, Number::Y]) => (Spot::Block, Rule::SuspectBlock),
+            Slip::Coordinates | Slip::Unread | Slip::Exchanged(_) => return None,
+        };
+        let numbers = match slip {
+            Slip::Number(number) => Some(both.map(|block| number.of(block))),
+            _ => None,
+        };
+        let [found, meant] = match (slip, numbers) {
+            (Slip::Number(number), Some(both)) => both.map(|own| format!("{number:?} {own}")),
+            (Slip::Axis, _) => both.map(|block| format!("G{}", block.axis.letter())),
+            _ => both.map(|block| block.motion.name().to_owned()),
+        };
+        let fault = match slip {
+            Slip::Exchanged(_) => Fault::ExchangedKeepsOpen,
+            _ => Fault::FieldKeepsOpen {
+                rule,
+                found,
+                meant,
+                numbers,
+                is_sure: best.is_sure,
+            },
         };
         let range = self.spot_range(spot, self.range_of(at));
-        Some(Finding::of(fault.clone(), range))
+        (is_plain && contour.contains(&at.cut)).then(|| Finding::of(fault, range))
     }
 
     /// Whether the numbers of a cut have a gap: a block is lost then.

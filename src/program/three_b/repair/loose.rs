@@ -14,12 +14,12 @@ pub(in super::super) enum Number {
 }
 
 impl Number {
-    /// The axis along which it counts; J counts along both.
-    pub(in super::super) fn axis(self) -> Option<CountingAxis> {
+    /// That of a block, µm.
+    pub(in super::super) fn of(self, block: &Block) -> i64 {
         match self {
-            Number::X => Some(CountingAxis::X),
-            Number::Y => Some(CountingAxis::Y),
-            Number::J => None,
+            Number::X => block.x,
+            Number::Y => block.y,
+            Number::J => block.j,
         }
     }
 }

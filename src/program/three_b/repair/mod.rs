@@ -100,27 +100,13 @@ pub(super) struct Path<'a> {
     pub(crate) beside: Vec<Vec<Block>>,
 }
 
-/// Which repairs are handed out.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Scope {
-    /// Those of wrong blocks, and of doubled ones.
-    Blocks,
-    /// Those of lost or exchanged blocks, too.
-    All,
-}
-
 /// The repairs of a contour, the most likely one first.
-pub(super) fn repairs(path: &Path<'_>, scope: Scope) -> Vec<Repair> {
-    let suspect = Suspect::of(path, scope);
-    if suspect.is_sound && scope == Scope::Blocks {
-        return Vec::new();
-    }
-    search(&suspect)
+pub(super) fn repairs(path: &Path<'_>) -> Vec<Repair> {
+    search(&Suspect::of(path))
 }
 
 struct Suspect<'a> {
     path: &'a Path<'a>,
-    scope: Scope,
     pieces: Pieces,
     /// Nothing contradicts it.
     is_sound: bool,
@@ -254,15 +240,6 @@ impl Cut for Suspect<'_> {
         };
         i32::from(self.pieces.others.iter().any(is_own))
     }
-
-    fn offers_lost(&self) -> bool {
-        self.scope == Scope::All
-    }
-
-    fn holds(&self, change: &Change) -> bool {
-        self.scope == Scope::All
-            || !matches!(change, Change::Insert { .. } | Change::Exchange { .. })
-    }
 }
 
 /// Which way a piece begins, and how it turns.
@@ -280,7 +257,7 @@ fn turning(piece: &Piece) -> Turning {
 }
 
 impl<'a> Suspect<'a> {
-    fn of(path: &'a Path<'a>, scope: Scope) -> Suspect<'a> {
+    fn of(path: &'a Path<'a>) -> Suspect<'a> {
         let blocks = path.blocks.iter();
         let mut pieces = Pieces {
             all: blocks.map(|own| own.piece(path.limits)).collect(),
@@ -312,7 +289,6 @@ impl<'a> Suspect<'a> {
         against = pieces.against();
         Suspect {
             path,
-            scope,
             is_sound: against.count() == 0,
             is_open: against.is_open,
             is_four_b: path.blocks.iter().any(|own| own.part.is_some()),

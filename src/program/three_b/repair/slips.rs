@@ -156,7 +156,7 @@ impl Suspect<'_> {
         take: &mut impl FnMut(Block, Slip, Sort, i32),
     ) {
         let numbers = [Number::X, Number::Y, Number::J];
-        let value = |number: Number| of(block, number);
+        let value = |number: Number| number.of(block);
         // Of a line that is sound only its smaller number, or two alike, may be another one.
         let is_sound_line = block.motion.is_line() && !self.pieces.all[index].is_unsound;
         let is_ratio = block.motion.is_line() && block.x.max(block.y) < block.j;
@@ -301,14 +301,6 @@ fn different(one: &str, other: &str) -> i32 {
         .filter(|(a, b)| a == b)
         .count();
     (one.len().max(other.len()) - same) as i32
-}
-
-fn of(block: &Block, number: Number) -> i64 {
-    match number {
-        Number::X => block.x,
-        Number::Y => block.y,
-        Number::J => block.j,
-    }
 }
 
 /// True for a block in which no rule finds a fault.

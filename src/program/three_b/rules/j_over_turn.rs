@@ -2,7 +2,7 @@
 
 use super::super::decode::J_TOLERANCE;
 use super::{BlockRule, Observation, Outlook, Site, Spot, TextFix};
-use crate::finding::{Fault, FixKind, Rule};
+use crate::finding::{Fault, Rule};
 use crate::program::three_b::block::Block;
 
 pub(super) const RULE: BlockRule = BlockRule {
@@ -27,13 +27,7 @@ fn check(outlook: &Outlook) -> Option<Observation> {
 
 fn fixes(site: &Site, _: &Fault) -> Vec<TextFix> {
     let turn = (4.0 * (site.block.x as f64).hypot(site.block.y as f64)).round() as i64;
-    let candidates = [turn, site.block.j / 10, site.block.j - turn];
-    let with = |j: i64| Block { j, ..site.block };
-    let closing = candidates
-        .into_iter()
-        .filter(|&j| j > 0 && j <= turn)
-        .find(|&j| (site.closes_with)(&[with(j)]));
-    let j = closing.unwrap_or(turn);
-    let fix = site.fix(FixKind::SetJ { j }, &with(j), closing.is_some());
-    vec![fix.preferred_if(closing.is_some())]
+    let meant = [turn, site.block.j / 10, site.block.j - turn].into_iter();
+    let meant = meant.filter(|j| (1..=turn).contains(j));
+    site.one_of(meant.map(|j| Block { j, ..site.block }))
 }

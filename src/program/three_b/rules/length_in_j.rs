@@ -3,6 +3,7 @@
 use super::projection::{Length, length};
 use super::{BlockRule, Observation, Outlook, Site, Spot, TextFix};
 use crate::finding::{Axis, Fault, Rule};
+use crate::program::three_b::block::Block;
 
 pub(super) const RULE: BlockRule = BlockRule {
     rule: Rule::LengthInJ,
@@ -34,6 +35,6 @@ fn larger_axis(outlook: &Outlook) -> Axis {
 }
 
 fn fixes(site: &Site, _: &Fault) -> Vec<TextFix> {
-    let projection = site.block.x.max(site.block.y);
-    vec![site.set_j(projection, true)]
+    let j = site.block.x.max(site.block.y);
+    vec![site.fix(&Block { j, ..site.block }, true)]
 }

@@ -28,7 +28,7 @@ use super::entry::BlockEntry;
 use super::fault::{Flaw, SyntaxFault};
 use super::fields::Fields;
 use crate::drawing::wire_side;
-use crate::finding::{Detail, Fault, Fix, FixKind, Rule};
+use crate::finding::{Axis, Detail, Fault, Fix, FixKind, Rule};
 use crate::program::path::{ControlOffset, MOST_BLOCKS, UM_IN_MM};
 use crate::settings::{Compensation, Effective, SideSetting};
 use crate::text::TextEdit;
@@ -256,19 +256,26 @@ impl Site<'_> {
         TextEdit::new(range.clone(), text.into())
     }
 
-    /// Replaces the block.
-    fn made(&self, new: &Block) -> Vec<TextEdit> {
-        self.fields.changed(self.text, &self.block, new)
-    }
-
     /// The fix that puts another block in its place.
-    fn fix(&self, kind: FixKind, new: &Block, in_fix_all: bool) -> TextFix {
-        Fix::text(kind, in_fix_all, self.made(new))
+    fn fix(&self, new: &Block, in_fix_all: bool) -> TextFix {
+        let edits = self.fields.changed(self.text, &self.block, new);
+        Fix::text(kind_of(&self.block, new), in_fix_all, edits)
     }
 
-    fn set_j(&self, j: i64, in_fix_all: bool) -> TextFix {
-        let new = Block { j, ..self.block };
-        self.fix(FixKind::SetJ { j }, &new, in_fix_all)
+    /// Blocks that may be meant, the likeliest first. Those with which the contour closes come before the others: one that
+    /// alone does is sure.
+    fn one_of(&self, meant: impl IntoIterator<Item = Block>) -> Vec<TextFix> {
+        let mut meant: Vec<(bool, Block)> = meant
+            .into_iter()
+            .map(|block| (!(self.closes_with)(&[block]), block))
+            .collect();
+        meant.sort_by_key(|(is_open, _)| *is_open);
+        let is_sure = meant.iter().filter(|(is_open, _)| !is_open).count() == 1;
+        let fixes = meant.iter().enumerate().map(|(nth, (_, block))| {
+            let is_it = is_sure && nth == 0;
+            self.fix(block, is_it).preferred_if(is_it)
+        });
+        fixes.collect()
     }
 
     /// The line with its line end where the block stands alone in it, else the block.
@@ -290,6 +297,40 @@ impl Site<'_> {
 
     fn delete(&self, kind: FixKind, in_fix_all: bool) -> TextFix {
         Fix::text(kind, in_fix_all, self.replace(&self.whole(), ""))
+    }
+}
+
+/// What makes one block of another.
+pub(super) fn kind_of(old: &Block, new: &Block) -> FixKind {
+    let numbers = |block: &Block| [block.x, block.y, block.j];
+    let pairs = numbers(old).into_iter().zip(numbers(new));
+    let changed = pairs.filter(|(old, new)| old != new).count();
+    let axis = new.axis;
+    match () {
+        _ if old.motion != new.motion => FixKind::SetMotion {
+            name: new.motion.name(),
+        },
+        _ if old.axis != axis => FixKind::SetAxis {
+            axis,
+            j: (changed > 0).then_some(new.j),
+        },
+        _ if [old.x, old.y] == [new.y, new.x] && changed == 2 => FixKind::ExchangeXAndY,
+        _ if changed > 1 => {
+            let shown = |block: &Block| numbers(block).map(|number| format!("B{number}")).concat();
+            FixKind::Rewrite {
+                found: shown(old),
+                meant: shown(new),
+            }
+        }
+        _ if old.x != new.x => FixKind::SetEnd {
+            axis: Axis::X,
+            value: new.x,
+        },
+        _ if old.y != new.y => FixKind::SetEnd {
+            axis: Axis::Y,
+            value: new.y,
+        },
+        _ => FixKind::SetJ { j: new.j },
     }
 }
 

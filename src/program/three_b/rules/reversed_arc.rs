@@ -1,7 +1,7 @@
 //! `reversed-arc`: the fixes for an arc that runs the wrong way round. Its joints reveal it ([`crate::program::path`]).
 
 use super::{BlockRule, Site, TextFix};
-use crate::finding::{Fault, FixKind, Rule};
+use crate::finding::{Fault, Rule};
 use crate::geometry::{Arc, Point, Segment};
 use crate::program::three_b::block::{Block, Motion};
 use crate::program::three_b::decode::meant;
@@ -16,13 +16,7 @@ pub(super) const RULE: BlockRule = BlockRule {
 
 /// The arc about the same centre between the same ends, the other way round.
 fn fixes(site: &Site, _: &Fault) -> Vec<TextFix> {
-    let Some(other) = exchanged(&site.block) else {
-        return Vec::new();
-    };
-    let is_safe = (site.closes_with)(&[other]);
-    let name = other.motion.name();
-    let fix = site.fix(FixKind::SetMotion { name }, &other, is_safe);
-    vec![fix.preferred_if(is_safe)]
+    site.one_of(exchanged(&site.block))
 }
 
 fn exchanged(block: &Block) -> Option<Block> {

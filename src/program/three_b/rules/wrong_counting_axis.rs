@@ -5,9 +5,9 @@
 //! of the way.
 
 use super::{ARC_TIE, BlockRule, Observation, Outlook, Site, Spot, TIE, TextFix};
-use crate::finding::{Axis, Fault, FixKind, Rule};
+use crate::finding::{Fault, Rule};
 use crate::geometry::{Point, Segment};
-use crate::program::three_b::block::{Block, Motion, Quadrant};
+use crate::program::three_b::block::{Block, Quadrant};
 use crate::program::three_b::decode::decode;
 use crate::program::three_b::encode::counted;
 
@@ -54,38 +54,34 @@ fn check(outlook: &Outlook) -> Option<Observation> {
     (along > across + ARC_TIE).then(|| Observation::at(Spot::Axis, fault()))
 }
 
-fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
+fn fixes(site: &Site, _: &Fault) -> Vec<TextFix> {
     let axis = site.block.axis.other();
     let flipped = Block { axis, ..site.block };
-    let only_axis = |in_fix_all| site.fix(FixKind::SetAxis { axis, j: None }, &flipped, in_fix_all);
-    if let Fault::AxisKeepsOpen { is_sure, .. } = fault {
-        return vec![only_axis(*is_sure)];
-    }
-    if let Motion::Line(_) = site.block.motion {
-        let larger = site.block.x.max(site.block.y);
-        let is_ratio = site.block.j > larger + 2;
-        let closes = (site.closes_with)(&[flipped]);
-        if (site.block.j - larger).abs() <= 2 || (is_ratio && closes) {
-            return vec![only_axis(closes || has_its_quadrant(&site.block))];
-        }
-        // J counted the smaller projection; the scale of a ratio changes with it.
-        let smaller = site.block.x.min(site.block.y);
-        let j = match (is_ratio, smaller) {
-            (true, 1..) => (site.block.j as f64 * larger as f64 / smaller as f64).round() as i64,
-            _ => larger,
+    let with_j = |j: i64| Block { j, ..flipped };
+    if let Ok(Segment::Arc(arc)) = decode(&site.block, Point::origin()) {
+        let same_end = counted(&arc, axis).round() as i64;
+        return match (site.closes_with)(&[flipped]) {
+            true => site.one_of([flipped, with_j(same_end)]),
+            false => site.one_of([with_j(same_end)]),
         };
-        return vec![with_j(site, axis, j)];
     }
-    let Ok(Segment::Arc(arc)) = decode(&site.block, Point::origin()) else {
+    if !site.block.motion.is_line() {
         return Vec::new();
-    };
-    let same_end = counted(&arc, axis).round() as i64;
-    let with_same_end = with_j(site, axis, same_end);
-    if (site.closes_with)(&[flipped]) {
-        let other = TextFix::text(with_same_end.kind, false, with_same_end.edit);
-        return vec![only_axis(true), other.preferred_if(false)];
     }
-    vec![with_same_end]
+    let Block { x, y, j, .. } = site.block;
+    let (larger, smaller) = (x.max(y), x.min(y));
+    if (j - larger).abs() <= 2 && has_its_quadrant(&site.block) {
+        return vec![site.fix(&flipped, true)];
+    }
+    let is_ratio = j > larger + 2;
+    if (j - larger).abs() <= 2 || (is_ratio && (site.closes_with)(&[flipped])) {
+        return site.one_of([flipped]);
+    }
+    // J counted the smaller projection; the scale of a ratio changes with it.
+    site.one_of([with_j(match (is_ratio, smaller) {
+        (true, 1..) => (j as f64 * larger as f64 / smaller as f64).round() as i64,
+        _ => larger,
+    })])
 }
 
 /// True for a line along an axis whose quadrant is the one for that axis: X and Y have not changed places.
@@ -96,16 +92,4 @@ fn has_its_quadrant(block: &Block) -> bool {
         Quadrant::counter_clockwise(x * sign_x as i64, y * sign_y as i64) == quadrant
     };
     is_usual(block.x, block.y) && !is_usual(block.y, block.x)
-}
-
-/// J and G agree with each other, so another number may be the wrong one: made by "fix all" only
-/// where the contour closes.
-fn with_j(site: &Site, axis: Axis, j: i64) -> TextFix {
-    let made = Block {
-        axis,
-        j,
-        ..site.block
-    };
-    let closes = (site.closes_with)(&[made]);
-    site.fix(FixKind::SetAxis { axis, j: Some(j) }, &made, closes)
 }

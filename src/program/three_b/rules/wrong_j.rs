@@ -5,7 +5,7 @@
 
 use super::projection::{Length, length};
 use super::{BlockRule, Counts, Observation, Outlook, Site, Spot, TextFix};
-use crate::finding::{Axis, Fault, FixKind, Rule};
+use crate::finding::{Axis, Fault, Rule};
 use crate::program::three_b::block::Block;
 
 pub(super) const RULE: BlockRule = BlockRule {
@@ -41,10 +41,7 @@ fn check(outlook: &Outlook) -> Option<Observation> {
     })
 }
 
-fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
-    if let Fault::JKeepsOpen { meant, is_sure, .. } = *fault {
-        return vec![site.set_j(meant, is_sure)];
-    }
+fn fixes(site: &Site, _: &Fault) -> Vec<TextFix> {
     let Block { x, y, j, .. } = site.block;
     let projection = x.max(y);
     let by_j = Block {
@@ -52,33 +49,15 @@ fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
         ..site.block
     };
     // The larger number with the digits that J has.
-    let other = x.min(y);
-    let by_number = if x >= y {
-        Block { x: j, ..site.block }
-    } else {
-        Block { y: j, ..site.block }
+    let by_number = match x >= y {
+        true => Block { x: j, ..site.block },
+        false => Block { y: j, ..site.block },
     };
-    let is_shifted = j > 0
-        && other <= j
-        && (projection == 10 * j || 10 * projection == j || projection == 100 * j);
-    let number_closes = j > 0 && other <= j && (site.closes_with)(&[by_number]);
-    let j_closes = (site.closes_with)(&[by_j]);
-    let number_first = number_closes || (is_shifted && !j_closes);
-    let field = if x >= y { Axis::X } else { Axis::Y };
-    let set_j = site.set_j(projection, j_closes || j == 0);
-    let mut fixes = vec![set_j.preferred_if(!number_first)];
-    if number_closes || is_shifted {
-        let kind = FixKind::SetEnd {
-            axis: field,
-            value: j,
-        };
-        let set_number = site.fix(kind, &by_number, number_closes);
-        let set_number = set_number.preferred_if(number_first);
-        fixes.insert(if number_first { 0 } else { 1 }, set_number);
-        // The contour says which of the two is wrong.
-        if number_closes && !j_closes {
-            fixes.truncate(1);
-        }
+    let is_shifted = projection == 10 * j || 10 * projection == j || projection == 100 * j;
+    let may_be_number = j > 0 && x.min(y) <= j;
+    match may_be_number {
+        true if is_shifted => site.one_of([by_number, by_j]),
+        true if (site.closes_with)(&[by_number]) => site.one_of([by_j, by_number]),
+        _ => site.one_of([by_j]),
     }
-    fixes
 }

@@ -4,7 +4,7 @@
 //! the same place; it is an error only where Z alone gives the direction, or where the contour does not close.
 
 use super::{BlockRule, Counts, Observation, Outlook, Site, Spot, TextFix};
-use crate::finding::{Axis, Fault, FixKind, Rule};
+use crate::finding::{Axis, Fault, Rule};
 use crate::program::three_b::block::{Block, Motion, Quadrant};
 
 pub(super) const RULE: BlockRule = BlockRule {
@@ -56,45 +56,22 @@ fn check(outlook: &Outlook) -> Option<Observation> {
 }
 
 fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
+    let (Fault::AxisQuadrant { expected, .. } | Fault::UnusualQuadrant { expected, .. }) = fault
+    else {
+        return Vec::new();
+    };
+    let [one, other] = expected.map(|name| named(&site.block, name));
+    // The half axis that the controller takes it for now.
+    let [same, opposite] = match (site.block.motion, expected[0]) {
+        (Motion::Line(Quadrant::Fourth), "L1") | (Motion::Line(Quadrant::First), "L2") => {
+            [one, other]
+        }
+        _ => [other, one],
+    };
     match fault {
-        Fault::QuadrantKeepsOpen { meant, is_sure, .. } => {
-            let kind = FixKind::SetMotion { name: meant };
-            vec![site.fix(kind, &named(&site.block, meant), *is_sure)]
-        }
-        Fault::AxisQuadrant { expected, .. } | Fault::UnusualQuadrant { expected, .. } => {
-            let is_fault = matches!(fault, Fault::AxisQuadrant { .. });
-            let closes = |name: &&str| (site.closes_with)(&[named(&site.block, name)]);
-            let mut all_closing = expected.iter().copied().filter(closes);
-            let (closing, is_only) = (all_closing.next(), all_closing.next().is_none());
-            // The half axis that the controller takes it for now.
-            let same = match (site.block.motion, expected[0]) {
-                (Motion::Line(Quadrant::Fourth), "L1") | (Motion::Line(Quadrant::First), "L2") => {
-                    expected[0]
-                }
-                _ => expected[1],
-            };
-            let first = if is_fault {
-                closing.unwrap_or(same)
-            } else {
-                same
-            };
-            let mut names = vec![first];
-            // The other one leads the other way, which nobody wants where the contour closes.
-            names.extend(
-                expected
-                    .iter()
-                    .copied()
-                    .filter(|name| is_fault && *name != first),
-            );
-            let fix = |(index, name): (usize, &'static str)| {
-                let is_safe = index == 0 && is_fault && closing.is_some() && is_only;
-                let made = named(&site.block, name);
-                let fix = site.fix(FixKind::SetMotion { name }, &made, is_safe);
-                fix.preferred_if(index == 0)
-            };
-            names.into_iter().enumerate().map(fix).collect()
-        }
-        _ => Vec::new(),
+        Fault::AxisQuadrant { .. } => site.one_of([same, opposite]),
+        // The other one leads the other way, which nobody wants where the contour closes.
+        _ => vec![site.fix(&same, false)],
     }
 }
 
