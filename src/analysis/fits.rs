@@ -20,7 +20,7 @@ const MOST_SEGMENTS: usize = 100_000;
 pub(crate) struct Answer {
     /// `None` where one of the two has no path, which other findings report.
     pub(super) known: Option<Arc<Fitted>>,
-    /// One of the two has been edited since: what still holds need not be checked again.
+    /// One of the two has been edited since: it may follow the edit.
     pub(super) is_old: bool,
 }
 
@@ -28,9 +28,15 @@ pub(crate) struct Answer {
 #[derive(Clone, Debug)]
 pub(crate) struct Left {
     part: Arc<Part>,
-    /// Where the contour has been edited since: the parts that still hold need not be worked out
-    /// again.
+    /// Where the contour has been edited since.
     edited: Edited,
+}
+
+impl Left {
+    fn new(part: Arc<Part>) -> Left {
+        let edited = Edited::not();
+        Left { part, edited }
+    }
 }
 
 /// The contours of a drawing that are pairs, by their indices among all outlines.
@@ -287,8 +293,7 @@ impl Analysis {
     /// The parts of contours as they are now.
     fn keep_parts(&mut self, keys: [ContourKey; 2], parts: [Arc<Part>; 2]) {
         for ((key, role), part) in keys.into_iter().zip(ROLES).zip(parts) {
-            let edited = Edited::not();
-            self.parts.insert((key, role), Left { part, edited });
+            self.parts.insert((key, role), Left::new(part));
         }
     }
 
@@ -322,32 +327,24 @@ impl Analysis {
         });
         let settings = &self.settings;
         let have = fit::follow(drawing, outlines, settings, one == other, (parts, held));
-        let have_all = have == [true; 2];
-        let have_any = have_all || (0..2).any(|which| have[which] && edited[which].is_any());
-        self.keep_parts(keys, fitted.parts.clone());
-        for (of, (edited, has)) in [of_punch, of_plate]
-            .iter()
-            .zip(edited.into_iter().zip(have))
-        {
-            if let Some(left) = self.parts.get_mut(of).filter(|_| !has) {
-                left.edited = edited;
+        for ((of, part), has) in [of_punch, of_plate].iter().zip(&fitted.parts).zip(have) {
+            if has {
+                self.parts.insert(*of, Left::new(part.clone()));
             }
         }
-        if have_any && !have_all {
-            // What was known belongs to parts that no longer exist.
+        if have != [true; 2] {
             return None;
         }
         let known = Some(Arc::new(fitted));
         let answer = Answer {
             known: known.clone(),
-            is_old: !have_all,
+            is_old: false,
         };
         self.fits.insert((one, other), answer);
-        known.filter(|_| have_all)
+        known
     }
 
-    /// Two outlines, or one that is cut twice, laid in each other. What still holds from before an edit is not checked
-    /// again.
+    /// Two outlines, or one that is cut twice, laid in each other.
     pub(super) fn fitted(
         &self,
         drawing: &Drawing,
@@ -355,35 +352,24 @@ impl Analysis {
     ) -> Option<Fitted> {
         let settings = &self.settings;
         let [(one, punch), (other, plate)] = both;
-        let left = |key: ContourKey, role: Role| self.parts.get(&(key, role));
         let walls = |key: ContourKey| {
             let own = self.walls.get(&key).filter(|own| own.is_new());
             own.map(|own| &*own.walls)
         };
-        let old = self
-            .fits
-            .get(&(one, other))
-            .and_then(|answer| answer.known.as_deref());
-        let before = old.map(|old| (old.both(), &old.held));
         match settings.partners()? {
             Partners::CutTwice(_) => {
-                let before_each = ROLES.map(|role| left(one, role).map(|left| &*left.part));
-                let walls = walls(one);
-                let parts = fit::cut_twice_parts(drawing, punch, settings, walls, before_each);
-                let parts = parts.ok()?;
-                let held = fit::cut_twice(drawing, parts.each_ref(), settings, before);
+                let parts = fit::cut_twice_parts(drawing, punch, settings, walls(one)).ok()?;
+                let held = fit::cut_twice(drawing, parts.each_ref(), settings);
                 let parts = parts.map(Arc::new);
                 Some(Fitted { parts, held })
             }
             Partners::Drawn => {
                 let part_of = |key: ContourKey, outline: &Outline, role: Role| {
-                    let before = left(key, role);
-                    if let Some(left) = before.filter(|left| !left.edited.is_any()) {
+                    let known = self.parts.get(&(key, role));
+                    if let Some(left) = known.filter(|left| !left.edited.is_any()) {
                         return Some(left.part.clone());
                     }
-                    let before = before.map(|left| &*left.part);
-                    let part =
-                        fit::drawn_part(drawing, outline, role, settings, walls(key), before);
+                    let part = fit::drawn_part(drawing, outline, role, settings, walls(key));
                     part.ok().map(Arc::new)
                 };
                 let (punch_part, plate_part) = rayon::join(
@@ -393,7 +379,7 @@ impl Analysis {
                 let parts = [punch_part?, plate_part?];
                 let both = parts.each_ref().map(|part| &**part);
                 let outlines = [punch, plate];
-                let held = fit::drawn_pair(drawing, outlines, both, settings, before);
+                let held = fit::drawn_pair(drawing, outlines, both, settings);
                 Some(Fitted { parts, held })
             }
         }

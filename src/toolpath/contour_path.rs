@@ -11,10 +11,8 @@ use super::offset::{Wall, walls};
 use super::open_contour::{one_side, there_and_back};
 use super::path::Refusal;
 use super::proof::{Beside, Proof, Unproved};
-use super::reuse::Kept;
 use super::ring::{Pieces, trimmed};
 use super::skim_sweep::along_before;
-use super::spliced::spliced;
 use crate::drawing::ContourSegment;
 use crate::finding::{Detail, Finding, NotJudged, Place, Rule, Severity};
 use crate::geometry::{Point, Segment, cross};
@@ -49,15 +47,6 @@ impl Along {
             false => self,
         }
     }
-}
-
-/// What has been proved before of a path beside the same walls.
-#[derive(Default)]
-pub(super) struct Known<'a> {
-    /// That of an earlier pass.
-    pub(crate) before: Option<Before<'a>>,
-    /// That before an edit.
-    pub(crate) kept: Option<Kept<'a>>,
 }
 
 /// What a contour gives the wire.
@@ -146,7 +135,7 @@ impl Job<'_> {
         walls: &[Wall],
         own: &Walls,
         along: Along,
-        mut known: Known,
+        before: Option<Before>,
     ) -> Result<Outcome, Refusal> {
         let Along {
             side,
@@ -169,29 +158,6 @@ impl Job<'_> {
         let joining = self.joining(along);
         self.go_on()?;
         let rounding = self.units(ROUNDING);
-        if let Some(kept) = &mut known.kept
-            && closed
-            && self.a_loop_will_do
-            && let Some(path) = spliced(kept, walls, &joining)
-            && keeps_its_side(&path, walls, own, side)
-        {
-            let place = Beside {
-                walls,
-                own,
-                correction,
-                side,
-                rounding,
-                closed,
-            };
-            let about = kept.about(own, correction);
-            if place
-                .pieces_hold(path.iter(), None, Some((kept, &about)))
-                .is_ok()
-            {
-                return Ok(Ok(Laid::Path(path)));
-            }
-            kept.again();
-        }
         let of_round = || {
             let ends = |wall: &Wall| [wall.geometry.start_tangent(), wall.geometry.end_tangent()];
             round.iter().map(ends).collect()
@@ -215,7 +181,7 @@ impl Job<'_> {
         };
         let proof = Proof { place, offsets };
         // One that was looked for among all crossings has its corners less exactly.
-        if let Some(before) = known.before
+        if let Some(before) = before
             && closed
             && !self.searched.load(Relaxed)
             && let Some(path) = along_before(&proof, before, self.goes_on)
@@ -241,7 +207,7 @@ impl Job<'_> {
             }),
         };
         if let Some(path) = found
-            && self.holds(&proof, &raw, &path, known)?.is_ok()
+            && self.holds(&proof, &raw, &path, before)?.is_ok()
         {
             return Ok(Ok(Laid::Path(path.elements)));
         }
@@ -303,7 +269,7 @@ impl Job<'_> {
     /// A path, where it passes its proof.
     fn vouched(&self, proof: &Proof, raw: &Raw, path: Pieces) -> Result<Outcome, Refusal> {
         Ok(self
-            .holds(proof, raw, &path, Known::default())?
+            .holds(proof, raw, &path, None)?
             .map(|()| Laid::Path(path.elements))
             .map_err(|Unproved { wall }| Fault::Unproved { wall }))
     }
@@ -314,9 +280,8 @@ impl Job<'_> {
         proof: &Proof,
         raw: &Raw,
         path: &Pieces,
-        known: Known,
+        before: Option<Before>,
     ) -> Result<Result<(), Unproved>, Refusal> {
-        let Known { before, kept } = known;
         let go_on = || self.go_on();
         let place = &proof.place;
         let nest = before.map(|before| Nest::new(before, place.walls.len()));
@@ -324,22 +289,12 @@ impl Job<'_> {
             elements: pieces,
             raw: of,
         } = path;
-        let held = match kept {
-            // Only little of it has to be checked.
-            Some(mut kept) => {
-                self.go_on()?;
-                let about = kept.about(place.own, place.correction);
-                place.pieces_hold(pieces.iter(), nest.as_ref(), Some((&mut kept, &about)))
-            }
-            None => {
-                if place.closed {
-                    place.own.know_about(place.correction - place.rounding);
-                }
-                first_fault(pieces.len(), go_on, |range| {
-                    place.pieces_hold(pieces[range].iter(), nest.as_ref(), None)
-                })?
-            }
-        };
+        if place.closed {
+            place.own.know_about(place.correction - place.rounding);
+        }
+        let held = first_fault(pieces.len(), go_on, |range| {
+            place.pieces_hold(pieces[range].iter(), nest.as_ref())
+        })?;
         if held.is_err() {
             return Ok(held);
         }

@@ -64,7 +64,6 @@ pub(crate) use nearby::Nearby;
 pub(crate) use part::{Cutting, Part, part};
 pub(crate) use path::lengths;
 pub use path::{PathSegment, Refusal, Source, WirePath};
-pub(crate) use reuse::{NEW, which_it_is, which_it_was};
 pub(crate) use rounds::rounds;
 pub(crate) use said_twice::{MOST_SEGMENTS as MOST_SEGMENTS_SAID_TWICE, said_twice};
 pub(crate) use settings_check::{

@@ -1,7 +1,7 @@
 //! The paths of the passes after the first.
 
 use super::clearance::Walls;
-use super::contour_path::{Along, Fault, Known, Laid, Outcome};
+use super::contour_path::{Along, Fault, Laid, Outcome};
 use super::corners::Element;
 use super::job::{Job, ROUNDING};
 use super::nest::Before;
@@ -74,11 +74,7 @@ impl Job<'_> {
             // One beside the first path has been proved otherwise.
             let is_plain =
                 !is_constant && along.side == side && along.correction <= rough.correction;
-            let known = Known {
-                before: is_plain.then_some(before),
-                ..Known::default()
-            };
-            return self.laid_within(walls, own, along, known);
+            return self.laid_within(walls, own, along, is_plain.then_some(before));
         }
         let beside: Vec<Wall> = rough.path.iter().map(Element::piece).collect();
         let near = Walls::of(&beside);
