@@ -1,7 +1,7 @@
 //! The paths of the passes after the first.
 
 use super::clearance::Walls;
-use super::contour_path::{Along, Fault, Laid, Outcome};
+use super::contour_path::{Along, Fault, Laid, Lost, Outcome};
 use super::corners::Element;
 use super::job::{Job, ROUNDING};
 use super::nest::Before;
@@ -98,10 +98,12 @@ impl Job<'_> {
                     None => Ok(Laid::Path(path)),
                 }
             }
-            Err(Fault::Several { near, wall }) => Err(Fault::Several {
-                near,
-                wall: rough.path[wall].wall,
-            }),
+            Err(Fault::Several(mut lost)) => {
+                for Lost { wall, .. } in &mut lost {
+                    *wall = rough.path[*wall].wall;
+                }
+                Err(Fault::Several(lost))
+            }
             Err(Fault::Unproved { wall }) => Err(Fault::Unproved {
                 wall: rough.path[wall].wall,
             }),
