@@ -9,7 +9,6 @@ mod drafting;
 mod edited;
 mod electrode;
 mod end_index;
-mod ends;
 mod fit_fixes;
 mod fits;
 mod fitting;
@@ -44,7 +43,7 @@ pub(crate) use contours::is_cut;
 pub use largest_wire::{largest_wire, work};
 
 use crate::drawing::{
-    Chains, Contour, ContourKey, Delta, Drawing, EntityId, Outline, RUN, Role, Touched,
+    Chains, Contour, ContourKey, Delta, Drawing, EntityId, Outline, RUN, Touched,
 };
 use crate::finding::{Finding, NoFix};
 use crate::geometry::{Bounds, Grid};
@@ -53,13 +52,15 @@ use crate::settings::Effective;
 use contours::set_aside;
 use drafting::{AsideEntities, LoneLines};
 use fitting::Fitting;
-use known::{Answer, Known};
+use known::Known;
 use notable::Notables;
-use pairs::{Pairs, ToldAside};
+use pairs::Pairs;
+use pockets::Loss;
 use report::Tally;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::sync::{Arc, OnceLock};
 use suppressed::Judged;
+use told::Told;
 
 /// Up to this many touched places are checked one by one, however small the drawing is.
 const FEW: usize = 16;
@@ -95,12 +96,10 @@ pub struct Analysis {
     pairs: Pairs,
     /// Whether a fix was found for a fault, and the region on which that depends.
     answers: FxHashMap<(ContourKey, usize), (Option<NoFix>, Bounds)>,
-    /// What the offset of a contour loses, for a side and with or without a neck.
-    lost: FxHashMap<ContourKey, Answer>,
+    /// What the path along a contour loses, for a side and with or without a neck.
+    lost: FxHashMap<ContourKey, Loss>,
     /// What was found between partners, or for a contour that is cut twice.
     fits: FxHashMap<(ContourKey, ContourKey), fits::Answer>,
-    /// What the wire leaves of the contours of pairs.
-    parts: FxHashMap<(ContourKey, Role), fits::Left>,
     /// The segments of contours that may belong to a pair, for questions about what is near.
     walls: FxHashMap<ContourKey, own_walls::Own>,
     /// Which contours run beside each other, each time the smaller one first.
@@ -118,7 +117,7 @@ pub struct Analysis {
 #[derive(Clone, Debug)]
 struct Suspended {
     entity: EntityId,
-    told: ToldAside,
+    told: Option<Arc<Told>>,
 }
 
 impl Analysis {
@@ -144,7 +143,6 @@ impl Analysis {
             answers: FxHashMap::default(),
             lost: FxHashMap::default(),
             fits: FxHashMap::default(),
-            parts: FxHashMap::default(),
             walls: FxHashMap::default(),
             beside: FxHashSet::default(),
             order: OnceLock::new(),
@@ -216,7 +214,7 @@ impl Analysis {
             (Some(Suspended { entity, told }), [Touched::Vertices { entity: woken, .. }])
                 if *woken == entity =>
             {
-                self.pairs.tell_again(told);
+                self.pairs.told = told;
                 self.order = OnceLock::new()
             }
             (Some(Suspended { entity, .. }), _) => {
@@ -224,7 +222,7 @@ impl Analysis {
                 moved.push(entity);
             }
             (None, &[Touched::Removed { entity }]) if self.may_be_suspended(entity) => {
-                let told = self.pairs.set_told_aside();
+                let told = self.pairs.told.take();
                 self.suspended = Some(Suspended { entity, told });
                 self.order = OnceLock::new();
                 return;

@@ -64,7 +64,7 @@ impl Analysis {
     }
 }
 
-/// The present segments of an edited contour, and those that are gone or new.
+/// The present segments of an edited contour, and those that are gone or new; `None` where more than a few may be.
 fn walls_since(
     own: Own,
     drawing: &Drawing,
@@ -74,9 +74,7 @@ fn walls_since(
     let within = edited.within();
     let within = within.filter(|_| walls.segments().len() == outline.contour.len());
     let Some(within) = within else {
-        let now = fit::walls_of(drawing, &outline.contour);
-        let changed = fit::changed_since(&walls, &now);
-        return (now, changed);
+        return (fit::walls_of(drawing, &outline.contour), None);
     };
     let segment = |index: usize| {
         let now = outline.contour.segment(drawing, index)?.geometry;

@@ -10,7 +10,6 @@ use super::about::{About, Limits};
 use super::observations::{Lies, Observations, Verdict};
 use super::penetration::{Deep, depth};
 use super::places::own_places;
-use super::reuse::Reuse;
 use super::walls::{nearest_places, sharper, wall};
 use crate::geometry::{
     Bounds, Few, Point, Segment, Vector, cross, line_circle, line_line, meetings, reached,
@@ -48,16 +47,11 @@ const DOUBLINGS: u32 = 6;
 /// Corners lie on their edges except for rounding, so edges are looked for farther away by this factor.
 const WIDER: f64 = 1.0 + 1e-3;
 
-/// Lays the punch in the plate. `names` are what the two are called. What `reuse` knows from before an edit is not looked at again.
-pub(super) fn held(
-    parts: [&Part; 2],
-    names: &[Arc<str>; 2],
-    limits: &Limits,
-    reuse: Option<&Reuse>,
-) -> Held {
+/// Lays the punch in the plate. `names` are what the two are called.
+pub(super) fn held(parts: [&Part; 2], names: &[Arc<str>; 2], limits: &Limits) -> Held {
     let observations = [0, 1, 2].map(|which| match which {
         2 if limits.along_walls.is_some() => Observations::default(),
-        which => observations(which, reuse, parts, limits),
+        which => observations(which, parts, limits),
     });
     let (unless, apart) = all_apart(parts, names, limits);
     Held {
@@ -214,7 +208,7 @@ fn more_than_wanted(parts: [&Part; 2], names: &[Arc<str>; 2], limits: &Limits) -
             clearance,
             ..*limits
         };
-        let held = held(parts, names, &more, None);
+        let held = held(parts, names, &more);
         Some(held.least()).filter(|least| *least < clearance)
     };
     match limits.along_walls {
@@ -243,12 +237,7 @@ pub(super) fn look(
 }
 
 /// What a look at each edge says.
-fn observations(
-    which: usize,
-    reuse: Option<&Reuse>,
-    parts: [&Part; 2],
-    limits: &Limits,
-) -> Observations {
+fn observations(which: usize, parts: [&Part; 2], limits: &Limits) -> Observations {
     let count = parts[usize::from(which == 1)].edges.len();
     let some = |edges: Range<usize>| {
         let mut observations = Observations {
@@ -256,20 +245,15 @@ fn observations(
             verdicts: Vec::new(),
         };
         let mut about = About::of(which, parts);
-        let mut known = reuse.map(|reuse| reuse.of(which));
         for edge in edges {
-            let kept = known.as_mut().and_then(|known| known.kept(edge));
-            let (asked, verdict) = kept.unwrap_or_else(|| {
-                about.asked = Bounds::EMPTY;
-                let verdict = look(which, parts, edge, &mut about, limits);
-                (about.asked, verdict)
-            });
-            observations.asked.push(asked);
+            about.asked = Bounds::EMPTY;
+            let verdict = look(which, parts, edge, &mut about, limits);
+            observations.asked.push(about.asked);
             observations.verdicts.extend(verdict);
         }
         observations
     };
-    if reuse.is_some() || count <= AT_A_TIME {
+    if count <= AT_A_TIME {
         // Waking a core would take longer.
         return some(0..count);
     }

@@ -51,11 +51,11 @@ impl Laid {
             Partners::CutTwice(_) => {
                 for index in all_cut_twice(outlines) {
                     let outline = &outlines[index];
-                    let parts = cut_twice_parts(drawing, outline, settings, None, [None; 2])?;
+                    let parts = cut_twice_parts(drawing, outline, settings, None)?;
                     if !goes_on() {
                         return Err(Refusal::Cancelled);
                     }
-                    let held = cut_twice(drawing, parts.each_ref(), settings, None);
+                    let held = cut_twice(drawing, parts.each_ref(), settings);
                     let parts = parts.map(Arc::new);
                     laid.add([index; 2], Fitted { parts, held });
                 }
@@ -72,7 +72,7 @@ impl Laid {
                     let [of_punch, of_plate] = pair.map(|index| walls_of(index, &outlines[index]));
                     let [punch, plate] = pair.map(|index| &outlines[index]);
                     let part_of = |outline: &Outline, role: Role, walls: &Walls| {
-                        drawn_part(drawing, outline, role, settings, Some(walls), None)
+                        drawn_part(drawing, outline, role, settings, Some(walls))
                     };
                     let parts = rayon::join(
                         || part_of(punch, Role::Punch, &of_punch),
@@ -82,8 +82,7 @@ impl Laid {
                         return Err(Refusal::Cancelled);
                     }
                     let parts = [parts.0?, parts.1?];
-                    let held =
-                        drawn_pair(drawing, [punch, plate], parts.each_ref(), settings, None);
+                    let held = drawn_pair(drawing, [punch, plate], parts.each_ref(), settings);
                     let parts = parts.map(Arc::new);
                     laid.add(pair, Fitted { parts, held });
                 }

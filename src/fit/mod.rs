@@ -5,7 +5,6 @@
 //! lies so near that it can only be its partner. Everything is in drawing units.
 
 mod about;
-mod change;
 mod follow;
 mod held;
 mod laid;
@@ -13,20 +12,18 @@ mod observations;
 mod partners;
 mod penetration;
 mod places;
-mod reuse;
 mod walls;
 
 pub(crate) use held::Held;
 pub(crate) use laid::{Fitted, Laid};
 pub use partners::Drawn;
-pub(crate) use partners::{changed_since, partners, reach, still_beside, walls_of};
+pub(crate) use partners::{partners, reach, still_beside, walls_of};
 
 use crate::drawing::{Contour, Drawing, EntityId, Outline, Role, wire_side};
 use crate::geometry::{Point, Segment, Side};
 use crate::settings::{Effective, Use};
 use crate::toolpath::{Cutting, Moved, Part, Refusal, Walls, part};
 use about::Limits;
-use reuse::Reuse;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -88,9 +85,6 @@ pub struct Fit {
     pub rounding: f64,
 }
 
-/// Two parts laid in each other before an edit, under the same settings, and what came of it.
-pub(crate) type Before<'a> = ([&'a Part; 2], &'a Held);
-
 impl Fit {
     pub fn least(&self) -> f64 {
         let all = self.pairs.iter().map(|pair| pair.least);
@@ -132,16 +126,14 @@ pub(crate) fn all_cut_twice(outlines: &[Outline]) -> impl Iterator<Item = usize>
         .map(|(index, _)| index)
 }
 
-/// The punch and the plate that are cut along one contour, made at once; `walls` are its own, where they are known, and `before` are the same
-/// parts before an edit.
+/// The punch and the plate that are cut along one contour, made at once; `walls` are its own, where they are known.
 pub(crate) fn cut_twice_parts(
     drawing: &Drawing,
     outline: &Outline,
     settings: &Effective,
     walls: Option<&Walls>,
-    before: [Option<&Part>; 2],
 ) -> Result<[Part; 2], Refusal> {
-    let part_of = |of: Use, before: Option<&Part>| {
+    let part_of = |of: Use| {
         let (own, is_other) = settings
             .of_use(of)
             .ok_or_else(|| Refusal::Sentence(say!(no_path_can_be_made).into()))?;
@@ -151,24 +143,16 @@ pub(crate) fn cut_twice_parts(
             settings: &own,
             walls,
         };
-        part(drawing, &outline.contour, cutting, before, &|| true)
+        part(drawing, &outline.contour, cutting, &|| true)
     };
-    let [punch, plate] = before;
-    let parts = rayon::join(|| part_of(Use::Punch, punch), || part_of(Use::Plate, plate));
+    let parts = rayon::join(|| part_of(Use::Punch), || part_of(Use::Plate));
     Ok([parts.0?, parts.1?])
 }
 
 /// The two parts, one laid in the other.
-pub(crate) fn cut_twice(
-    drawing: &Drawing,
-    parts: [&Part; 2],
-    settings: &Effective,
-    before: Option<Before>,
-) -> Held {
+pub(crate) fn cut_twice(drawing: &Drawing, parts: [&Part; 2], settings: &Effective) -> Held {
     let names = [Use::Punch.name().into(), Use::Plate.name().into()];
-    let limits = limits(drawing, settings, true);
-    let reuse = before.and_then(|(before, held)| Reuse::new(&held.observations, before, parts));
-    held::held(parts, &names, &limits, reuse.as_ref())
+    held::held(parts, &names, &limits(drawing, settings, true))
 }
 
 /// What the clearance of two parts is checked against, which are cut along one contour or both
@@ -186,15 +170,14 @@ fn limits(drawing: &Drawing, settings: &Effective, is_cut_twice: bool) -> Limits
 }
 
 /// Two parts laid in each other follow an edit of their outlines, of each of which it is known
-/// which segments may have changed. A part that cannot follow stays as it was, and so does the
-/// result; returns which of the two have followed.
+/// which segments may have changed. False where one of them cannot: then nothing of this holds.
 pub(crate) fn follow(
     drawing: &Drawing,
     outlines: [(&Outline, &[Range<usize>]); 2],
     settings: &Effective,
     is_cut_twice: bool,
     (parts, held): (&mut [Arc<Part>; 2], &mut Held),
-) -> [bool; 2] {
+) -> bool {
     let follow = |which: usize, part: &mut Arc<Part>| {
         let (outline, edited) = outlines[which];
         if edited.is_empty() {
@@ -216,11 +199,12 @@ pub(crate) fn follow(
     };
     let [punch, plate] = parts;
     let moved = [follow(0, punch), follow(1, plate)];
-    if let [Some(of_punch), Some(of_plate)] = &moved {
-        let limits = limits(drawing, settings, is_cut_twice);
-        held.follow([punch, plate], [of_punch, of_plate], &limits);
-    }
-    moved.map(|moved| moved.is_some())
+    let [Some(of_punch), Some(of_plate)] = &moved else {
+        return false;
+    };
+    let limits = limits(drawing, settings, is_cut_twice);
+    held.follow([punch, plate], [of_punch, of_plate], &limits);
+    true
 }
 
 /// How far apart the walls of the two parts lie that are cut along one contour, mm.
@@ -234,15 +218,13 @@ fn punch_and_plate_apart(settings: &Effective) -> Option<f64> {
     Some(2.0 * half - within(Use::Punch)? - within(Use::Plate)?)
 }
 
-/// The part that all passes leave of a contour where both are drawn; `walls` are its own, where they are known, and `before` is the same part
-/// before an edit.
+/// The part that all passes leave of a contour where both are drawn; `walls` are its own, where they are known.
 pub(crate) fn drawn_part(
     drawing: &Drawing,
     outline: &Outline,
     role: Role,
     settings: &Effective,
     walls: Option<&Walls>,
-    before: Option<&Part>,
 ) -> Result<Part, Refusal> {
     let cutting = Cutting {
         side: side_of(outline, role)?,
@@ -250,7 +232,7 @@ pub(crate) fn drawn_part(
         settings,
         walls,
     };
-    part(drawing, &outline.contour, cutting, before, &|| true)
+    part(drawing, &outline.contour, cutting, &|| true)
 }
 
 /// Two drawn parts, the punch and the plate, one laid in the other.
@@ -259,12 +241,9 @@ pub(crate) fn drawn_pair(
     outlines: [&Outline; 2],
     parts: [&Part; 2],
     settings: &Effective,
-    before: Option<Before>,
 ) -> Held {
     let names = outlines.map(|it| name_of(drawing, &it.contour, settings));
-    let limits = limits(drawing, settings, false);
-    let reuse = before.and_then(|(before, held)| Reuse::new(&held.observations, before, parts));
-    held::held(parts, &names, &limits, reuse.as_ref())
+    held::held(parts, &names, &limits(drawing, settings, false))
 }
 
 fn side_of(outline: &Outline, role: Role) -> Result<Side, Refusal> {

@@ -1,6 +1,5 @@
 //! Which drawn contours are partners: one lies in the other, and both run beside each other everywhere.
 
-use super::change::Change;
 use crate::drawing::{Contour, Drawing, Outline};
 use crate::geometry::{Bounds, Segment};
 use crate::settings::Effective;
@@ -169,14 +168,6 @@ fn run_together([punch, plate]: [&Walls; 2], reach: f64) -> bool {
         some.all(|segments| are_near(&mut segments.iter(), other, reach))
     };
     keeps(punch, plate) && keeps(plate, punch)
-}
-
-/// The segments of a contour that are gone, and those that are new; `None` where too much has changed.
-pub(crate) fn changed_since(before: &Walls, now: &Walls) -> Option<[Vec<Segment>; 2]> {
-    let change = Change::of(before.segments(), now.segments(), PartialEq::eq)?;
-    let gone = change.gone().map(|gone| *before.segment(gone));
-    let new = change.come().map(|new| *now.segment(new));
-    Some([gone.collect(), new.collect()])
 }
 
 /// Whether a contour that was beside another one before an edit still is, where these segments are gone and these new.

@@ -1,8 +1,9 @@
 //! Contours with arcs just at the correction: what rounding leaves of these is neither an arc nor a point.
 
 use super::clearance::Walls;
-use super::contour_path::{Along, Known, Laid, Outcome};
+use super::contour_path::{Along, Laid, Outcome};
 use super::job::Job;
+use super::nest::Before;
 use super::offset::Wall;
 use super::path::Refusal;
 use crate::geometry::Segment;
@@ -22,19 +23,19 @@ impl Job<'_> {
         own: &Walls,
         along: Along,
     ) -> Result<Outcome, Refusal> {
-        self.laid_within(walls, own, along, Known::default())
+        self.laid_within(walls, own, along, None)
     }
 
     /// The path along a contour, proved; `walls` have the wire on the side of that sign. That of an open one runs from
-    /// beside the beginning of the first wall to beside the end of the last. What is `known` is not looked at again.
+    /// beside the beginning of the first wall to beside the end of the last. What the path of the pass `before` proves is not looked at again.
     pub(super) fn laid_within(
         &self,
         walls: &[Wall],
         own: &Walls,
         along: Along,
-        known: Known,
+        before: Option<Before>,
     ) -> Result<Outcome, Refusal> {
-        let laid = self.laid_at(walls, own, along, known)?;
+        let laid = self.laid_at(walls, own, along, before)?;
         let limit = self.units(LIMIT);
         let is_at_limit = || walls.iter().any(|wall| along.is_at_limit(wall, limit));
         if matches!(laid, Ok(Laid::Path(_))) || !is_at_limit() {
@@ -45,7 +46,7 @@ impl Job<'_> {
                 correction: along.correction + self.units(beside),
                 ..along
             };
-            let other = self.laid_at(walls, own, wider, Known::default())?;
+            let other = self.laid_at(walls, own, wider, None)?;
             if matches!(other, Ok(Laid::Path(_))) {
                 return Ok(other);
             }

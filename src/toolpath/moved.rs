@@ -191,7 +191,7 @@ impl Part {
         let count = self.drawn.len();
         let mut was: Vec<u32> = (0..count as u32).collect();
         changed.iter().for_each(|(index, _)| was[*index] = NEW);
-        let kept = Kept::new(count, was, &self.path, &self.path_follows, true);
+        let kept = Kept::new(count, was, &self.path, &self.path_follows);
         let piece = |element: Element| {
             let (geometry, source) = (element.geometry, self.drawn[element.wall].source);
             let follows = follows_of(element.wall as u32, &element);
@@ -242,7 +242,7 @@ impl Part {
             rounding: job.units(ROUNDING),
             closed: true,
         };
-        let kept = Kept::new(before, was, &self.near, &self.edges_follow, true);
+        let kept = Kept::new(before, was, &self.near, &self.edges_follow);
         let stretches = relaid(job, &beside, &kept)?;
         let is = which_it_is(&kept.was, kept.before);
         for follows in &mut self.edges_follow {

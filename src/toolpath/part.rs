@@ -5,12 +5,12 @@
 //! remembers the point.
 
 use super::clearance::Walls;
-use super::contour_path::{Along, Fault, Known, Laid};
+use super::contour_path::{Along, Fault, Laid};
 use super::corners::{Element, elements};
 use super::job::Job;
 use super::offset::{Wall, walls};
 use super::path::{Refusal, Source};
-use super::reuse::{Kept, follows, which_it_was};
+use super::reuse::follows;
 use super::skim::Rough;
 use crate::drawing::{Contour, ContourSegment, Drawing, EntityId};
 use crate::geometry::{Arc, Point, Segment, Side};
@@ -121,12 +121,11 @@ pub(crate) struct Cutting<'a> {
     pub walls: Option<&'a Walls>,
 }
 
-/// The part that all passes leave of a closed contour; `before` is the part before an edit of the contour, under the same settings.
+/// The part that all passes leave of a closed contour.
 pub(crate) fn part(
     drawing: &Drawing,
     contour: &Contour,
     cutting: Cutting,
-    before: Option<&Part>,
     goes_on: &(dyn Fn() -> bool + Sync),
 ) -> Result<Part, Refusal> {
     let cut = Cut::of(drawing, cutting, goes_on)?;
@@ -152,7 +151,7 @@ pub(crate) fn part(
         path,
         is_proved,
         swing,
-    } = cut.last_path(contour, before)?;
+    } = cut.last_path(contour)?;
     let is_path_by_neighbours = !cut.job.searched.load(Relaxed);
     let path_follows = follows(&path);
     let beside: Vec<Wall> = path
@@ -196,22 +195,7 @@ pub(crate) fn part(
         correction: half,
         closed: true,
     };
-    let kept = before.and_then(|before| {
-        let (then, now) = (before.path.segments(), near_path.segments());
-        let was = which_it_was(then, now, PartialEq::eq)?;
-        Some(Kept::new(
-            then.len(),
-            was,
-            &before.near,
-            &before.edges_follow,
-            before.is_by_neighbours[1],
-        ))
-    });
-    let known = Known {
-        kept,
-        ..Known::default()
-    };
-    let outline = match job.laid_within(&beside, &near_path, back, known)? {
+    let outline = match job.laid(&beside, &near_path, back)? {
         Ok(Laid::Path(outline)) => Ok(outline),
         Ok(Laid::Point(_)) => Err(Fault::Nothing),
         Err(fault) => Err(fault),
@@ -328,7 +312,7 @@ struct Segments<'a> {
 
 impl Cut<'_> {
     /// The walls of a closed contour, and the path of the last pass along them; one line without length where the wire can only stand.
-    fn last_path(&self, contour: Segments, before: Option<&Part>) -> Result<Last, Refusal> {
+    fn last_path(&self, contour: Segments) -> Result<Last, Refusal> {
         let Cut {
             job, rough, last, ..
         } = self;
@@ -338,16 +322,12 @@ impl Cut<'_> {
         let is_beside_rough =
             job.settings.passes.skim_corner() == SkimCorner::ConstantStock && is_after_rough;
         if last.correction.abs() <= rounding && !is_after_rough {
-            let walls = job.closed_walls(contour);
+            let zero_length = job.units(job.settings.tolerances.zero_length);
+            let walls = walls(contour.count, contour.segment, true, zero_length);
             let path = elements(&walls);
             return Ok(Last::of(walls, None, path));
         }
         let is_plain = !is_after_rough && job.settings.corner == Corner::Arc;
-        if let Some(before) = before.filter(|_| is_plain)
-            && let Some(mended) = job.mended(contour, last.on_own_side(), before)?
-        {
-            return Ok(mended);
-        }
         let first = Along {
             correction: *rough,
             ..*last
@@ -392,45 +372,5 @@ impl Cut<'_> {
             }
             Err(fault) => Err(job.no_path(&fault, &walls, first.correction).into()),
         }
-    }
-}
-
-impl Job<'_> {
-    fn closed_walls(&self, Segments { count, segment }: Segments) -> Vec<Wall> {
-        let zero_length = self.units(self.settings.tolerances.zero_length);
-        walls(count, segment, true, zero_length)
-    }
-
-    /// The same where the path is simple and little has changed: what still holds is not proved again. `None` where that fails.
-    fn mended(
-        &self,
-        contour: Segments,
-        along: Along,
-        before: &Part,
-    ) -> Result<Option<Last>, Refusal> {
-        let walls = self.closed_walls(contour);
-        let own = Walls::of(&walls);
-        let is_same = |before: &Wall, now: &Wall| before.geometry == now.geometry;
-        let Some(was) = which_it_was(&before.drawn, &walls, is_same) else {
-            return Ok(None);
-        };
-        let kept = Kept::new(
-            before.drawn.len(),
-            was,
-            &before.path,
-            &before.path_follows,
-            before.is_by_neighbours[0],
-        );
-        let known = Known {
-            kept: Some(kept),
-            ..Known::default()
-        };
-        Ok(match self.laid_within(&walls, &own, along, known)? {
-            Ok(Laid::Path(path)) => Some(Last {
-                is_proved: true,
-                ..Last::of(walls, Some(own), path)
-            }),
-            _ => None,
-        })
     }
 }

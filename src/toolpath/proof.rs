@@ -9,7 +9,6 @@ use super::corners::{Element, Offsets, Raw, meetings};
 use super::nest::{BesideWall, Nest};
 use super::offset::Wall;
 use super::quick_tests::{is_all_about_foot, is_all_within, middle, runs_beside};
-use super::reuse::Kept;
 use super::ring::Pieces;
 use crate::drawing::winding_of;
 use crate::geometry::{Arc, Bounds, Point, Segment};
@@ -74,20 +73,13 @@ impl Beside<'_> {
         twice_area * self.side > 0.0
     }
 
-    /// Pieces of a path: nowhere nearer to a wall than the correction, and at it from their own. What is `kept` is asked with the
-    /// boxes of what has changed.
+    /// Pieces of a path: nowhere nearer to a wall than the correction, and at it from their own.
     pub(crate) fn pieces_hold<'p>(
         &self,
         pieces: impl Iterator<Item = &'p Element>,
         nest: Option<&Nest>,
-        mut kept: Option<(&mut Kept, &[Bounds])>,
     ) -> Result<(), Unproved> {
         for element in pieces {
-            if let Some((kept, about)) = &mut kept
-                && kept.holds(element, about)
-            {
-                continue;
-            }
             let beyond = nest.and_then(|nest| nest.beyond(self.beside_wall(element.wall), element));
             self.holds_beyond(element, beyond)?;
         }

@@ -1,4 +1,4 @@
-//! What of a path still holds after an edit: a piece that is where it was, beside walls that are where they were, is not proved again.
+//! A path as it was before an edit, beside walls of which most are where they were.
 
 use super::clearance::Walls;
 use super::corners::Element;
@@ -7,15 +7,8 @@ use super::path::Source;
 use crate::geometry::Bounds;
 use std::ops::Range;
 
-/// Where more walls have changed, everything is looked at.
-const MOST_CHANGED: usize = 64;
-
-/// Where a wall, or a piece, is not what it was, this many after it are searched for the place
-/// where the two agree again.
-const AHEAD: usize = 8;
-
 /// A wall that was not there before.
-pub(crate) const NEW: u32 = u32::MAX;
+pub(super) const NEW: u32 = u32::MAX;
 
 /// The path beside a contour as it was before an edit, proved at the same correction on the same side.
 pub(super) struct Kept<'a> {
@@ -26,47 +19,10 @@ pub(super) struct Kept<'a> {
     pub(super) pieces: &'a Walls,
     /// What each piece followed before.
     pub(super) follows: &'a [u32],
-    /// The path is that of neighbours cut with each other, and was not looked for among all crossings.
-    pub(super) is_by_neighbours: bool,
-    at: usize,
 }
 
-/// Of each of `now` which one of `before` it is, in their order, or that it is new. `None` where too much has changed.
-pub(crate) fn which_it_was<Before, Now>(
-    before: &[Before],
-    now: &[Now],
-    is_as_it_was: impl Fn(&Before, &Now) -> bool,
-) -> Option<Vec<u32>> {
-    let mut was = Vec::with_capacity(now.len());
-    let (mut at, mut changed) = (0, 0);
-    let is_same = |at: usize, new: usize| {
-        let pair = before.get(at).zip(now.get(new));
-        pair.is_some_and(|(before, now)| is_as_it_was(before, now))
-    };
-    loop {
-        let rest = before.iter().skip(at).zip(now.iter().skip(was.len()));
-        let stays = rest.take_while(|(before, now)| is_as_it_was(before, now));
-        let stays = stays.count();
-        was.extend((at..at + stays).map(|stays| stays as u32));
-        at += stays;
-        if was.len() == now.len() {
-            return Some(was);
-        }
-        let mut steps = (1..2 * AHEAD).flat_map(|all| (0..=all).map(move |old| (old, all - old)));
-        let next = steps.find(|&(old, new)| is_same(at + old, was.len() + new));
-        let (gone, new) = next.unwrap_or((AHEAD, AHEAD));
-        at += gone;
-        changed += new;
-        if changed > MOST_CHANGED {
-            return None;
-        }
-        let new = new.min(now.len() - was.len());
-        was.extend(std::iter::repeat_n(NEW, new));
-    }
-}
-
-/// Of each that was there before which one it is now, or that it is gone, [`NEW`]: what [`which_it_was`] says, turned round.
-pub(crate) fn which_it_is(was: &[u32], before: usize) -> Vec<u32> {
+/// Of each that was there before which one it is now, or that it is gone, [`NEW`]; `was` says of each which it was.
+pub(super) fn which_it_is(was: &[u32], before: usize) -> Vec<u32> {
     let mut is = vec![NEW; before];
     for (was, now) in was.iter().zip(0..) {
         if let Some(is) = is.get_mut(*was as usize) {
@@ -83,21 +39,13 @@ impl<'a> Kept<'a> {
         was: Vec<u32>,
         pieces: &'a Walls,
         follows: &'a [u32],
-        is_by_neighbours: bool,
     ) -> Kept<'a> {
         Kept {
             before,
             was,
             pieces,
             follows,
-            is_by_neighbours,
-            at: 0,
         }
-    }
-
-    /// Pieces are asked for from the first on again.
-    pub(crate) fn again(&mut self) {
-        self.at = 0;
     }
 
     /// The boxes of what was not there before, among the walls as they are now, grown by `distance`.
@@ -161,23 +109,6 @@ impl<'a> Kept<'a> {
             source,
             wall,
         }
-    }
-
-    /// True for a piece whose proof still holds; `about` are the boxes of what is new.
-    pub(crate) fn holds(&mut self, element: &Element, about: &[Bounds]) -> bool {
-        let Some(follows) = self.followed(element, element.wall) else {
-            return false;
-        };
-        let known = self.follows.len().min(self.at + AHEAD);
-        let is_same = |&piece: &usize| {
-            self.follows[piece] == follows && *self.pieces.segment(piece) == element.geometry
-        };
-        let Some(piece) = (self.at..known).find(is_same) else {
-            return false;
-        };
-        self.at = piece + 1;
-        let bounds = self.pieces.bounds_of(piece);
-        !about.iter().any(|new| new.touches(bounds))
     }
 }
 

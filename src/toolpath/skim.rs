@@ -1,7 +1,7 @@
 //! The paths of the passes after the first.
 
 use super::clearance::Walls;
-use super::contour_path::{Along, Fault, Known, Laid, Outcome};
+use super::contour_path::{Along, Fault, Laid, Lost, Outcome};
 use super::corners::Element;
 use super::job::{Job, ROUNDING};
 use super::nest::Before;
@@ -74,11 +74,7 @@ impl Job<'_> {
             // One beside the first path has been proved otherwise.
             let is_plain =
                 !is_constant && along.side == side && along.correction <= rough.correction;
-            let known = Known {
-                before: is_plain.then_some(before),
-                ..Known::default()
-            };
-            return self.laid_within(walls, own, along, known);
+            return self.laid_within(walls, own, along, is_plain.then_some(before));
         }
         let beside: Vec<Wall> = rough.path.iter().map(Element::piece).collect();
         let near = Walls::of(&beside);
@@ -102,10 +98,12 @@ impl Job<'_> {
                     None => Ok(Laid::Path(path)),
                 }
             }
-            Err(Fault::Several { near, wall }) => Err(Fault::Several {
-                near,
-                wall: rough.path[wall].wall,
-            }),
+            Err(Fault::Several(mut lost)) => {
+                for Lost { wall, .. } in &mut lost {
+                    *wall = rough.path[*wall].wall;
+                }
+                Err(Fault::Several(lost))
+            }
             Err(Fault::Unproved { wall }) => Err(Fault::Unproved {
                 wall: rough.path[wall].wall,
             }),

@@ -365,10 +365,7 @@ mod tests {
                 },
                 offsets: offsets(&first),
             };
-            if of_first
-                .pieces_hold(rough.elements.iter(), None, None)
-                .is_err()
-            {
+            if of_first.pieces_hold(rough.elements.iter(), None).is_err() {
                 return Ok(());
             }
             let Some(path) = along_before(&proof, before, &|| true) else {

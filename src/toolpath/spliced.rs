@@ -39,16 +39,11 @@ pub(super) struct Splice {
     before_the_end: Option<usize>,
 }
 
-/// The path beside the walls, where the kept path gives most of it; `None` where it does not.
-pub(super) fn spliced(kept: &Kept, walls: &[Wall], joining: &Joining) -> Option<Vec<Element>> {
-    Splice::of(kept, walls, joining)?.path(kept, walls)
-}
-
 impl Splice {
     /// The pieces beside the walls that have changed; `None` where the kept path does not give all the others.
     pub(super) fn of(kept: &Kept, walls: &[Wall], joining: &Joining) -> Option<Splice> {
         let count = walls.len();
-        if !kept.is_by_neighbours || count <= MOST + 4 * ABOUT || !kept.follows.is_sorted() {
+        if count <= MOST + 4 * ABOUT || !kept.follows.is_sorted() {
             return None;
         }
         let (first, changed) = changed(kept, count)?;
@@ -79,34 +74,6 @@ impl Splice {
             new,
             before_the_end,
         })
-    }
-
-    /// The whole path.
-    fn path(&self, kept: &Kept, walls: &[Wall]) -> Option<Vec<Element>> {
-        let is = which_it_is(&kept.was, kept.before);
-        let mut path = Vec::with_capacity(kept.follows.len() + self.new.len());
-        let old = |pieces: Range<usize>, path: &mut Vec<Element>| {
-            path.extend(pieces.map(|piece| {
-                let wall = is[kept.follows[piece] as usize / 2] as usize;
-                kept.piece(piece, wall, walls)
-            }));
-        };
-        match self.before_the_end {
-            // Of the pieces between, those after the end of the contour come first.
-            Some(before) => {
-                path.extend(&self.new[before..]);
-                old(self.right..self.left + 1, &mut path);
-                path.extend(&self.new[..before]);
-            }
-            None => {
-                old(0..self.left + 1, &mut path);
-                path.extend(&self.new);
-                old(self.right..kept.follows.len(), &mut path);
-            }
-        }
-        let count = walls.len();
-        let is_in_order = |pair: &[Element]| pair[0].wall <= pair[1].wall && pair[1].wall < count;
-        (path.len() >= 2 && path.windows(2).all(is_in_order)).then_some(path)
     }
 
     /// The stretches where the path is not as it was, the last one first: which pieces go, and what takes their place.
