@@ -14,8 +14,8 @@ use std::ops::Range;
 const AT_ONCE: usize = 256;
 /// Where runs are farther apart than this, as the first and the last of a contour, the segments between them are not at hand.
 const NEAR: usize = 4;
-/// Segments at hand before and after the runs; others are worked out when a rule asks for them.
-const ABOUT: usize = 32;
+/// Segments at hand before and after the runs, as many as rules look at; others are worked out when a rule asks for them.
+const ABOUT: usize = 80;
 
 #[derive(Clone, Debug)]
 pub(crate) struct Known {

@@ -55,18 +55,16 @@ struct Fit {
 }
 
 /// The circle through the ends of chords in a row, `point` by number. `None` unless they all turn the same way by a
-/// small angle, at one of the [`STRIDES`], lie within `tolerance` of one circle, and fit it clearly better than a
-/// straight line.
-fn fit(point: impl Fn(usize) -> Point, chords: usize, tolerance: f64) -> Option<Fit> {
+/// small angle, at one of some strides, lie within `tolerance` of one circle, and fit it clearly better than a straight
+/// line.
+fn fit(
+    point: impl Fn(usize) -> Point,
+    chords: usize,
+    strides: &[usize],
+    tolerance: f64,
+) -> Option<Fit> {
     let turns = |stride: &usize| turn_of_all(&point, chords, chords / stride);
-    let side = STRIDES.iter().find_map(turns)?;
-    let steep = |middle: usize| {
-        let corner = [point(middle - 1), point(middle), point(middle + 1)];
-        turn_of_corner(corner).is_none()
-    };
-    if (1..chords).any(steep) {
-        return None;
-    }
+    let side = strides.iter().find_map(turns)?;
     let (first, last) = (point(0), point(chords));
     // On a full circle both ends are one point.
     let round = (last - first).norm() < (point(1) - first).norm() * 0.5;
@@ -77,18 +75,18 @@ fn fit(point: impl Fn(usize) -> Point, chords: usize, tolerance: f64) -> Option<
     };
     let center = center_through(first, middle, end)?;
     let radius = (first - center).norm();
-    let largest = |of: &dyn Fn(Point) -> f64| {
-        let all = (0..=chords).map(|index| of(point(index)));
-        all.fold(0.0, f64::max)
-    };
-    let deviation = largest(&|point| ((point - center).norm() - radius).abs());
     let axis = last - first;
-    let rise = if round {
-        radius
-    } else {
-        largest(&|point| cross(axis, point - first).abs()) / axis.norm()
-    };
-    (deviation <= tolerance && rise > 4.0 * deviation).then_some(Fit {
+    let (mut deviation, mut rise) = (0_f64, 0_f64);
+    for corner in (0..=chords).map(&point) {
+        deviation = deviation.max(((corner - center).norm() - radius).abs());
+        if deviation > tolerance {
+            return None;
+        }
+        rise = rise.max(cross(axis, corner - first).abs());
+    }
+    rise = if round { radius } else { rise / axis.norm() };
+    let is_shallow = |at: usize| turn_of_corner([at - 1, at, at + 1].map(&point)).is_some();
+    (rise > 4.0 * deviation && (1..chords).all(is_shallow)).then_some(Fit {
         center,
         radius,
         deviation,
@@ -144,26 +142,33 @@ fn corners(outlook: &Outlook, first: isize, count: usize) -> Vec<Point> {
 }
 
 fn check(outlook: &Outlook, range: Range<usize>, observations: &mut Vec<Observation>) {
-    let is_round = |index| {
-        // A full circle of chords has no beginning, so the first segment may serve as the beginning.
-        index == 0 && outlook.contour.closed && windows(outlook, 0..1)[0] > 0
-    };
     let begins = beginnings(outlook, range.start as isize..range.end as isize);
-    for (index, begins) in range.zip(begins) {
-        if begins || is_round(index) {
-            observations.push(Observation::at(index));
-        }
+    observations.extend(begins.map(|index| Observation::at(index as usize)));
+    // A full circle of chords has no beginning, so the first segment may serve as the beginning.
+    let is_first = |its: &Observation| its.index == 0;
+    if range.start == 0
+        && outlook.contour.closed
+        && !observations.iter().any(is_first)
+        && windows(outlook, 0..1)[0] > 0
+    {
+        observations.insert(0, Observation::at(0));
     }
 }
 
-/// For each of some segments: whether a sequence of chords begins there.
-fn beginnings(outlook: &Outlook, range: Range<isize>) -> Vec<bool> {
-    let windows = windows(outlook, range.start - REACH as isize..range.end);
-    let begins = |at: usize| {
-        let is_held = |back: usize| windows[at - back] > back.max(windows[at]);
-        windows[at] > 0 && windows[at - 1] == 0 && !(2..REACH).any(is_held)
+/// Those of some segments at which a sequence of chords begins.
+fn beginnings<'a>(outlook: &'a Outlook, range: Range<isize>) -> impl Iterator<Item = isize> + 'a {
+    let own = windows(outlook, range.start - 1..range.end);
+    let begins = move |(nth, index): (usize, isize)| {
+        let chords = own[nth + 1];
+        // A longer window that begins earlier and holds it.
+        let is_held = || {
+            let before = windows(outlook, index - (REACH as isize - 1)..index);
+            let mut behind = (1..REACH).rev().zip(before);
+            behind.any(|(back, window)| window > chords.max(back))
+        };
+        (chords > 0 && own[nth] == 0 && !is_held()).then_some(index)
     };
-    (REACH..windows.len()).map(begins).collect()
+    range.enumerate().filter_map(begins)
 }
 
 /// For each of some segments: how many chords of one circle in a row begin with it, at least; 0 where none do.
@@ -201,9 +206,13 @@ fn longest_window(
     most: usize,
     tolerance: f64,
 ) -> Option<usize> {
-    let windows = STRIDES.iter().rev().map(|stride| LEAST * stride);
-    let fits = |chords: &usize| fit(|index| point(index, *chords), *chords, tolerance).is_some();
-    windows.filter(|chords| *chords <= most).find(fits)
+    let fits = |stride: &usize| {
+        let chords = LEAST * stride;
+        let is_it = chords <= most
+            && fit(|index| point(index, chords), chords, &[*stride], tolerance).is_some();
+        is_it.then_some(chords)
+    };
+    STRIDES.iter().rev().find_map(fits)
 }
 
 /// For each of some segments: whether the corner at its start lies between chords that are reported as an arc.
@@ -229,7 +238,7 @@ pub(crate) fn steepest() -> f64 {
 fn holds(outlook: &Outlook, observation: Observation) -> bool {
     let most = outlook.contour.len().min(MOST) as isize;
     let first = observation.index as isize;
-    let begins = |range| beginnings(outlook, range).contains(&true);
+    let begins = |range| beginnings(outlook, range).next().is_some();
     begins(first..first + 1) || !begins(first + 1..first + most)
 }
 
@@ -238,7 +247,7 @@ fn sequence(outlook: &Outlook, first: usize) -> Option<(usize, Fit, Vec<Point>)>
     let mut points = corners(outlook, first as isize, outlook.contour.len().min(MOST));
     let most = points.len().saturating_sub(1);
     let tolerance = outlook.limits.tolerances.chords;
-    let fit = |chords: usize| fit(|index| points[index], chords, tolerance);
+    let fit = |chords: usize| fit(|index| points[index], chords, &STRIDES, tolerance);
     let mut chords = longest_window(|index, _| points[index], most, tolerance)?;
     // Doubled while it fits, then found between what fits and what does not.
     let mut too_many = most + 1;

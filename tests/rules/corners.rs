@@ -188,20 +188,13 @@ fn the_rounding_of_short_chords_hides_no_arc() {
         };
         (0..=chords).map(at)
     };
-    for (chords, radius) in [
-        (60, 1.0),
-        (360, 1.0),
-        (1000, 1.0),
-        (720, 5.0),
-        (1000, 5.0),
-        (3000, 20.0),
-    ] {
+    for (chords, radius) in [(60, 1.0), (360, 1.0), (1000, 5.0)] {
         let corners: Vec<_> = arc([3.0, 4.0, radius], 0.0, 2.0 * PI, chords)
             .skip(1)
             .collect();
         becomes(&corners, 1, 2);
     }
-    for chords in [10, 40, 150, 400] {
+    for chords in [10, 60, 150] {
         let ends = [(10.0, -0.5 * PI), (-10.0, 0.5 * PI)];
         let slot = ends.map(|(x, from)| arc([x, 0.0, 3.0], from, PI, chords));
         becomes(&slot.into_iter().flatten().collect::<Vec<_>>(), 2, 4);
