@@ -10,11 +10,6 @@ pub(super) trait Report: Program {
     /// All findings, as the rules see them.
     fn all(&self) -> Vec<Finding>;
 
-    /// Those without merely suspected blocks, and without a search for the slip behind them.
-    fn plain(&self) -> Vec<Finding> {
-        self.all()
-    }
-
     /// At most `limit` findings, and how many there are in all.
     fn told(&self, settings: &Effective, limit: usize) -> (Vec<Finding>, usize) {
         let judged = self.all().into_iter().filter_map(|finding| {

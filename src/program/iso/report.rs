@@ -17,7 +17,6 @@ use crate::finding::{Detail, Fault, Finding, Place, Rule, Severity, Side};
 use crate::geometry::cross;
 use crate::program::contours::Divided;
 use crate::program::path::tolerance;
-use crate::program::repair::gate::Tried;
 use crate::program::report::{self, place_of};
 use crate::settings::{CenterRule, SideSetting};
 use crate::text::SourceText;
@@ -138,12 +137,9 @@ impl Document {
     }
 }
 
-impl Tried for Document {
-    fn edit(&mut self, range: Range<usize>, replacement: &str) {
-        Document::edit(self, range, replacement);
-    }
-
-    fn cut_lines(&self, line: usize) -> Range<usize> {
+impl Document {
+    /// The lines of the cut around a line.
+    pub(in crate::program) fn cut_lines(&self, line: usize) -> Range<usize> {
         cut_within(self, line, usize::MAX)
     }
 }

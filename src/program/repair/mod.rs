@@ -3,7 +3,6 @@
 
 pub(super) mod cut;
 pub(super) mod gap;
-pub(super) mod gate;
 pub(super) mod keys;
 pub(super) mod rule;
 pub(super) mod searches;

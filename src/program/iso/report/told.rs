@@ -14,10 +14,6 @@ impl Report for Document {
         all.extend(suspects(self, &troubles));
         all
     }
-
-    fn plain(&self) -> Vec<Finding> {
-        self.plain_findings()
-    }
 }
 
 /// The blocks that may explain the findings by one slip, unless they have a finding already.

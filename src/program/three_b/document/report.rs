@@ -10,7 +10,6 @@ use super::contours::OneContour;
 use crate::finding::{Detail, Fault, Finding, Severity};
 use crate::program::contours::Divided;
 use crate::program::path;
-use crate::program::repair::gate::Tried;
 use crate::program::report::Report;
 use crate::program::steps::Program;
 use crate::settings::SideSetting;
@@ -34,12 +33,9 @@ impl Report for Document {
     }
 }
 
-impl Tried for Document {
-    fn edit(&mut self, range: Range<usize>, replacement: &str) {
-        Document::edit(self, range, replacement);
-    }
-
-    fn cut_lines(&self, line: usize) -> Range<usize> {
+impl Document {
+    /// The lines of the cut around a line.
+    pub(in crate::program) fn cut_lines(&self, line: usize) -> Range<usize> {
         let own = || {
             let cuts = self.contour_at(self.entry_at(&self.text.line_range(line))?)?;
             let line_of = |at| self.text.line_of(self.range_of(at).start);
