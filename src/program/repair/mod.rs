@@ -1,6 +1,7 @@
 //! Repairs of a program in any language: filling a gap, finding the slip that explains the faults, offering repairs,
 //! and choosing those to be made.
 
+mod beside;
 pub(super) mod cut;
 pub(super) mod gap;
 pub(super) mod keys;
