@@ -370,10 +370,10 @@ impl Document {
             }
             Source::Cad(drawing) => self.analysis.has_fix_that(drawing, found, &|_| true),
             Source::Program(program) => match found {
-                Some(found) => program.can_be_fixed(found, settings),
+                Some(found) => program.can_be_fixed(found),
                 None => {
                     let found = program.findings(settings, usize::MAX).0;
-                    program.can_be_fixed(&found, settings)
+                    program.can_be_fixed(&found)
                 }
             },
         }

@@ -1,19 +1,15 @@
 //! A program as an open document, in any language. A new language adds its variant here and is complete when this
 //! compiles.
 
-use super::mended::{Moved, Ranges};
 use super::numbering::{Numbers, Renumbering};
 use super::path::{Step, Trace};
-use super::repair::gate::Tried;
 use super::report::Report;
 use super::steps::{self, CutAt, Program};
 use super::whereabouts::Whereabouts;
 use super::{iso, three_b};
 use crate::finding::{Fault, Finding, Rule, Severity, TextFix};
 use crate::settings::Effective;
-use crate::text::{SourceText, TextEdit, edited, is_binary, is_utf_16};
-use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
-use rustc_hash::FxHashSet;
+use crate::text::{SourceText, TextEdit, is_binary, is_utf_16};
 use std::ops::Range;
 
 /// Bytes of a text that tell what it is.
@@ -136,16 +132,6 @@ impl Document {
         }
     }
 
-    /// The fixes of one finding as edits of the text, the preferred one first. A fix that might
-    /// spoil the program is neither preferred nor made by "fix all".
-    pub fn fixes(&self, finding: &Finding) -> Vec<TextFix> {
-        if self.is_no_text().is_some() {
-            return Vec::new();
-        }
-        let offered = self.offered(finding, Renumbering::Offered);
-        of_language!(self, document => document.gated(finding, offered))
-    }
-
     /// The edits that give the block whose number has its digits at `digits` another one, written as `name`; calls of
     /// it follow. An error where another block has it.
     pub(crate) fn renamed(
@@ -159,85 +145,18 @@ impl Document {
     }
 
     /// The fixes that the language offers.
-    fn offered(&self, finding: &Finding, renumbering: Renumbering) -> Vec<TextFix> {
+    pub(super) fn offered(&self, finding: &Finding, renumbering: Renumbering) -> Vec<TextFix> {
         of_language!(self, document => document.offered(finding, renumbering))
     }
 
-    /// The safe fixes of all findings that are not switched off, as one sorted list of disjoint edits; `None` where
-    /// there is none.
-    pub(crate) fn fix_all(&self, settings: &Effective) -> Option<Vec<TextEdit>> {
-        Some(self.fixed(settings)?.0)
+    /// All findings, as the rules see them.
+    pub(super) fn all(&self) -> Vec<Finding> {
+        of_language!(self, document => document.all())
     }
 
-    /// The same, and the program after them.
-    pub(crate) fn fixed(&self, settings: &Effective) -> Option<(Vec<TextEdit>, Document)> {
-        let (findings, _) = self.findings(settings, usize::MAX);
-        let fixes = findings
-            .par_iter()
-            .filter_map(|finding| Some((finding, self.safe_fix(finding)?)));
-        self.mended(&findings, fixes.collect(), settings)
-    }
-
-    /// Whether [`Document::fix_all`] would change anything, by the first finding of all `found` for which it would. Where none of very many
-    /// can be repaired the others are not looked at, and each try reads the program again: only a few are made alone.
-    pub(crate) fn can_be_fixed(&self, found: &[Finding], settings: &Effective) -> bool {
-        const MOST_LOOKED_AT: usize = 1_000;
-        const TRIED_ALONE: usize = 4;
-        let mends = |fixes| self.mended(found, fixes, settings).is_some();
-        let mut fixes = Vec::new();
-        for finding in found.iter().take(MOST_LOOKED_AT) {
-            let Some(fix) = self.safe_fix(finding) else {
-                continue;
-            };
-            if fixes.len() < TRIED_ALONE && mends(vec![(finding, fix.clone())]) {
-                return true;
-            }
-            fixes.push((finding, fix));
-        }
-        fixes.len() > 1 && mends(fixes)
-    }
-
-    /// What of these fixes fits together and removes its finding, and the program after it; `found` are all findings. A fix whose
-    /// finding survives is left out, and the others are made without it.
-    fn mended<'a>(
-        &self,
-        found: &'a [Finding],
-        mut fixes: Vec<(&'a Finding, (Rule, TextFix))>,
-        settings: &Effective,
-    ) -> Option<(Vec<TextEdit>, Document)> {
-        loop {
-            let edits = self.together(fixes.iter().map(|(_, fix)| fix.clone()).collect())?;
-            let bytes = edited(self.text().bytes(), &edits)?;
-            let mended = Document::read(self.language(), bytes, settings);
-            let after = Ranges::of(&mended.findings(settings, usize::MAX).0);
-            let moved = Moved::by(&edits);
-            let is_made = |(_, (_, fix)): &(&Finding, (Rule, TextFix))| moved.makes(&fix.edit);
-            let made = fixes.iter().filter(|fix| is_made(fix));
-            let made: FxHashSet<*const Finding> = made
-                .map(|(finding, _)| std::ptr::from_ref(*finding))
-                .collect();
-            let is_left = |finding: &&Finding| !made.contains(&std::ptr::from_ref(*finding));
-            let unrepaired = moved.ranges(found.iter().filter(is_left));
-            let tried = fixes.len();
-            fixes.retain(|fix| !is_made(fix) || !moved.survives(fix.0, &after, &unrepaired));
-            if fixes.len() == tried {
-                return Some((edits, mended));
-            }
-        }
-    }
-
-    /// The fix of a finding that is safe to make with others.
-    fn safe_fix(&self, finding: &Finding) -> Option<(Rule, TextFix)> {
-        let is_said = finding.severity <= Severity::Information;
-        let offered = is_said.then(|| self.offered(finding, Renumbering::LeftOut))?;
-        let mut fixes = offered.into_iter();
-        let fix = fixes.find(|fix| fix.preferred && fix.in_fix_all)?;
-        Some((finding.rule, fix))
-    }
-
-    fn together(&self, fixes: Vec<(Rule, TextFix)>) -> Option<Vec<TextEdit>> {
-        let edits = of_language!(self, document => document.together(fixes));
-        (!edits.is_empty()).then_some(edits)
+    /// The lines of the cut around a line.
+    pub(super) fn cut_lines(&self, line: usize) -> Range<usize> {
+        of_language!(self, document => document.cut_lines(line))
     }
 
     /// True where coordinates stand after blocks.

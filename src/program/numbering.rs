@@ -7,7 +7,7 @@
 
 mod sequence;
 
-pub(super) use sequence::{FIRST, Numbered, Numbering, check, usual_step};
+pub(super) use sequence::{FIRST, Numbered, check, usual_step};
 
 use super::steps::Program;
 use crate::finding::{FixKind, TextFix};

@@ -2,41 +2,72 @@
 //! the text.
 
 use super::steps::Program;
-use crate::finding::Finding;
+use crate::finding::{Finding, Rule, Severity};
 use crate::settings::Effective;
+use std::collections::BinaryHeap;
+
+/// A finding, made only where it is shown: a program may have a fault in every block.
+pub(super) struct Unmade<'a> {
+    pub(super) rule: Rule,
+    pub(super) severity: Severity,
+    /// The first byte of its block.
+    pub(super) start: usize,
+    pub(super) make: &'a dyn Fn() -> Finding,
+}
+
+impl Unmade<'_> {
+    /// One that is made already.
+    pub(super) fn hand_out(finding: &Finding, take: &mut dyn FnMut(&Unmade<'_>)) {
+        take(&Unmade {
+            rule: finding.rule,
+            severity: finding.severity,
+            start: place_of(finding).0,
+            make: &|| finding.clone(),
+        });
+    }
+}
 
 /// A program with known faults.
 pub(super) trait Report: Program {
-    /// All findings, as the rules see them.
-    fn all(&self) -> Vec<Finding>;
+    /// Hands out all findings, as the rules see them.
+    fn each(&self, take: &mut dyn FnMut(&Unmade<'_>));
 
-    /// Those without merely suspected blocks, and without a search for the slip behind them.
-    fn plain(&self) -> Vec<Finding> {
-        self.all()
+    fn all(&self) -> Vec<Finding> {
+        let mut all = Vec::new();
+        self.each(&mut |found| all.push((found.make)()));
+        all
     }
 
     /// At most `limit` findings, and how many there are in all.
     fn told(&self, settings: &Effective, limit: usize) -> (Vec<Finding>, usize) {
-        let judged = self.all().into_iter().filter_map(|finding| {
-            let severity = settings.severity_over(finding.rule, finding.severity)?;
-            Some(finding.with(severity))
+        let (mut count, limit) = (0, limit.max(1));
+        // The last one to be shown on top.
+        let mut shown: BinaryHeap<(Severity, usize, usize)> = BinaryHeap::new();
+        let mut made: Vec<Finding> = Vec::new();
+        self.each(&mut |found| {
+            let Some(severity) = settings.severity_over(found.rule, found.severity) else {
+                return;
+            };
+            count += 1;
+            let is_shown =
+                |last: &(Severity, usize, usize)| (severity, found.start) < (last.0, last.1);
+            let place = match shown.peek() {
+                _ if made.len() < limit => made.len(),
+                Some(last) if is_shown(last) => last.2,
+                _ => return,
+            };
+            let finding = (found.make)().with(severity);
+            match made.get_mut(place) {
+                Some(other) => {
+                    *other = finding;
+                    shown.pop();
+                }
+                None => made.push(finding),
+            }
+            shown.push((severity, found.start, place));
         });
-        let mut all: Vec<Finding> = judged.collect();
-        let (count, limit) = (all.len(), limit.max(1));
-        let key = |finding: &Finding| (finding.severity, place_of(finding), finding.rule);
-        if count > limit {
-            // Of many only a few are shown.
-            let mut keys: Vec<_> = all.iter().map(key).zip(0..).collect();
-            let (_, last, _) = keys.select_nth_unstable(limit - 1);
-            let last = *last;
-            let mut nth = 0..;
-            all.retain(|finding| {
-                nth.next()
-                    .is_some_and(|nth: usize| (key(finding), nth) <= last)
-            });
-        }
-        all.sort_by_key(key);
-        (all, count)
+        made.sort_by_key(|finding| (finding.severity, place_of(finding), finding.rule));
+        (made, count)
     }
 }
 

@@ -1,15 +1,20 @@
 //! How ISO text is read, cut by cut: the effect of a line depends on those before it.
 
+use super::block::Motion;
 use super::corner;
 use super::cut::{Cut, Entry, Moves};
 use super::limits::{Limits, Table, correction_in};
-use super::moves::{Bend, Move, Place, Reading, added, apart, micrometres};
+use super::moves::{Bend, Move, Place, Reading, added, apart, meet, micrometres};
 use super::order::{Order, Sequence};
 use super::read::{Placed, Run};
 use super::summary::{Spur, Summary, WireSide};
-use crate::finding::{Fault, Finding};
+use crate::drawing::wire_side;
+use crate::finding::{Detail, Fault, Finding, NoFix, Rule, Side, SmallRadius};
 use crate::program::cuts::Reader;
-use crate::program::path::{ControlOffset, Found, Jointed, Node, Verdict, Way, odd_joints};
+use crate::program::path::{
+    ControlOffset, Found, Jointed, Node, UM_IN_MM, Verdict, Way, is_tight, odd_joints,
+};
+use crate::settings::Compensation;
 use crate::text::SourceText;
 use std::ops::Range;
 
@@ -77,7 +82,9 @@ impl Reader for Control<'_> {
             let placed = way;
             let way = way_of(placed.iter().map(|(made, _)| made), &self.reading);
             moves.verdict = Verdict::of(&way);
-            let faults = moves.join(&placed, &way);
+            let mut faults = moves.join(&placed, &way);
+            faults.extend(self.tight_arcs(&placed, moves.verdict.twice_area));
+            faults.extend(side_change(&placed, moves.verdict.ends.tolerance()));
             if !faults.is_empty() {
                 cut.rare.get_or_insert_default().faults.extend(faults);
             }
@@ -87,7 +94,6 @@ impl Reader for Control<'_> {
             let found = moves.sum.whole && !moves.sum.faulty;
             let found = found.then(|| Found::of(&way, offset()));
             moves.found = found.filter(|found| !found.is_clean()).map(Box::new);
-            moves.tight.shrink_to_fit();
         }
         cut.numbers.shrink_to_fit();
         vec![(lines, cut)]
@@ -107,6 +113,54 @@ impl Reader for Control<'_> {
     fn taken_on(after: &Entry, from: &Entry, to: &Entry) -> Entry {
         after.at(added(after.at, apart(to.at, from.at)))
     }
+}
+
+impl Control<'_> {
+    /// Arcs that the wire cannot follow at its distance: those of a part's contour, whether the control offsets it or
+    /// nobody does.
+    fn tight_arcs(&self, placed: &[Placed], twice_area: f64) -> impl Iterator<Item = Finding> {
+        let role = self.limits.side.role();
+        let by_settings = role.and_then(|role| wire_side(role, true, twice_area));
+        placed.iter().filter_map(move |(made, range)| {
+            let side_of_center = match made.motion {
+                Motion::CounterClockwise => Side::Left,
+                Motion::Clockwise => Side::Right,
+                Motion::Line | Motion::Rapid => return None,
+            };
+            let side = match made.side {
+                Some(side) => side,
+                None if self.limits.compensation == Compensation::Path => return None,
+                None => by_settings.unwrap_or(side_of_center),
+            };
+            let required = correction_in(self.table, self.limits, made.offset);
+            let arc = made.segment(&self.reading).as_arc().copied()?;
+            let is_tight = side == side_of_center && is_tight(arc.radius, required);
+            let detail = SmallRadius {
+                no_fix: Some(NoFix::Program),
+                ..SmallRadius::of(&arc, arc.radius, required, UM_IN_MM)
+            };
+            let detail = Detail::SmallRadius(Box::new(detail));
+            is_tight.then(|| Finding::in_text(Rule::SmallRadius, bytes(*range), detail))
+        })
+    }
+}
+
+/// Where the wire is first sent to the other side. The next pass, back along the same contour, has it there.
+fn side_change(placed: &[Placed], tolerance: f64) -> Option<Finding> {
+    let (first, _) = placed.first()?;
+    let mut pairs = placed.iter().zip(placed.iter().skip(1));
+    pairs.find_map(|((before, _), (made, range))| {
+        let side = made
+            .side
+            .filter(|_| before.side.is_some() && made.side != before.side)?;
+        let begins = [first.from, first.to].map(|begin| meet(begin, made.from, tolerance));
+        let fault = Fault::SideChange { side };
+        (begins == [false; 2]).then(|| Finding::of(fault, bytes(*range)))
+    })
+}
+
+fn bytes((start, end): (u32, u32)) -> Range<usize> {
+    start as usize..end as usize
 }
 
 impl Moves {
@@ -130,7 +184,7 @@ impl Moves {
                     length,
                     range: *range,
                 }),
-                fault => faults.push(Finding::of(fault, range.0 as usize..range.1 as usize)),
+                fault => faults.push(Finding::of(fault, bytes(*range))),
             }
         }
         self.sum.faulty |= !faults.is_empty();

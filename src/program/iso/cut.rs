@@ -4,10 +4,10 @@
 //! elsewhere changes nothing here.
 
 use super::block::{Code, Register, Stop};
-use super::evidence::Kept;
+use super::evidence::Evidence;
 use super::machine::Machine;
 use super::moves::{Move, Place};
-use super::summary::{Spur, Summary, Tight, WireSide};
+use super::summary::{Spur, Summary, WireSide};
 use super::word::Term;
 use crate::finding::Finding;
 use crate::geometry::Bounds;
@@ -94,7 +94,7 @@ pub(crate) struct Cut {
     /// What few lines have.
     pub(super) rare: Option<Box<Rare>>,
     /// What its lines say of how numbers are meant.
-    pub(crate) evidence: Kept,
+    pub(crate) evidence: Evidence,
     /// The decimals that its numbers have: a bit for each count of them.
     pub(crate) places: u8,
     /// There are lengths without a decimal point that are not 0, and with one.
@@ -139,7 +139,6 @@ pub(crate) struct Moves {
     pub(crate) verdict: Verdict,
     /// Where they cross each other, if they do, and what an offset loses of them.
     pub(crate) found: Option<Box<Found>>,
-    pub(crate) tight: Vec<Tight>,
     pub(crate) spurs: Vec<Spur>,
     /// Whether there may be a finding about them as a whole, once that was looked at.
     pub(crate) is_doubtful: Option<bool>,

@@ -330,7 +330,7 @@ impl Document {
             while line < end {
                 let mut run = Run::new(self.sequence(), machine, self.reading);
                 line = run.lines(line..end, 0, |_| {});
-                evidence.add(&run.evidence.kept());
+                evidence.add(&run.evidence);
                 machine = run.after;
             }
             self.reading = evidence.reading(&self.limits);

@@ -3,10 +3,6 @@
 //!
 //! Nothing is assumed: each reading is tested on the arcs, and the one that fits the most of them wins.
 
-mod kept;
-
-pub(crate) use kept::Kept;
-
 use super::block::{Block, Motion};
 use super::limits::Limits;
 use super::moves::{Bend, CenterRule, MICROMETRE, Move, Place, Reading, apart, distance};
@@ -222,6 +218,28 @@ impl Arcs {
 }
 
 impl Evidence {
+    /// Adds what other lines say.
+    pub(crate) fn add(&mut self, other: &Evidence) {
+        self.numbers += other.numbers;
+        self.with_point += other.with_point;
+        self.bare += other.bare;
+        self.long += other.long;
+        self.at_least_small += other.at_least_small;
+        self.corrections += other.corrections;
+        self.travel = self.travel.wrapping_add(other.travel);
+        self.fine += other.fine;
+        self.inches += other.inches;
+        self.units += other.units;
+        let own = self.places.iter_mut().chain(&mut self.ending_in_zero);
+        let its = other.places.iter().chain(&other.ending_in_zero);
+        own.zip(its).for_each(|(count, more)| *count += more);
+        for (own, its) in self.arcs.iter_mut().zip(&other.arcs) {
+            if let Some(its) = its {
+                own.get_or_insert_default().add(its);
+            }
+        }
+    }
+
     /// The most decimals of a number, up to 7.
     pub(super) fn decimals(&self) -> u8 {
         self.places

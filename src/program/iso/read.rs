@@ -9,15 +9,12 @@ use super::evidence::Evidence;
 use super::machine::{Behind, Machine, Ran, mark_of};
 use super::moves::{Course, Move, Place, Reading};
 use super::order::Sequence;
-use super::summary::{Summary, Tight};
+use super::summary::Summary;
 use crate::finding::{Fault, Finding, Rule};
 use crate::geometry::Side;
 use crate::program::path::Verdict;
 use std::f64::consts::PI;
 use std::ops::Range;
-
-/// Arcs with a larger radius are not kept: no correction comes near, nm.
-const LARGEST_CORRECTION: f64 = 5e6;
 
 /// A move, and the bytes of its words.
 pub(crate) type Placed = (Move, (u32, u32));
@@ -38,7 +35,6 @@ pub(crate) struct Run<'a> {
     /// Their moves that cut, from there.
     pub(crate) way: Vec<Placed>,
     sum: Option<Summary>,
-    tight: Vec<Tight>,
     looked: Looked,
 }
 
@@ -55,7 +51,6 @@ impl<'a> Run<'a> {
             evidence: Evidence::default(),
             way: Vec::new(),
             sum: None,
-            tight: Vec::new(),
             looked: Looked::default(),
         }
     }
@@ -104,14 +99,13 @@ impl<'a> Run<'a> {
             rare,
             after,
             sum,
-            tight,
             way,
             looked,
             evidence,
             ..
         } = self;
         cut.keep(rare);
-        cut.evidence = evidence.kept();
+        cut.evidence = evidence;
         cut.fixed |= looked.is_fixed;
         cut.cuts = sum.is_some();
         cut.places = places;
@@ -122,7 +116,6 @@ impl<'a> Run<'a> {
                 sum,
                 verdict: Verdict::default(),
                 found: None,
-                tight,
                 spurs: Vec::new(),
                 is_doubtful: None,
             })
@@ -409,24 +402,15 @@ impl<'a> Run<'a> {
         self.way.push((local, range));
     }
 
-    /// An arc is kept where it may be too tight, and its fault.
+    /// The fault of an arc that leads nowhere.
     fn arc(&mut self, made: Move, range: (u32, u32)) {
         // Relative to its own start, so that the result is the same to the last bit anywhere.
         match made.at_origin().course(&self.reading) {
-            Course::Arc(arc) => {
-                if arc.radius * 1e3 < LARGEST_CORRECTION && made.is_cut() {
-                    self.tight.push(Tight {
-                        arc: made.seen_from(self.begin),
-                        radius: arc.radius,
-                        range,
-                    });
-                }
-            }
             Course::OffRadius { start, end, .. } => {
                 self.fault(Fault::OffRadius { start, end }, range);
             }
             Course::NoRadius => self.fault(Fault::ArcWithoutRadius, range),
-            Course::Line => {}
+            Course::Line | Course::Arc(_) => {}
         }
     }
 }

@@ -4,7 +4,6 @@
 //! [`crate::program::repair::rule`]. All is bounded by counts, so that the result depends on the text alone.
 
 mod around;
-mod beside;
 pub(super) mod found;
 mod lost;
 mod suspect;
@@ -227,13 +226,23 @@ impl Suspect<'_> {
         );
         let before = self.way.rows.first().map(|row| row.before);
         let about = format!(
-            "{before:?}{:?}{usual:?}{:?}{:?}{}",
+            "{before:?}{:?}{usual:?}{:?}{}",
             document.reading(),
             self.styles,
-            self.beside,
             self.pieces.others_are_mirrored()
         );
         about.hash(&mut hasher);
+        for piece in self.pieces.others.iter().flatten() {
+            let sweep = piece
+                .curve
+                .and_then(|curve| curve.as_arc().map(|arc| arc.sweep));
+            (
+                piece.by.x.to_bits(),
+                piece.by.y.to_bits(),
+                sweep.map(f64::to_bits),
+            )
+                .hash(&mut hasher);
+        }
         hasher.finish()
     }
 

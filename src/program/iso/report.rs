@@ -17,7 +17,6 @@ use crate::finding::{Detail, Fault, Finding, Place, Rule, Severity, Side};
 use crate::geometry::cross;
 use crate::program::contours::Divided;
 use crate::program::path::tolerance;
-use crate::program::repair::gate::Tried;
 use crate::program::report::{self, place_of};
 use crate::settings::{CenterRule, SideSetting};
 use crate::text::SourceText;
@@ -138,12 +137,9 @@ impl Document {
     }
 }
 
-impl Tried for Document {
-    fn edit(&mut self, range: Range<usize>, replacement: &str) {
-        Document::edit(self, range, replacement);
-    }
-
-    fn cut_lines(&self, line: usize) -> Range<usize> {
+impl Document {
+    /// The lines of the cut around a line.
+    pub(in crate::program) fn cut_lines(&self, line: usize) -> Range<usize> {
         cut_within(self, line, usize::MAX)
     }
 }
@@ -161,14 +157,12 @@ pub(super) struct Report<'a> {
     findings: Vec<Finding>,
     foreign: FxHashMap<Code, (Range<usize>, usize)>,
     definitions: &'a Table,
-    /// µm; an arc of at least this radius suits every correction.
-    largest_correction: f64,
     steps: u32,
 }
 
 impl<'a> Report<'a> {
     fn new(document: &'a Document) -> Report<'a> {
-        let mut report = Report {
+        Report {
             document,
             text: document.text(),
             reading: document.reading(),
@@ -176,11 +170,8 @@ impl<'a> Report<'a> {
             findings: Vec::new(),
             foreign: FxHashMap::default(),
             definitions: &document.table,
-            largest_correction: 0.0,
             steps: 0,
-        };
-        report.largest_correction = report.largest_correction();
-        report
+        }
     }
 
     fn add(&mut self, range: Range<usize>, fault: Fault) {
@@ -202,7 +193,7 @@ impl<'a> Report<'a> {
                 continue;
             };
             let mut range = range.start + offset..range.end + offset;
-            if found.rule == Rule::MissingOffset {
+            if matches!(found.rule, Rule::MissingOffset | Rule::SideChange) {
                 range = self.switch_range(range.start);
             }
             self.findings.push(Finding {
@@ -284,7 +275,7 @@ impl<'a> Report<'a> {
             .extend(found.findings(&way, &ranges, self.text));
     }
 
-    /// Checks a contour as a whole: does it close, does the wire run on the right side, is an arc too tight. `all` are
+    /// Checks a contour as a whole: does it close, does the wire run on the right side. `all` are
     /// those with which it may belong together.
     fn judge(&mut self, cut: &Contour<'_>, all: &[Contour<'_>]) {
         let sum = &cut.sum;
@@ -345,17 +336,6 @@ impl<'a> Report<'a> {
                 self.add(range(), Fault::EntrySide { side });
             }
         }
-        if let Some((place, (start, _))) = sum.flip {
-            // The next pass, back along the same contour, has the wire on its other side.
-            let begins = [sum.first[0].from, sum.first[0].to];
-            if !begins
-                .iter()
-                .any(|begin| meet(*begin, place, cut.tolerance()))
-            {
-                self.side_change(start as usize);
-            }
-        }
-        self.tight_arcs(cut, orientation);
     }
 
     /// A way out and in again between two passes is no spur: its tip is the start of the cut.
@@ -402,22 +382,6 @@ impl<'a> Report<'a> {
             are_one.then_some(area)
         };
         all.iter().find_map(area)
-    }
-
-    /// A G41 that becomes G42 within a cut, at the word that does so.
-    fn side_change(&mut self, start: usize) {
-        let range = self.switch_range(start);
-        let side = if self
-            .text
-            .bytes()
-            .get(range.clone())
-            .is_some_and(|word| word.ends_with(b"42"))
-        {
-            Side::Right
-        } else {
-            Side::Left
-        };
-        self.add(range, Fault::SideChange { side });
     }
 
     /// The side of the contour from which the way in comes, by the contour's directions at its start and end; `None`

@@ -1,6 +1,6 @@
-//! The moves of a cut, summed up, and its arcs that may be too tight.
+//! The moves of a cut, summed up.
 
-use super::moves::{Move, Place, added};
+use super::moves::{Move, Place};
 use crate::geometry::Side;
 use std::ops::Range;
 
@@ -26,8 +26,6 @@ pub(crate) struct Summary {
     pub(crate) side: WireSide,
     /// Moves that switch the correction on.
     pub(crate) switched_on: u32,
-    /// Where the wire was first sent to the other side, and the line that did so.
-    pub(crate) flip: Option<(Place, (u32, u32))>,
 }
 
 /// On which side of a cut the wire was sent.
@@ -51,7 +49,6 @@ impl Summary {
             open: true,
             side: first.side.map_or(WireSide::None, WireSide::One),
             switched_on: u32::from(first.switches == Some(true)),
-            flip: None,
         }
     }
 
@@ -62,9 +59,6 @@ impl Summary {
     pub(crate) fn push(&mut self, step: Move, range: (u32, u32)) {
         if self.moves == 1 {
             self.first[1] = step;
-        }
-        if changes_side(&self.last[1], &step) {
-            self.flip.get_or_insert((step.from, range));
         }
         self.last = [self.last[1], step];
         self.moves += 1;
@@ -90,7 +84,6 @@ impl Summary {
         };
         self.moves += next.moves;
         self.last_range = next.last_range;
-        self.flip = self.flip.or(next.flip);
         self.switched_on += next.switched_on;
         self.whole &= next.whole;
         self.faulty |= next.faulty;
@@ -104,15 +97,9 @@ impl Summary {
             *step = step.shifted(by);
         }
         let behind = |(start, end): (u32, u32)| (start + bytes as u32, end + bytes as u32);
-        self.flip = self.flip.map(|(at, line)| (added(at, by), behind(line)));
         (self.range, self.last_range) = (behind(self.range), behind(self.last_range));
         self
     }
-}
-
-/// The second move has the wire on the other side than the first.
-pub(crate) fn changes_side(one: &Move, other: &Move) -> bool {
-    matches!((one.side, other.side), (Some(one), Some(other)) if one != other)
 }
 
 fn joined(a: WireSide, b: WireSide) -> WireSide {
@@ -121,16 +108,6 @@ fn joined(a: WireSide, b: WireSide) -> WireSide {
         (one, other) if one == other => one,
         _ => WireSide::Both,
     }
-}
-
-/// An arc that may be tighter than a correction.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Tight {
-    pub(crate) arc: Move,
-    /// µm, relative to its own start: the same anywhere.
-    pub(crate) radius: f64,
-    /// Bytes from the start of the cut; the whole line's words.
-    pub(crate) range: (u32, u32),
 }
 
 /// A way out and back at whose tip a move begins.

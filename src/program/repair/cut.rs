@@ -136,6 +136,8 @@ pub(in crate::program) struct Pieces {
     pub(crate) writing: Writing,
     /// The cuts before and behind it: perhaps its other passes.
     pub(crate) others: Vec<Vec<Piece>>,
+    /// It holds several passes itself, without a stop between.
+    pub(crate) holds_passes: bool,
 }
 
 impl Pieces {
@@ -358,6 +360,12 @@ pub(in crate::program) struct Changed<'a> {
 }
 
 impl<'a> Changed<'a> {
+    /// The pieces that go.
+    pub(super) fn replaced(&self) -> &'a [Piece] {
+        let replaced = self.pieces.get(self.index..self.index + self.count);
+        replaced.unwrap_or_default()
+    }
+
     /// Those that lead anywhere.
     pub(crate) fn iter(&self) -> impl DoubleEndedIterator<Item = &'a Piece> + use<'a> {
         let (head, rest) = self.pieces.split_at(self.index.min(self.pieces.len()));

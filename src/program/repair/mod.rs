@@ -1,9 +1,9 @@
 //! Repairs of a program in any language: filling a gap, finding the slip that explains the faults, offering repairs,
 //! and choosing those to be made.
 
+mod beside;
 pub(super) mod cut;
 pub(super) mod gap;
-pub(super) mod gate;
 pub(super) mod keys;
 pub(super) mod rule;
 pub(super) mod searches;

@@ -12,6 +12,7 @@
 //! A language gives its slips and the pieces that they lead to; it knows nothing of evidence. All is bounded by counts, so that the
 //! result depends on the text alone.
 
+use super::beside::Beside;
 use super::cut::{Against, Piece, SAME, are_alike, is_mirrored, lead};
 use super::gap::fillings;
 use super::slip::{Cut, Ends, Repair, Slip, Sort};
@@ -50,6 +51,7 @@ impl<'a, C: Cut> Search<'a, C> {
         Search {
             cut,
             pieces,
+            beside: Beside::of(pieces),
             before,
             ends: Ends {
                 gaps: gaps.clone(),

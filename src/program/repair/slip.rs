@@ -105,11 +105,6 @@ pub(in crate::program) trait Cut {
     fn reach(&self, _index: usize) -> usize {
         1
     }
-
-    /// How many things that the program says elsewhere, such as another pass, speak for pieces in the place of `count` ones.
-    fn likeness(&self, _index: usize, _count: usize, _pieces: &[Piece]) -> i32 {
-        0
-    }
 }
 
 /// Where a piece in the place of another one must end, seen from the other one's end, for the cut to close, µm.

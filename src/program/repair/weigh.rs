@@ -1,5 +1,6 @@
 //! What speaks for a slip, and how exactly it explains a cut.
 
+use super::beside::Beside;
 use super::cut::{Against, Changed, Joints, Piece, Pieces, is_about_hole, is_mirrored, runs_on};
 use super::slip::{Cut, Ends, Slip, Sort};
 use crate::geometry::Vector;
@@ -88,6 +89,7 @@ pub(super) const NEARLY: f64 = 15.0;
 pub(super) struct Search<'a, C: Cut> {
     pub(super) cut: &'a C,
     pub(super) pieces: &'a Pieces,
+    pub(super) beside: Beside,
     pub(super) before: Against,
     pub(super) gaps: Vec<Vector>,
     pub(super) ends: Ends,
@@ -120,7 +122,7 @@ impl<C: Cut> Search<'_, C> {
         };
         let is_pair = is_mirrored(with.iter());
         let mirrored = is_pair && home.norm() <= self.tolerance;
-        let likeness = self.cut.likeness(index, slip.count, &slip.pieces);
+        let likeness = self.beside.likeness(pieces, &with);
         let is_end = index == 0 || index + slip.count >= count;
         // How a way in meets the contour does not tell which of the two is wrong, nor what is lost beside it.
         let is_made_pair = is_end && mirrored && !self.is_mirrored;
@@ -138,10 +140,7 @@ impl<C: Cut> Search<'_, C> {
         ];
         let own = pieces.all.get(index);
         let is_stated = self.before.off > after.off;
-        let changed = pieces
-            .all
-            .get(index..index + slip.count)
-            .unwrap_or_default();
+        let changed = with.replaced();
         let mut wrong = changed.iter().filter(|own| own.is_unread || own.is_unsound);
         let is_wrong = wrong.clone().count() > 0;
         let mut pairs = changed.iter().zip(&slip.pieces);

@@ -12,7 +12,6 @@ use super::rules::position_mismatch::Positions;
 use super::rules::{self, Counts, Limits, Observation, Spot};
 use super::words::{Word, Words};
 use crate::geometry::{Bounds, Point, Segment};
-use crate::program::numbering::Numbering;
 use crate::program::path::{Found, Jointed, Node, Verdict, Way, Writing, odd_joints};
 use crate::text::SourceText;
 use std::borrow::Cow;
@@ -66,7 +65,6 @@ pub(super) struct Cut {
     pub(crate) may_be_jump: bool,
     /// Entries with a number.
     pub(crate) numbered: u32,
-    pub(crate) numbering: Numbering,
     rare: Option<Box<Rare>>,
 }
 
@@ -301,9 +299,6 @@ impl Cut {
 
     fn push(&mut self, range: Range<usize>, line: u32, number: Option<u32>, what: What) {
         self.numbered += u32::from(number.is_some());
-        self.numbering = self
-            .numbering
-            .with(number, matches!(what, What::Block(_) | What::Unread));
         self.entries.push(Entry {
             start: range.start as u32,
             length: range.len() as u32,

@@ -1,7 +1,6 @@
 //! A faulty cut, and what its lines may have been before one slip.
 
 use super::around::with_numbers_kept;
-use super::beside::Beside;
 use super::found::Meant;
 use super::way::{Line, Way, words_of};
 use super::words::{self, Words};
@@ -32,7 +31,6 @@ pub(super) struct Suspect<'a> {
     pub(super) pieces: Pieces,
     pub(super) against: Against,
     pub(super) styles: [Style; 2],
-    pub(super) beside: Beside,
 }
 
 impl<'a> Suspect<'a> {
@@ -42,16 +40,16 @@ impl<'a> Suspect<'a> {
             matches!(side, Some(Compensation::Left | Compensation::Right))
         };
         let blocks = way.rows.iter().map(|row| &row.line.block);
-        let holds_own = blocks.filter(|block| is_on(block.compensation)).count() > 1;
+        let holds_passes = blocks.filter(|block| is_on(block.compensation)).count() > 1;
         let mut pieces = way.all();
         let against = pieces.against();
         pieces.is_tangled = against.count() == 0 && pieces.all.len() <= LONGEST_TANGLED;
         Suspect {
             against,
             styles: [false, true].map(|inch| Style::of(way.document, inch)),
-            beside: Beside::of(&pieces.all, others, holds_own),
             pieces: Pieces {
                 others: others.to_vec(),
+                holds_passes,
                 ..pieces
             },
             way,
@@ -227,10 +225,5 @@ impl Cut for Suspect<'_> {
         // Where a place is stated behind it, nothing closes by it.
         let is_loose = row >= self.way.free[0] && row >= self.way.free[1];
         is_loose.then(|| self.filled(index, row, way)).flatten()
-    }
-
-    fn likeness(&self, index: usize, count: usize, pieces: &[Piece]) -> i32 {
-        let own = self.pieces.all.get(index..index + count);
-        self.beside.likeness(own.unwrap_or_default(), pieces)
     }
 }

@@ -4,19 +4,15 @@ use super::super::document::Document;
 use super::super::repair::found::Repair;
 use super::super::repair::{troubles, within};
 use crate::finding::{Fault, Finding, FixKind, Rule, Severity};
-use crate::program::report::Report;
+use crate::program::report::{Report, Unmade};
 use std::ops::Range;
 
 impl Report for Document {
-    fn all(&self) -> Vec<Finding> {
+    fn each(&self, take: &mut dyn FnMut(&Unmade<'_>)) {
         let mut all = self.plain_findings();
         let troubles = troubles(&all);
         all.extend(suspects(self, &troubles));
-        all
-    }
-
-    fn plain(&self) -> Vec<Finding> {
-        self.plain_findings()
+        all.iter().for_each(|own| Unmade::hand_out(own, take));
     }
 }
 

@@ -109,13 +109,10 @@ impl Document {
         Some(position_mismatch::fixes(&Mismatched {
             text: self.text.bytes(),
             block: entry.block(),
-            fields: fields_of(self.text.bytes(), own)?,
             coordinates,
             before,
-            stated,
             goes_on,
             closes: self.closes(&cuts),
-            closes_with: &|blocks| self.closes_with(at, blocks),
         }))
     }
 

@@ -10,36 +10,38 @@ use super::contours::OneContour;
 use crate::finding::{Detail, Fault, Finding, Severity};
 use crate::program::contours::Divided;
 use crate::program::path;
-use crate::program::repair::gate::Tried;
-use crate::program::report::Report;
+use crate::program::report::{Report, Unmade};
 use crate::program::steps::Program;
 use crate::settings::SideSetting;
 use std::ops::Range;
 
 impl Report for Document {
-    fn all(&self) -> Vec<Finding> {
-        let mut all = Vec::new();
+    fn each(&self, take: &mut dyn FnMut(&Unmade<'_>)) {
         for (cut, own) in self.cuts.iter().enumerate() {
             let faults = own.rare().faults.iter();
-            let counting = faults.filter(|local| self.counts(cut, local));
-            all.extend(counting.map(|local| self.materialized(cut, local)));
+            for local in faults.filter(|local| self.counts(cut, local)) {
+                take(&Unmade {
+                    rule: local.rule,
+                    severity: self.own_severity(cut, local),
+                    start: self.cuts.byte(cut) + local.range.start,
+                    make: &|| self.materialized(cut, local),
+                });
+            }
         }
         for (cuts, found) in self.crossing() {
             let ranges = self.blocks_of(&cuts).map(|at| self.range_of(at));
             let ranges: Vec<Range<usize>> = ranges.collect();
-            all.extend(found.findings(&self.way_of(&cuts), &ranges, &self.text));
+            let found = found.findings(&self.way_of(&cuts), &ranges, &self.text);
+            found.iter().for_each(|own| Unmade::hand_out(own, take));
         }
-        all.extend(self.view.findings.iter().cloned());
-        all
+        let of_whole = self.view.findings.iter();
+        of_whole.for_each(|own| Unmade::hand_out(own, take));
     }
 }
 
-impl Tried for Document {
-    fn edit(&mut self, range: Range<usize>, replacement: &str) {
-        Document::edit(self, range, replacement);
-    }
-
-    fn cut_lines(&self, line: usize) -> Range<usize> {
+impl Document {
+    /// The lines of the cut around a line.
+    pub(in crate::program) fn cut_lines(&self, line: usize) -> Range<usize> {
         let own = || {
             let cuts = self.contour_at(self.entry_at(&self.text.line_range(line))?)?;
             let line_of = |at| self.text.line_of(self.range_of(at).start);

@@ -6,7 +6,7 @@ use super::super::rules::position_mismatch;
 use super::{At, Document};
 use crate::finding::{Fault, Finding};
 use crate::geometry::Vector;
-use crate::program::numbering::{self, Numbered, Numbering};
+use crate::program::numbering::{self, Numbered};
 use crate::program::steps::Program;
 use std::collections::BTreeMap;
 
@@ -70,9 +70,7 @@ impl Document {
     /// The blocks with a wrong number, and the number of each one's turn, where that is known.
     pub(super) fn judge_numbers(&self, findings: &mut Vec<Finding>) -> BTreeMap<At, Option<u32>> {
         let mut faulty = BTreeMap::new();
-        let all = self.cuts.iter().map(|cut| cut.numbering);
-        let numbering = all.fold(Numbering::Empty, Numbering::then);
-        if numbering != Numbering::Irregular || self.cuts.iter().all(|cut| cut.numbered == 0) {
+        if self.cuts.iter().all(|cut| cut.numbered == 0) {
             return faulty;
         }
         let (places, blocks) = self.numbered(self.view.end);

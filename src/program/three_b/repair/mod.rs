@@ -228,32 +228,6 @@ impl Cut for Suspect<'_> {
             },
         })
     }
-
-    /// Another pass has the same motions.
-    fn likeness(&self, index: usize, count: usize, pieces: &[Piece]) -> i32 {
-        let length = self.pieces.all.len() + pieces.len() - count;
-        let is_own = |other: &Vec<Piece>| {
-            other.len() == length && length > 1 && {
-                let all = self.pieces.with(index, count, pieces);
-                other.iter().map(turning).eq(all.iter().map(turning))
-            }
-        };
-        i32::from(self.pieces.others.iter().any(is_own))
-    }
-}
-
-/// Which way a piece begins, and how it turns.
-type Turning = Option<[i8; 3]>;
-
-fn turning(piece: &Piece) -> Turning {
-    let curve = piece.curve?;
-    let sign = |value: f64| match value.abs() < 1e-9 {
-        true => 0,
-        false => value.signum() as i8,
-    };
-    let begin = curve.start_tangent();
-    let sweep = curve.as_arc().map_or(0.0, |arc| arc.sweep);
-    Some([sign(begin.x), sign(begin.y), sign(sweep)])
 }
 
 impl<'a> Suspect<'a> {

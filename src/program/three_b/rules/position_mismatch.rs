@@ -4,14 +4,10 @@
 //! finding.
 
 use super::super::around::StatedPoint;
-use super::super::block::{Block, CountingAxis, Motion, Node};
-use super::super::decode::meant;
-use super::super::encode::{counted, line_block};
+use super::super::block::Block;
 use super::super::entry::{BlockEntry, Move, travel_of};
 use super::TextFix;
 use crate::finding::FixKind;
-use crate::geometry::{Arc, Point, Segment, Vector};
-use crate::program::three_b::fields::Fields;
 use crate::text::{TextEdit, WIDEST_COLUMN};
 use std::ops::Range;
 
@@ -90,52 +86,30 @@ impl Positions {
 /// If a larger share of the end points is wrong, the numbers are not end points.
 pub(in super::super) const FOREIGN: f64 = 0.5;
 
-/// A block with wrong coordinates, for making its fixes.
+/// A block with wrong coordinates, for making its fix.
 pub(in super::super) struct Mismatched<'a> {
     pub(crate) text: &'a [u8],
     pub(crate) block: Block,
-    pub(crate) fields: Fields,
     /// Bytes of the coordinates after the block.
     pub(crate) coordinates: Range<usize>,
     pub(crate) before: StatedPoint,
-    pub(crate) stated: StatedPoint,
     /// Whether the next block leads on from these coordinates (`true`) or from the end of this block; `None` where that
     /// is unknown.
     pub(crate) goes_on: Option<bool>,
-    /// Whether the contour closes with its blocks as they are, and with another block in place of this one.
+    /// Whether the contour closes with its blocks as they are.
     pub(crate) closes: bool,
-    pub(crate) closes_with: &'a dyn Fn(&[Block]) -> bool,
 }
 
-/// The coordinates become the block's end, or the block becomes one that ends at the coordinates, as the next block
-/// allows. Made by "fix all" only where the contour shows which of the two is wrong.
+/// The coordinates become the block's end, where the next block does not go on from them. Made by "fix all" only where the
+/// contour shows that it is they that are wrong; which block would lead there is for the search to say.
 pub(in super::super) fn fixes(site: &Mismatched<'_>) -> Vec<TextFix> {
-    let coordinates = if site.goes_on == Some(true) {
-        None
-    } else {
-        set_coordinates(site)
-    };
-    let block = if site.goes_on == Some(false) {
-        None
-    } else {
-        set_block(site)
-    };
-    let block_closes = block
-        .as_ref()
-        .is_some_and(|(block, _)| (site.closes_with)(&[*block]));
-    let block_first = block_closes && !site.closes;
-    let mut fixes = Vec::new();
-    if let Some((kind, edit)) = coordinates {
-        let is_safe = site.closes && !block_closes && site.goes_on == Some(false);
-        fixes.push(TextFix::text(kind, is_safe, edit).preferred_if(!block_first));
-    }
-    if let Some((_, edit)) = block {
-        let is_safe = block_first && site.goes_on == Some(true);
-        let fix = TextFix::text(FixKind::FollowCoordinates, is_safe, edit)
-            .preferred_if(block_first || fixes.is_empty());
-        fixes.insert(if block_first { 0 } else { fixes.len() }, fix);
-    }
-    fixes
+    let may_be_wrong = site.goes_on != Some(true);
+    let coordinates = may_be_wrong.then(|| set_coordinates(site)).flatten();
+    let fix = coordinates.map(|(kind, edit)| {
+        let is_safe = site.closes && site.goes_on == Some(false);
+        TextFix::text(kind, is_safe, edit).preferred_if(site.closes)
+    });
+    fix.into_iter().collect()
 }
 
 fn set_coordinates(site: &Mismatched<'_>) -> Option<(FixKind, Vec<TextEdit>)> {
@@ -176,47 +150,4 @@ fn set_coordinates(site: &Mismatched<'_>) -> Option<(FixKind, Vec<TextEdit>)> {
         from = start + length;
     }
     (!edit.is_empty()).then_some((FixKind::SetCoordinates { at }, edit))
-}
-
-/// The block that leads from the coordinates before to those after: a line, or the same circle up to there.
-fn set_block(site: &Mismatched<'_>) -> Option<(Block, Vec<TextEdit>)> {
-    let by = [0, 1].map(|axis| (site.stated.at[axis] - site.before.at[axis]) * 1000.0);
-    let block = match meant(&site.block, Point::origin()) {
-        Some(Segment::Arc(arc)) => {
-            let end = Point::origin() + Vector::new(by[0], by[1]);
-            let off = ((end - arc.center).norm() - arc.radius).abs();
-            if off > TOLERANCE || (end - arc.start).norm() <= TOLERANCE {
-                return None;
-            }
-            let out = end - arc.center;
-            let axis = if out.x.abs() <= out.y.abs() {
-                CountingAxis::X
-            } else {
-                CountingAxis::Y
-            };
-            let j = counted(
-                &Arc::about(arc.center, arc.start, end, arc.sweep > 0.0),
-                axis,
-            )
-            .round() as i64;
-            Block {
-                j,
-                axis,
-                ..site.block
-            }
-        }
-        _ if matches!(site.block.motion, Motion::Line(_)) => {
-            let [x, y] = by.map(|um| um.round() as i64);
-            if (x, y) == (0, 0) {
-                return None;
-            }
-            line_block(Node { x: 0, y: 0 }, Node { x, y })
-        }
-        _ => return None,
-    };
-    if mismatch(&site.before, &travel_of(&block), &site.stated).is_some() {
-        return None;
-    }
-    let edit = site.fields.changed(site.text, &site.block, &block);
-    Some((block, edit))
 }

@@ -1,6 +1,6 @@
 //! The other cuts of a program as evidence: a move that another pass has, too, is hardly wrong.
 
-use crate::program::repair::cut::{FEWEST_WITH_LEADS, Piece};
+use super::cut::{Changed, FEWEST_WITH_LEADS, Piece, Pieces};
 use std::collections::BTreeMap;
 
 /// From its start to its end and its middle, µm.
@@ -26,15 +26,28 @@ fn backwards(piece: &Piece) -> Option<Shape> {
     Some([-piece.by.x, -piece.by.y, middle.x, middle.y].map(|um| um.round() as i64))
 }
 
+/// Which way a piece begins, and how it turns: a pass that lies aside of another one is like it in these.
+fn turning(piece: &Piece) -> Option<[i8; 3]> {
+    let curve = piece.curve?;
+    let sign = |value: f64| match value.abs() < 1e-9 {
+        true => 0,
+        false => value.signum() as i8,
+    };
+    let begin = curve.start_tangent();
+    let sweep = curve.as_arc().map_or(0.0, |arc| arc.sweep);
+    Some([sign(begin.x), sign(begin.y), sign(sweep)])
+}
+
 impl Beside {
-    /// Those that may be passes of a cut; or itself, where it `holds_own`.
-    pub(super) fn of(own: &[Piece], others: &[Vec<Piece>], holds_own: bool) -> Beside {
+    /// Those that may be passes of a cut; or itself, where it holds several.
+    pub(super) fn of(pieces: &Pieces) -> Beside {
+        let (own, holds_own) = (&pieces.all, pieces.holds_passes);
         let mut beside = Beside {
             holds_own,
             ..Beside::default()
         };
         let is_pass = |other: &&Vec<Piece>| !holds_own && other.len().abs_diff(own.len()) <= 1;
-        let passes = others.iter().filter(is_pass).flatten();
+        let passes = pieces.others.iter().filter(is_pass).flatten();
         let moves = passes.chain(own.iter().filter(|_| holds_own));
         for shape in moves
             .flat_map(|piece| [shape(piece), backwards(piece)])
@@ -58,12 +71,18 @@ impl Beside {
         shapes.filter(|shape| !has(shape)).count()
     }
 
-    /// How many more of some pieces other passes have than of those in whose place they stand.
-    pub(super) fn likeness(&self, was: &[Piece], is: &[Piece]) -> i32 {
-        if self.counts.is_empty() {
-            return 0;
-        }
-        let more = self.unlike(was, true) as i32 - self.unlike(is, false) as i32;
-        more.clamp(-2, 2)
+    /// How much of some pieces other passes have, more than of those in whose place they stand.
+    pub(super) fn likeness(&self, pieces: &Pieces, with: &Changed<'_>) -> i32 {
+        let (was, is) = (with.replaced(), with.by);
+        let more = match self.counts.is_empty() {
+            true => 0,
+            false => self.unlike(was, true) as i32 - self.unlike(is, false) as i32,
+        };
+        let turns = || with.iter().map(turning);
+        let length = turns().count();
+        let is_alike = |other: &Vec<Piece>| {
+            other.len() == length && length > 1 && other.iter().map(turning).eq(turns())
+        };
+        more.clamp(-2, 2) + i32::from(pieces.others.iter().any(is_alike))
     }
 }
