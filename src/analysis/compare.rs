@@ -1,9 +1,9 @@
 //! Compares the segments of two runs by the rules on pairs.
 
-use super::dead_ends::Ended;
 use crate::drawing::{ContourKey, ContourSegment};
 use crate::finding::{Severity, Side};
 use crate::geometry::{Bounds, Line, Point, Segment, left_normal};
+use crate::rules::dead_end::Left;
 use crate::rules::{Outlook, PAIR_RULES, PairObservation, Wall, part_for_good};
 use rustc_hash::FxHashMap;
 use std::collections::VecDeque;
@@ -22,6 +22,13 @@ pub(crate) type SegmentId = (ContourKey, usize);
 
 /// A contour's outlook by key.
 pub(crate) type Outlooks<'a, 'b> = &'a (dyn Fn(ContourKey) -> Option<Outlook<'b>> + Sync);
+
+/// A dead end: its first and last wall, and what the wire leaves between them, if that matters.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Ended {
+    pub(super) walls: [usize; 2],
+    pub(super) left: Option<Left>,
+}
 
 /// What a pair rule has observed between two segments.
 #[derive(Clone, Copy, Debug)]

@@ -4,7 +4,7 @@
 //! may have (`Budget::most_seen`), so all of them are looked through for each report.
 
 use super::Analysis;
-use super::compare::Observed;
+use super::compare::{Ended, Observed};
 use super::pair_findings::FacingWalls;
 use super::pairs::Pairs;
 use super::report::Report;
@@ -16,13 +16,6 @@ use crate::rules::{Outlook, PAIR_RULES, Wall};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeSet;
 use std::ops::Bound;
-
-/// A dead end: its first and last wall, and what the wire leaves between them, if that matters.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Ended {
-    pub(super) walls: [usize; 2],
-    pub(super) left: Option<Left>,
-}
 
 /// The place from which the wire stays farthest away: rank of an entity, its segment, and whether the wire runs on its left.
 type Farthest = (u64, usize, bool);

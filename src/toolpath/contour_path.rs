@@ -8,7 +8,7 @@ use super::job::{Job, ROUNDING};
 use super::loops::{self, Found};
 use super::nest::{Before, Nest};
 use super::offset::{Wall, walls};
-use super::open_contour::{one_side, there_and_back};
+use super::open_contour::{Lost, one_side, there_and_back};
 use super::path::Refusal;
 use super::proof::{Beside, Proof, Unproved};
 use super::ring::{Pieces, trimmed};
@@ -58,13 +58,6 @@ pub(super) enum Laid {
 
 /// The result for a contour.
 pub(super) type Outcome = Result<Laid, Fault>;
-
-/// A place that the wire does not come to, and the wall there.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Lost {
-    pub(super) near: Point,
-    pub(super) wall: usize,
-}
 
 /// Why a contour has no path, with the wall where that shows.
 #[derive(Clone, Debug)]

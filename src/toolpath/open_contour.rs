@@ -6,11 +6,11 @@
 //! contour there.
 
 use super::clearance::Walls;
-use super::contour_path::Lost;
 use super::corners::{Element, Raw};
 use super::loops::Loops;
 use super::offset::Wall;
 use super::path::Source;
+use crate::geometry::Point;
 use std::f64::consts::SQRT_2;
 
 /// The walls of an open contour, and after them the same backwards.
@@ -20,6 +20,13 @@ pub(super) fn there_and_back(walls: &[Wall]) -> Vec<Wall> {
         ..*wall
     });
     walls.iter().copied().chain(back).collect()
+}
+
+/// A place that the wire does not come to, and the wall there.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lost {
+    pub(super) near: Point,
+    pub(super) wall: usize,
 }
 
 /// Where walls at an end are not followed, more than this share of the correction may not stay uncut: it is what a corner of 90° leaves.

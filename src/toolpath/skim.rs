@@ -1,11 +1,12 @@
 //! The paths of the passes after the first.
 
 use super::clearance::Walls;
-use super::contour_path::{Along, Fault, Laid, Lost, Outcome};
+use super::contour_path::{Along, Fault, Laid, Outcome};
 use super::corners::Element;
 use super::job::{Job, ROUNDING};
 use super::nest::Before;
 use super::offset::Wall;
+use super::open_contour::Lost;
 use super::path::Refusal;
 use crate::settings::SkimCorner;
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
