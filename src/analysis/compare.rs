@@ -23,6 +23,13 @@ pub(crate) type SegmentId = (ContourKey, usize);
 /// A contour's outlook by key.
 pub(crate) type Outlooks<'a, 'b> = &'a (dyn Fn(ContourKey) -> Option<Outlook<'b>> + Sync);
 
+/// A dead end: its first and last wall, and what the wire leaves between them, if that matters.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Ended {
+    pub(super) walls: [usize; 2],
+    pub(super) left: Option<Left>,
+}
+
 /// What a pair rule has observed between two segments.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Observed {
@@ -36,9 +43,8 @@ pub(crate) struct Observed {
     pub(crate) disc: Option<(Point, f64)>,
     pub(crate) own_disc: bool,
     pub(crate) blocked: bool,
-    /// For a dead end, its first and last wall and what is left beyond it, or `None` if nothing is.
-    /// Set once that is known, if it depends only on the two runs.
-    pub(crate) ended: Option<Option<([usize; 2], Left)>>,
+    /// What is left beyond a dead end, once that has been worked out.
+    pub(crate) ended: Option<Ended>,
 }
 
 impl Observed {
@@ -57,16 +63,18 @@ impl Observed {
         }
         // The walls of a dead end are of one contour.
         if self.one.0 == key
-            && let Some(Some((walls, left))) = &mut self.ended
+            && let Some(Ended { walls, left }) = &mut self.ended
         {
             *walls = walls.map(|wall| shifted(wall, first, by));
-            left.index = shifted(left.index, first, by);
+            if let Some(left) = left {
+                left.index = shifted(left.index, first, by);
+            }
         }
     }
 }
 
 /// The new index of a segment, where those from `first` on have changed.
-pub(super) fn shifted(index: usize, first: usize, by: isize) -> usize {
+fn shifted(index: usize, first: usize, by: isize) -> usize {
     match index < first {
         true => index,
         false => index.wrapping_add_signed(by),

@@ -1,255 +1,191 @@
 //! `lost-pocket`: what the wire leaves beyond its dead ends.
+//!
+//! What is left beyond one is kept with its observation until something changes between its two walls. There are no more observations than a drawing
+//! may have (`Budget::most_seen`), so all of them are looked through for each report.
 
 use super::Analysis;
-use super::ends::{Asked, DeadEnds, EndsOf, Runs};
+use super::compare::{Ended, Observed};
 use super::pair_findings::FacingWalls;
 use super::pairs::Pairs;
 use super::report::Report;
 use crate::drawing::{ContourIndex, ContourKey, Drawing};
 use crate::finding::{Detail, Rule, Severity, Side};
 use crate::rules::arc_as_chords::REACH;
-use crate::rules::dead_end::{DeadEnd, holds};
-use crate::rules::{NEIGHBOURS, Outlook, PAIR_RULES, Wall};
-use rustc_hash::FxHashMap;
+use crate::rules::dead_end::{DeadEnd, Left, holds};
+use crate::rules::{Outlook, PAIR_RULES, Wall};
+use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeSet;
-use std::sync::Arc;
+use std::ops::Bound;
 
-/// A dead end depends on at most this many runs about its walls, else on the whole contour.
-const FEW: usize = 8;
+/// The place from which the wire stays farthest away: rank of an entity, its segment, and whether the wire runs on its left.
+type Farthest = (u64, usize, bool);
+
+/// A dead end as it is reported. Of several at one place it is the least deep one, then the one with the first walls.
+struct Told {
+    order: (Farthest, u64, [usize; 2]),
+    of: ContourKey,
+    left: Left,
+}
+
+/// What the dead ends of a contour are looked at with.
+struct Around<'a> {
+    outlook: Outlook<'a>,
+    side: Option<Side>,
+    slots: Option<Slots>,
+}
 
 impl Analysis {
-    /// Updates the dead ends of all contours, for each possible wire side. Walls reported as `narrow-slot` are skipped.
-    pub(super) fn find_dead_ends(
-        &self,
-        drawing: &Drawing,
-        pairs: &mut Pairs,
-        side_of: &dyn Fn(ContourKey) -> Option<Side>,
-    ) {
-        let changed = std::mem::take(&mut pairs.changed);
-        let known = pairs.ends.take();
-        if self.settings.severity(Rule::LostPocket).is_none() || !pairs.seen.has(Rule::LostPocket) {
-            return;
-        }
-        // A tangle may have as many dead ends as pairs of segments, none of which is reported.
-        let crossings = &pairs.seen.crossings;
-        let has_sides = |key: ContourKey| !crossings.contains_key(&key);
-        let mut asked: FxHashMap<ContourKey, Asked> = FxHashMap::default();
-        match &known {
-            Some(known) => {
-                for (key, run) in changed {
-                    if let Asked::About(runs) = asked.entry(key).or_default() {
-                        runs.insert(run);
-                    }
-                }
-                for (&key, of) in &known.of {
-                    if of.side != side_of(key) {
-                        asked.insert(key, Asked::All);
-                    } else if of.waits != Asked::NOTHING && has_sides(key) {
-                        asked.entry(key).or_default().add(&of.waits);
-                    }
-                }
-            }
-            None => {
-                let own = pairs
-                    .seen
-                    .with_ends()
-                    .filter(|(one, other)| one.0 == other.0);
-                asked.extend(own.map(|(one, _)| (one.0, Asked::All)));
-            }
-        }
-        if asked.is_empty() {
-            pairs.ends = known;
-            return;
-        }
-        let mut ends = known.unwrap_or_default();
-        for (key, asked) in asked.extract_if(|&key, _| !has_sides(key)) {
-            let of = Arc::make_mut(ends.of.entry(key).or_default());
-            of.waits.add(&asked);
-            of.side = side_of(key);
-        }
-        let has_slots =
-            |key: ContourKey| pairs.seen.slots.contains_key(&key) && asked.contains_key(&key);
-        let slots = pairs.slots(has_slots).into_iter();
-        let slots: FxHashMap<ContourKey, Slots> =
-            slots.map(|(key, each)| (key, Slots::of(&each))).collect();
-        let mut of_all: FxHashMap<ContourKey, BTreeSet<Runs>> = FxHashMap::default();
-        if asked.values().any(|asked| matches!(asked, Asked::All)) {
-            for (one, other) in pairs.seen.with_ends() {
-                of_all.entry(one.0).or_default().insert([one.1, other.1]);
-            }
-        }
-        for (key, asked) in asked {
-            let known = ends.of.remove(&key);
-            let Some(outlook) = self.outlook(drawing, key) else {
-                continue;
-            };
-            let is_known = known.is_some();
-            let (mut of, runs) = match asked {
-                Asked::All => (EndsOf::default(), of_all.remove(&key).unwrap_or_default()),
-                Asked::About(about) => {
-                    let mut of = known.map(Arc::unwrap_or_clone).unwrap_or_default();
-                    let runs = leave(pairs, key, &mut of, &about);
-                    (of, runs)
-                }
-            };
-            (of.side, of.waits) = (side_of(key), Asked::NOTHING);
-            let has_any = enter(pairs, (key, &outlook), (&mut of, slots.get(&key)), &runs);
-            // One that does not count on this side of the wire may count on the other.
-            if is_known || has_any {
-                ends.of.insert(key, Arc::new(of));
-            }
-        }
-        pairs.ends = Some(ends);
-    }
-
-    /// Adds a finding for each place that the wire does not reach. A contour that crosses itself has no sides.
-    /// Where nobody has said on which side the wire runs, it may never come near a dead end: that is no error.
+    /// Adds a finding for each place that the wire does not reach. A contour that crosses itself has no sides; walls that are a `narrow-slot`
+    /// have their own finding. Where nobody has said on which side the wire runs, it may never come near a dead end: that is no error.
     pub(super) fn report_dead_ends(
-        &self,
+        &mut self,
         drawing: &Drawing,
-        side_of: &dyn Fn(ContourKey) -> Option<Side>,
+        side_of: &dyn Fn(&Analysis, ContourKey) -> Option<Side>,
         report: &mut Report,
     ) {
-        let Some(ends) = &self.pairs.ends else {
+        let is_on = self.settings.severity(Rule::LostPocket).is_some();
+        if !is_on || !self.pairs.seen.has(Rule::LostPocket) {
+            self.pairs.changed.clear();
             return;
-        };
-        let has_sides = |key: ContourKey| !self.pairs.seen.crossings.contains_key(&key);
-        let is_known = |key: ContourKey| has_sides(key) && side_of(key).is_some();
-        let is_unknown = |key: ContourKey| has_sides(key) && side_of(key).is_none();
+        }
+        let mut pairs = std::mem::take(&mut self.pairs);
+        self.forget_changed_ends(&mut pairs);
+        let told = self.dead_ends(drawing, &mut pairs, side_of);
+        self.pairs = pairs;
         // The wire follows a contour that is its own path.
         let mildest = report.is_for_a_path().then_some(Severity::Warning);
-        self.report_ends(drawing, ends, mildest, &is_known, report);
-        let warning = Some(Severity::Warning);
-        self.report_ends(drawing, ends, warning, &is_unknown, report);
+        let (known, unknown): (Vec<Told>, Vec<Told>) =
+            (told.into_iter()).partition(|told| side_of(self, told.of).is_some());
+        self.report_ends(drawing, &known, mildest, report);
+        self.report_ends(drawing, &unknown, Some(Severity::Warning), report);
     }
 
     fn report_ends(
         &self,
         drawing: &Drawing,
-        ends: &DeadEnds,
+        told: &[Told],
         mildest: Option<Severity>,
-        holds: &dyn Fn(ContourKey) -> bool,
         report: &mut Report,
     ) {
-        report.count(Rule::LostPocket, mildest, ends.count(holds));
+        report.count(Rule::LostPocket, mildest, told.len());
         // Only the first ones are reported.
         let most = report.room(Rule::LostPocket, mildest);
-        for (key, walls, left) in ends.first(most, holds) {
-            if let Some(outlook) = self.outlook(drawing, key)
+        for Told { order, of, left } in told.iter().take(most) {
+            let (_, _, walls) = order;
+            if let Some(outlook) = self.outlook(drawing, *of)
                 && let Some(place) = outlook.place(left.index)
             {
-                let related = walls
-                    .iter()
-                    .filter(|&&wall| wall != left.index)
-                    .filter_map(|&wall| outlook.place(wall))
-                    .collect();
-                report.add(
-                    Rule::LostPocket,
-                    mildest,
-                    place,
-                    Detail::DeadEnd {
-                        near: left.near,
-                        uncut: left.depth,
-                    },
-                    related,
-                );
+                let related = walls.iter().filter(|&&wall| wall != left.index);
+                let related = related.filter_map(|&wall| outlook.place(wall)).collect();
+                let detail = Detail::DeadEnd {
+                    near: left.near,
+                    uncut: left.depth,
+                };
+                report.add(Rule::LostPocket, mildest, place, detail, related);
             }
         }
     }
-}
 
-/// Removes results that depend on the changed runs; returns the pairs of runs to check again.
-/// Results that depend on more than the runs about their walls are removed, too; those across the
-/// end of a contour count as such.
-fn leave(
-    pairs: &Pairs,
-    key: ContourKey,
-    of: &mut EndsOf,
-    changed: &BTreeSet<u32>,
-) -> BTreeSet<Runs> {
-    const REACHED: u32 = FEW as u32;
-    let mut runs = of.far.clone();
-    let about = changed
-        .iter()
-        .flat_map(|run| run.saturating_sub(REACHED)..=run.saturating_add(REACHED));
-    for run in about.collect::<BTreeSet<u32>>() {
-        let others = pairs.partners_of((key, run)).filter(|other| other.0 == key);
-        runs.extend(others.map(|other| [run.min(other.1), run.max(other.1)]));
-        let from = of.seen_from(run.saturating_sub(REACHED), run);
-        runs.extend(from.filter(|runs| runs.contains(&run)));
-    }
-    runs.iter().for_each(|runs| of.remove(runs));
-    runs
-}
-
-/// Adds the observations between these pairs of runs of a contour, except those that its slots report. False where
-/// there are none.
-fn enter(
-    pairs: &mut Pairs,
-    (key, outlook): (ContourKey, &Outlook),
-    (of, slots): (&mut EndsOf, Option<&Slots>),
-    runs: &BTreeSet<Runs>,
-) -> bool {
-    let count = outlook.contour.len();
-    let is_told = |walls, side| slots.is_some_and(|slots| slots.lie_between(walls, count, side));
-    let mut has_any = false;
-    for &runs in runs {
-        let [one, other] = runs.map(|run| (key, run));
-        for each in pairs.seen.ends_between(&(one, other)) {
-            has_any = true;
-            if PAIR_RULES[each.rule].rule != Rule::LostPocket || each.blocked {
-                continue;
-            }
-            let (one, other) = (each.one.1, each.other.1);
-            let (Some(side), Some((center, _))) = (each.sides.0, each.disc) else {
-                continue;
-            };
-            if of.side.is_some_and(|known| known != side) {
-                continue;
-            }
-            let ended = each.ended.unwrap_or_else(|| {
-                let walls = Wall::new(outlook, one).zip(Wall::new(outlook, other));
-                let end =
-                    walls.and_then(|(one, other)| DeadEnd::between(&one, &other, side, center));
-                let ended = end.and_then(|end| Some((end.walls(), end.left(outlook)?)));
-                let is_forward = end.is_none_or(|end| end.walls().is_sorted());
-                let hangs = is_forward && hangs_on_runs(outlook.index, one, other);
-                each.ended = hangs.then_some(ended);
-                if !(hangs || is_forward && is_near(outlook.index, one, other)) {
-                    of.far.insert(runs);
-                }
-                ended
-            });
-            if let Some((walls, left)) = ended
-                && !is_told(walls, side)
-                && let Some((entity, segment)) = outlook.segment_id(left.index)
+    /// Forgets what is left beyond dead ends between whose walls, or near which, something has changed.
+    fn forget_changed_ends(&self, pairs: &mut Pairs) {
+        let mut changed: FxHashMap<ContourKey, BTreeSet<u32>> = FxHashMap::default();
+        for (key, run) in pairs.changed.drain() {
+            changed.entry(key).or_default().insert(run);
+        }
+        for each in pairs.seen.ends() {
+            let of = each.one.0;
+            if let (Some(ended), Some(runs)) = (&each.ended, changed.get(&of))
+                && let Some(known) = self.known.get(&of)
+                && reaches_into(&known.index, ended.walls, runs)
             {
-                let place = (outlook.drawing.rank(entity), segment, side == Side::Left);
-                of.insert(runs, place, walls, left);
+                each.ended = None;
             }
         }
     }
-    has_any
+
+    /// The dead ends of all contours, in machining order, one for each place.
+    fn dead_ends(
+        &self,
+        drawing: &Drawing,
+        pairs: &mut Pairs,
+        side_of: &dyn Fn(&Analysis, ContourKey) -> Option<Side>,
+    ) -> Vec<Told> {
+        let mut slots = pairs.slots();
+        let crossed: FxHashSet<ContourKey> = pairs.seen.crossings.keys().copied().collect();
+        // A tangle may have as many dead ends as pairs of segments.
+        let mut around = |key: ContourKey| {
+            let outlook = self.outlook(drawing, key);
+            let outlook = outlook.filter(|_| !crossed.contains(&key))?;
+            let slots = slots.remove(&key).map(|slots| Slots::of(&slots));
+            let side = side_of(self, key);
+            Some(Around {
+                outlook,
+                side,
+                slots,
+            })
+        };
+        let mut all: FxHashMap<ContourKey, Option<Around>> = FxHashMap::default();
+        let told = pairs.seen.ends().filter_map(|each| {
+            let around = all.entry(each.one.0).or_insert_with_key(|&key| around(key));
+            around.as_ref()?.told(each)
+        });
+        let mut told: Vec<Told> = told.collect();
+        told.sort_unstable_by_key(|told| told.order);
+        told.dedup_by_key(|told| told.order.0);
+        told
+    }
 }
 
-/// True if all that a rule sees between two segments lies in their runs, so that re-checking these is enough: they are
-/// checked again where one of their segments changes, or one of [`NEIGHBOURS`] about them.
-fn hangs_on_runs(index: &ContourIndex, one: usize, other: usize) -> bool {
-    const ABOUT: usize = REACH - NEIGHBOURS;
-    let (first, last) = (one.min(other), one.max(other));
-    let is_inside = first >= REACH && last + REACH < index.len();
-    let [of_first, of_last] = [first, last].map(|segment| index.run_of(segment));
-    is_inside
-        && of_last - of_first <= 1
-        && index.run_of(first - ABOUT) == of_first
-        && index.run_of(last + ABOUT) == of_last
+impl Around<'_> {
+    /// What is reported of a dead end, which is worked out if necessary.
+    fn told(&self, each: &mut Observed) -> Option<Told> {
+        let outlook = &self.outlook;
+        let ((Some(side), _), Some((center, _))) = (each.sides, each.disc) else {
+            return None;
+        };
+        let is_one = PAIR_RULES[each.rule].rule == Rule::LostPocket && !each.blocked;
+        if !is_one || self.side.is_some_and(|known| known != side) {
+            return None;
+        }
+        let [one, other] = [each.one.1, each.other.1];
+        let ended = *each.ended.get_or_insert_with(|| {
+            let walls = Wall::new(outlook, one).zip(Wall::new(outlook, other));
+            let end = walls.and_then(|(one, other)| DeadEnd::between(&one, &other, side, center));
+            Ended {
+                walls: end.map_or([one, other], |end| end.walls()),
+                left: end.and_then(|end| end.left(outlook)),
+            }
+        });
+        let (walls, left) = (ended.walls, ended.left?);
+        let is_slot = |slots: &Slots| slots.lie_between(walls, outlook.contour.len(), side);
+        if self.slots.as_ref().is_some_and(is_slot) {
+            return None;
+        }
+        let (entity, segment) = outlook.segment_id(left.index)?;
+        let place = (outlook.drawing.rank(entity), segment, side == Side::Left);
+        // Depths are not negative: their bits are in their order.
+        let order = (place, left.depth.to_bits(), walls);
+        let of = each.one.0;
+        Some(Told { order, of, left })
+    }
 }
 
-/// True where the runs of two segments and of those about them are few, and do not cross the end of the contour.
-fn is_near(index: &ContourIndex, one: usize, other: usize) -> bool {
-    let last = one.max(other) + REACH;
-    let first = one.min(other).checked_sub(REACH);
-    first.is_some_and(|first| last < index.len() && index.run_of(last) - index.run_of(first) < FEW)
+/// True where one of these runs comes into the stretch of a contour from one wall to another, or so near it that a rule looks at it.
+fn reaches_into(index: &ContourIndex, [from, to]: [usize; 2], runs: &BTreeSet<u32>) -> bool {
+    let count = index.len();
+    if (to + count - from) % count + 2 * REACH >= count {
+        return !runs.is_empty();
+    }
+    let [first, last] =
+        [from + count - REACH, to + REACH].map(|at| index.run_of(at % count) as u32);
+    let is_any = |range: (Bound<u32>, Bound<u32>)| runs.range(range).next().is_some();
+    match (from + count - REACH) % count <= (to + REACH) % count {
+        true => is_any((Bound::Included(first), Bound::Included(last))),
+        false => {
+            is_any((Bound::Included(first), Bound::Unbounded))
+                || is_any((Bound::Unbounded, Bound::Included(last)))
+        }
+    }
 }
 
 /// The slots between walls of one contour, for the wire on either side: the two walls, in the order of the first, each
@@ -291,6 +227,7 @@ mod tests {
     use super::*;
     use crate::drawing::{Entity, Geometry, Kind, Vertex};
     use crate::settings::Effective;
+    use std::sync::Arc;
 
     /// The teeth of a comb leave dead ends; while one long line crosses them all, none of them is
     /// worked out.
@@ -321,8 +258,9 @@ mod tests {
         let told = |analysis: &mut Analysis, drawing: &Drawing| {
             let (findings, _) = analysis.findings(drawing, usize::MAX);
             let lost = findings.iter().filter(|it| it.rule == Rule::LostPocket);
-            let known = analysis.pairs.ends.as_ref();
-            (lost.count(), known.map_or(0, |ends| ends.count(|_| true)))
+            let lost = lost.count();
+            let known = analysis.pairs.seen.ends();
+            (lost, known.filter(|each| each.ended.is_some()).count())
         };
         let (lost, known) = told(&mut analysis, &drawing);
         assert!(lost > 30 && known >= lost, "{lost} {known}");

@@ -101,9 +101,6 @@ impl Analysis {
         };
         let side_of =
             |analysis: &Analysis, key: ContourKey| analysis.wire_side(key, role_of(analysis, key));
-        let mut pairs = std::mem::take(&mut self.pairs);
-        self.find_dead_ends(drawing, &mut pairs, &|key| side_of(self, key));
-        self.pairs = pairs;
         self.report_notable(drawing, nested.is_none(), &side_of, &mut report);
         self.report_size(drawing, &mut report);
         let mut pairs = std::mem::take(&mut self.pairs);
@@ -115,7 +112,7 @@ impl Analysis {
         );
         self.pairs = pairs;
         self.report_fits(drawing, &mut report);
-        self.report_dead_ends(drawing, &|key| side_of(self, key), &mut report);
+        self.report_dead_ends(drawing, &side_of, &mut report);
         self.report_set_aside(drawing, &mut report);
         if self.settings.side != SideSetting::Both || self.stated > 0 {
             let ordered = self.in_machining_order(drawing).to_vec();

@@ -9,7 +9,6 @@ mod drafting;
 mod edited;
 mod electrode;
 mod end_index;
-mod ends;
 mod fit_fixes;
 mod fits;
 mod fitting;
@@ -55,11 +54,12 @@ use drafting::{AsideEntities, LoneLines};
 use fitting::Fitting;
 use known::{Answer, Known};
 use notable::Notables;
-use pairs::{Pairs, ToldAside};
+use pairs::Pairs;
 use report::Tally;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::sync::{Arc, OnceLock};
 use suppressed::Judged;
+use told::Told;
 
 /// Up to this many touched places are checked one by one, however small the drawing is.
 const FEW: usize = 16;
@@ -118,7 +118,7 @@ pub struct Analysis {
 #[derive(Clone, Debug)]
 struct Suspended {
     entity: EntityId,
-    told: ToldAside,
+    told: Option<Arc<Told>>,
 }
 
 impl Analysis {
@@ -216,7 +216,7 @@ impl Analysis {
             (Some(Suspended { entity, told }), [Touched::Vertices { entity: woken, .. }])
                 if *woken == entity =>
             {
-                self.pairs.tell_again(told);
+                self.pairs.told = told;
                 self.order = OnceLock::new()
             }
             (Some(Suspended { entity, .. }), _) => {
@@ -224,7 +224,7 @@ impl Analysis {
                 moved.push(entity);
             }
             (None, &[Touched::Removed { entity }]) if self.may_be_suspended(entity) => {
-                let told = self.pairs.set_told_aside();
+                let told = self.pairs.told.take();
                 self.suspended = Some(Suspended { entity, told });
                 self.order = OnceLock::new();
                 return;

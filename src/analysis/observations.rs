@@ -101,14 +101,9 @@ impl Observations {
         between.into_iter().flatten().filter(of_rule)
     }
 
-    /// The pairs of runs with dead ends.
-    pub(super) fn with_ends(&self) -> impl Iterator<Item = &(RunId, RunId)> {
-        self.ends.keys()
-    }
-
-    /// The dead ends between two runs.
-    pub(super) fn ends_between(&mut self, pair: &(RunId, RunId)) -> &mut [Observed] {
-        self.ends.get_mut(pair).map_or(&mut [], Vec::as_mut_slice)
+    /// Those that are not reported pair by pair, in no order.
+    pub(super) fn ends(&mut self) -> impl Iterator<Item = &mut Observed> {
+        self.ends.values_mut().flatten()
     }
 
     pub(super) fn has(&self, rule: Rule) -> bool {

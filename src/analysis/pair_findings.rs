@@ -50,18 +50,11 @@ impl Pairs {
         })
     }
 
-    /// The facing walls that `narrow-slot` has found in single contours, with their side of travel, by contour, for
-    /// those asked for.
-    pub(super) fn slots(
-        &self,
-        is_asked: impl Fn(ContourKey) -> bool,
-    ) -> FxHashMap<ContourKey, Vec<FacingWalls>> {
+    /// The facing walls that `narrow-slot` has found in single contours, with their side of travel, by contour.
+    pub(super) fn slots(&self) -> FxHashMap<ContourKey, Vec<FacingWalls>> {
         let mut slots: FxHashMap<ContourKey, Vec<FacingWalls>> = FxHashMap::default();
-        if !self.seen.slots.keys().any(|&key| is_asked(key)) {
-            return slots;
-        }
         for each in self.seen.of(Rule::NarrowSlot) {
-            if each.one.0 == each.other.0 && !each.blocked && is_asked(each.one.0) {
+            if each.one.0 == each.other.0 && !each.blocked {
                 slots
                     .entry(each.one.0)
                     .or_default()

@@ -2,7 +2,6 @@
 
 use super::again::Again;
 use super::compare::{Kept, LOOKS_OF_A_PAIR, Observed, Outlooks, RunId, ordered};
-use super::ends::DeadEnds;
 use super::observations::Observations;
 use super::search::{BOXES_OF_A_LOOK, Looked, Search, shells_where_crowded};
 use super::told::Told;
@@ -54,19 +53,10 @@ pub(crate) struct Pairs {
     again: Again,
     /// The findings of the observed pairs, while these stay.
     pub(super) told: Option<Arc<Told>>,
-    /// The dead ends, and the runs about which something has come or gone since these were found.
-    pub(super) ends: Option<DeadEnds>,
+    /// The runs that are not what they were when the dead ends were last looked at.
     pub(super) changed: FxHashSet<RunId>,
     /// There are workpieces, which are not compared with each other.
     are_parts: bool,
-}
-
-/// The findings about pairs, set aside.
-#[derive(Clone, Debug)]
-pub(super) struct ToldAside {
-    told: Option<Arc<Told>>,
-    ends: Option<DeadEnds>,
-    changed: FxHashSet<RunId>,
 }
 
 impl Pairs {
@@ -99,20 +89,7 @@ impl Pairs {
 
     /// To be called when segments have other indices, or entities another order.
     pub(crate) fn renumber(&mut self) {
-        (self.told, self.ends) = (None, None);
-    }
-
-    /// Takes away the findings, which hold again once the contour that is now removed is back.
-    pub(super) fn set_told_aside(&mut self) -> ToldAside {
-        ToldAside {
-            told: self.told.take(),
-            ends: self.ends.take(),
-            changed: std::mem::take(&mut self.changed),
-        }
-    }
-
-    pub(super) fn tell_again(&mut self, aside: ToldAside) {
-        (self.told, self.ends, self.changed) = (aside.told, aside.ends, aside.changed);
+        self.told = None;
     }
 
     /// To be called when everything has been compared, in the order of the drawing.
@@ -253,9 +230,9 @@ impl Pairs {
         self.is_disturbed = true;
     }
 
-    /// Dead ends that depend on a run must be checked again.
+    /// Dead ends near a run must be worked out again.
     fn disturb_ends(&mut self, run: RunId) {
-        if self.ends.is_some() {
+        if self.seen.has(Rule::LostPocket) {
             self.changed.insert(run);
         }
     }
@@ -445,7 +422,6 @@ impl Pairs {
                 });
                 if each.blocked != was_blocked {
                     self.told = None;
-                    self.disturb_ends(pair.0);
                 }
             }
             if left == 0 && seen.iter().any(|each| each.disc.is_some()) {

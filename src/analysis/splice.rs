@@ -8,7 +8,6 @@ use crate::drawing::{ContourKey, Drawing, RUN};
 use crate::rules::NEIGHBOURS;
 use rustc_hash::FxHashSet;
 use std::ops::Range;
-use std::sync::Arc;
 
 /// A contour of this many runs or more is not looked at from scratch because segments come or go.
 const LONG: usize = 4;
@@ -72,9 +71,6 @@ impl Pairs {
                         .shift(&ordered((key, run), partner), key, first, by);
                 }
             }
-        }
-        if let Some(of) = self.ends.as_mut().and_then(|ends| ends.of.get_mut(&key)) {
-            Arc::make_mut(of).shift(first, by);
         }
     }
 }
