@@ -4,8 +4,7 @@ use super::notable::Kind;
 use super::report::Report;
 use super::together::of_observations;
 use crate::drawing::{Contour, ContourIndex, Drawing, Role};
-use crate::finding::{Detail, Finding, Place, Rule, Severity, Side};
-use crate::rules::lost_pocket::Checked;
+use crate::finding::{Detail, Place, Rule, Severity, Side};
 use crate::rules::{AtHand, LOCAL_RULES, Limits, LocalRule, Observation, Outlook};
 use crate::settings::Effective;
 use std::iter::once;
@@ -340,27 +339,5 @@ fn row_of(side: Option<Side>) -> usize {
         None => 0,
         Some(Side::Left) => 1,
         Some(Side::Right) => 2,
-    }
-}
-
-/// What the offset of a contour loses.
-#[derive(Clone, Debug)]
-pub(crate) struct Answer {
-    /// The question: the side, and whether there is a neck.
-    pub(crate) asked: (Side, bool),
-    pub(crate) checked: Checked,
-    /// Why there is no path, where nothing is lost; `None` until it has been asked.
-    pub(crate) misfit: Option<Option<Box<Finding>>>,
-}
-
-impl Answer {
-    /// True for an answer to just this question, or where it is known that the looks `left` do not suffice for one.
-    pub(crate) fn answers(&self, asked: (Side, bool), left: u64) -> bool {
-        self.asked == asked && (self.checked.lost.is_some() || self.checked.looks > left)
-    }
-
-    /// True where it is known that the offset loses nothing.
-    pub(crate) fn loses_nothing(&self) -> bool {
-        self.checked.lost.as_ref().is_some_and(Vec::is_empty)
     }
 }

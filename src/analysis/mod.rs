@@ -52,9 +52,10 @@ use crate::settings::Effective;
 use contours::set_aside;
 use drafting::{AsideEntities, LoneLines};
 use fitting::Fitting;
-use known::{Answer, Known};
+use known::Known;
 use notable::Notables;
 use pairs::Pairs;
+use pockets::Loss;
 use report::Tally;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::sync::{Arc, OnceLock};
@@ -95,8 +96,8 @@ pub struct Analysis {
     pairs: Pairs,
     /// Whether a fix was found for a fault, and the region on which that depends.
     answers: FxHashMap<(ContourKey, usize), (Option<NoFix>, Bounds)>,
-    /// What the offset of a contour loses, for a side and with or without a neck.
-    lost: FxHashMap<ContourKey, Answer>,
+    /// What the path along a contour loses, for a side and with or without a neck.
+    lost: FxHashMap<ContourKey, Loss>,
     /// What was found between partners, or for a contour that is cut twice.
     fits: FxHashMap<(ContourKey, ContourKey), fits::Answer>,
     /// What the wire leaves of the contours of pairs.

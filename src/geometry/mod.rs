@@ -18,7 +18,6 @@ mod shells;
 mod side;
 mod slant;
 mod spline;
-mod tangle;
 mod tolerances;
 mod xy;
 
@@ -39,7 +38,6 @@ pub(crate) use shells::{Shell, Shells};
 pub use side::Side;
 use slant::Slant;
 pub(crate) use spline::{Spline, SplineCurve};
-pub(crate) use tangle::looks_of_offset;
 pub(crate) use tolerances::Tolerances;
 pub(crate) use xy::{Xy, serialize_degrees};
 

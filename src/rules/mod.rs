@@ -10,7 +10,6 @@ mod disc;
 mod duplicate_entity;
 mod ends;
 mod gap;
-pub(crate) mod lost_pocket;
 mod narrow_slot;
 mod near_tangent;
 mod open_contour;

@@ -8,14 +8,14 @@ use super::job::{Job, ROUNDING};
 use super::loops::{self, Found};
 use super::nest::{Before, Nest};
 use super::offset::{Wall, walls};
-use super::open_contour::{one_side, there_and_back};
+use super::open_contour::{Lost, one_side, there_and_back};
 use super::path::Refusal;
 use super::proof::{Beside, Proof, Unproved};
 use super::ring::{Pieces, trimmed};
 use super::skim_sweep::along_before;
 use crate::drawing::ContourSegment;
 use crate::finding::{Detail, Finding, NotJudged, Place, Rule, Severity};
-use crate::geometry::{Point, Segment, cross};
+use crate::geometry::{Bounds, Point, Segment, cross};
 use std::borrow::Cow;
 use std::sync::atomic::Ordering::Relaxed;
 
@@ -60,12 +60,12 @@ pub(super) enum Laid {
 pub(super) type Outcome = Result<Laid, Fault>;
 
 /// Why a contour has no path, with the wall where that shows.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) enum Fault {
     /// Nowhere along it does the wire fit.
     Nothing,
-    /// There are several places for the wire with no way from one to the other.
-    Several { near: Point, wall: usize },
+    /// There are several places for the wire with no way from one to the other: one in each that is lost.
+    Several(Vec<Lost>),
     /// There is a path, but it does not pass its proof.
     Unproved { wall: usize },
     /// So many walls lie within the correction of each other that it would take too long to find out.
@@ -99,7 +99,7 @@ impl Job<'_> {
         let left_out: &[f64] = match laid {
             Ok(_) => &[],
             Err(Fault::Unproved { .. }) => &[CRUMB, SPECK],
-            Err(Fault::Nothing | Fault::Several { .. }) => &[CRUMB],
+            Err(Fault::Nothing | Fault::Several(_)) => &[CRUMB],
             Err(Fault::Crowded) => &[],
         };
         let mut longer = 0.0;
@@ -233,7 +233,7 @@ impl Job<'_> {
             let path = match one_side(loops, &raw, walls, correction) {
                 Ok(path) => path,
                 Err(None) => return Ok(Err(Fault::Nothing)),
-                Err(Some((near, wall))) => return Ok(Err(Fault::Several { near, wall })),
+                Err(Some(lost)) => return Ok(Err(Fault::Several(vec![lost]))),
             };
             return self.vouched(&proof, &raw, Pieces::of(path));
         }
@@ -250,16 +250,15 @@ impl Job<'_> {
                 .sum::<f64>()
         };
         loops.sort_by(|a, b| size(b).total_cmp(&size(a)));
-        if let Some((_, lost)) = loops.get(1).and_then(|lost| lost.first()) {
-            return Ok(Err(Fault::Several {
-                near: lost.geometry.point_at(0.5),
-                wall: lost.wall,
-            }));
-        }
-        let Some(path) = loops.pop() else {
+        let mut loops = loops.into_iter();
+        let Some(path) = loops.next() else {
             return Ok(Err(Fault::Nothing));
         };
         let path = Pieces::of(path);
+        let lost: Vec<Lost> = loops.filter_map(|lost| farthest(&lost, &path)).collect();
+        if !lost.is_empty() {
+            return Ok(Err(Fault::Several(lost)));
+        }
         if !keeps_its_side(&path.elements, walls, own, side) {
             return Ok(Err(Fault::Unproved { wall: 0 }));
         }
@@ -323,52 +322,66 @@ impl Job<'_> {
         })
     }
 
-    /// The finding for a path that cannot be made.
-    pub(crate) fn no_path(&self, fault: &Fault, walls: &[Wall], required: f64) -> Finding {
-        let near = |wall: usize| {
-            walls
-                .get(wall)
-                .map_or_else(Point::origin, |wall| wall.geometry.point_at(0.5))
+    /// The findings for a path that cannot be made.
+    pub(crate) fn no_path(&self, fault: &Fault, walls: &[Wall], required: f64) -> Vec<Finding> {
+        let finding = |rule: Rule, detail: Detail, wall: usize| {
+            let place = walls.get(wall).and_then(|wall| wall.source.place());
+            let severity = match fault {
+                Fault::Crowded => Severity::Error,
+                _ => self.settings.severity(rule).unwrap_or(Severity::Error),
+            };
+            Finding {
+                rule,
+                severity,
+                place: place.unwrap_or(Place::Document),
+                detail,
+                related: Vec::new(),
+            }
         };
-        let (rule, detail, wall) = match *fault {
-            Fault::Nothing => (
-                Rule::OffsetCollapse,
-                Detail::OffsetCollapse {
-                    required,
-                    point: false,
-                },
-                0,
-            ),
-            Fault::Several { near, wall } => (Rule::LostPocket, Detail::LostPocket { near }, wall),
-            Fault::Unproved { wall } => (
-                Rule::UnprovedPath,
-                Detail::UnprovedPath { near: near(wall) },
-                wall,
-            ),
+        let one = match fault {
+            Fault::Nothing => {
+                let point = false;
+                let detail = Detail::OffsetCollapse { required, point };
+                finding(Rule::OffsetCollapse, detail, 0)
+            }
+            Fault::Several(lost) => {
+                let lost = lost.iter();
+                let pocket = |&Lost { near, wall }: &Lost| {
+                    finding(Rule::LostPocket, Detail::LostPocket { near }, wall)
+                };
+                return lost.map(pocket).collect();
+            }
+            &Fault::Unproved { wall } => {
+                let near = walls.get(wall).map(|wall| wall.geometry.point_at(0.5));
+                let near = near.unwrap_or_else(Point::origin);
+                finding(Rule::UnprovedPath, Detail::UnprovedPath { near }, wall)
+            }
             Fault::Crowded => {
                 let detail = Detail::NotJudged(NotJudged::Path {
                     segments: walls.len(),
                     most: MOST_IN_A_SQUARE,
                 });
-                (Rule::NotJudged, detail, 0)
+                finding(Rule::NotJudged, detail, 0)
             }
         };
-        let place = walls
-            .get(wall)
-            .and_then(|wall| wall.source.place())
-            .unwrap_or(Place::Document);
-        let severity = match fault {
-            Fault::Crowded => Severity::Error,
-            _ => self.settings.severity(rule).unwrap_or(Severity::Error),
-        };
-        Finding {
-            rule,
-            severity,
-            place,
-            detail,
-            related: Vec::new(),
-        }
+        vec![one]
     }
+}
+
+/// The place of a way that is lost which is farthest from the middle of the path: away from the neck, which is a finding of its own.
+fn farthest(lost: &[(usize, Element)], path: &Pieces) -> Option<Lost> {
+    let mut all = Bounds::EMPTY;
+    let pieces = path.elements.iter();
+    pieces.for_each(|piece| all.merge(&piece.geometry.bounds()));
+    let middle = nalgebra::center(&all.min, &all.max);
+    let places = lost.iter().flat_map(|(_, piece)| {
+        [0.0, 0.5].map(|share| Lost {
+            near: piece.geometry.point_at(share),
+            wall: piece.wall,
+        })
+    });
+    let away = |place: &Lost| (place.near - middle).norm();
+    places.max_by(|a, b| away(a).total_cmp(&away(b)))
 }
 
 /// The shortest of the walls.

@@ -7,12 +7,27 @@ use rustc_hash::FxHashMap;
 /// The most walls that may lie, on average, in a square of twice the correction: each of them is compared with the others there.
 pub(super) const MOST_IN_A_SQUARE: usize = 500;
 
-/// How many walls lie on average in a square of this size with a wall. It is estimated from the boxes of a few walls, so that it takes hardly any time.
+/// A path that is looked for among all crossings takes this many looks for a pair of walls beside each other: each wall has two pieces, each of
+/// which is cut by both of the other, and what is cut off is measured again.
+const LOOKS_OF_A_PAIR: u64 = 16;
+
+/// How many walls lie on average in a square of this size with a wall.
 pub(super) fn crowd(walls: &Walls, size: f64) -> usize {
     let count = walls.segments().len();
     if count <= MOST_IN_A_SQUARE || size <= 0.0 {
         return 0;
     }
+    (pairs(walls, size) / count as u64) as usize
+}
+
+/// The looks at pairs of pieces that it may take to find out what a path at a correction loses.
+pub(crate) fn looks_beside(walls: &Walls, correction: f64) -> u64 {
+    LOOKS_OF_A_PAIR * pairs(walls, 2.0 * correction)
+}
+
+/// How many pairs of walls lie in the same square of this size. It is estimated from the boxes of a few walls, so that it takes hardly any time.
+fn pairs(walls: &Walls, size: f64) -> u64 {
+    let count = walls.segments().len();
     let all = walls.bounds();
     let mut few = Vec::with_capacity(count.div_ceil(FAN));
     walls.few_near(&all, &mut few);
@@ -23,6 +38,5 @@ pub(super) fn crowd(walls: &Walls, size: f64) -> usize {
         let own = FAN.min(count - first as usize) as u64;
         *squares.entry((square.x, square.y)).or_default() += own;
     }
-    let pairs: u64 = squares.values().map(|own| own * own).sum();
-    (pairs / (count as u64).max(1)) as usize
+    squares.values().map(|own| own * own).sum()
 }

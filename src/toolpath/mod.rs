@@ -55,6 +55,7 @@ mod work;
 
 pub(crate) use clearance::Walls;
 pub(crate) use cores::each;
+pub(crate) use crowd::looks_beside;
 pub(crate) use finished::Finished;
 pub use hole::StartHole;
 pub(crate) use hole::hole_faults;
@@ -309,35 +310,42 @@ pub(crate) fn entities_of(
     Some(pieces.map(|piece| piece.entity).collect())
 }
 
-/// What prevents a path along one contour under the settings' correction, as a finding: an error where there is none, a
-/// warning where the wire can only stand. `None` where there is a path, and where the side of the wire is not known.
-pub(crate) fn misfit(
-    drawing: &Drawing,
-    outline: &Outline,
-    settings: &Effective,
-) -> Option<Finding> {
-    let side = outline.wire_side()?.sign();
+/// A contour of more segments is not asked at every edit: its path would take longer than an edit may take.
+pub(crate) const MOST_SEGMENTS_OF_MISFITS: usize = 5_000;
+
+/// What prevents a path along one contour under the settings' correction, as findings: errors where there is none, a
+/// warning where the wire can only stand. Nothing where there is a path, and where the side of the wire is not known.
+pub(crate) fn misfits(drawing: &Drawing, outline: &Outline, settings: &Effective) -> Vec<Finding> {
+    let Some(side) = outline.wire_side() else {
+        return Vec::new();
+    };
     let job = Job::of(drawing, &[], settings);
     let correction = job.units(settings.correction);
     let contour = &outline.contour;
     let segment = |at: usize| contour.segment(drawing, at);
-    let (walls, _, laid) = job
-        .along(contour.len(), segment, side, correction, contour.closed)
-        .ok()?;
+    let Ok((walls, _, laid)) = job.along(
+        contour.len(),
+        segment,
+        side.sign(),
+        correction,
+        contour.closed,
+    ) else {
+        return Vec::new();
+    };
     match laid {
-        Ok(Laid::Path(_)) => None,
+        Ok(Laid::Path(_)) => Vec::new(),
         Ok(Laid::Point(_)) => {
-            let finding = job.no_path(&Fault::Nothing, &walls, correction);
-            let detail = Detail::OffsetCollapse {
-                required: correction,
-                point: true,
-            };
-            Some(Finding {
-                severity: settings.severity_over(Rule::OffsetCollapse, Severity::Warning)?,
-                detail,
-                ..finding
-            })
+            let severity = settings.severity_over(Rule::OffsetCollapse, Severity::Warning);
+            let mut found = job.no_path(&Fault::Nothing, &walls, correction);
+            for finding in &mut found {
+                finding.severity = severity.unwrap_or(finding.severity);
+                finding.detail = Detail::OffsetCollapse {
+                    required: correction,
+                    point: true,
+                };
+            }
+            found
         }
-        Err(fault) => Some(job.no_path(&fault, &walls, correction)),
+        Err(fault) => job.no_path(&fault, &walls, correction),
     }
 }

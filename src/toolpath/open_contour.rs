@@ -22,25 +22,32 @@ pub(super) fn there_and_back(walls: &[Wall]) -> Vec<Wall> {
     walls.iter().copied().chain(back).collect()
 }
 
-/// Why there is no path: nothing of one lies on the side of the wire, or some of it is lost, near a point beside a
-/// wall.
-pub(super) type Lost = Option<(Point, usize)>;
+/// A place that the wire does not come to, and the wall there.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lost {
+    pub(super) near: Point,
+    pub(super) wall: usize,
+}
 
 /// Where walls at an end are not followed, more than this share of the correction may not stay uncut: it is what a corner of 90° leaves.
 const LEFT_OF_AN_END: f64 = SQRT_2 - 1.0;
 
 /// The path on the side of the wire, from all closed ways about an open contour of `walls`. None of these may be lost at an end, as in a
-/// wedge that the wire does not come into.
+/// wedge that the wire does not come into: else what is lost, or nothing where none of the path lies on the side of the wire.
 pub(super) fn one_side(
     loops: Loops,
     raw: &Raw,
     walls: &[Wall],
     correction: f64,
-) -> Result<Vec<(usize, Element)>, Lost> {
+) -> Result<Vec<(usize, Element)>, Option<Lost>> {
     let end = raw.end_roll(walls.len());
     let is_own = |piece: &(usize, Element)| piece.0 < end;
-    let lost =
-        |(_, element): &(usize, Element)| Some((element.geometry.point_at(0.5), element.wall));
+    let lost = |(_, element): &(usize, Element)| {
+        Some(Lost {
+            near: element.geometry.point_at(0.5),
+            wall: element.wall,
+        })
+    };
     let mut own = loops.into_iter().filter(|path| path.iter().any(is_own));
     let mut path = own.next().ok_or(None)?;
     if let Some(other) = own.next().and_then(|other| other.into_iter().find(is_own)) {
@@ -71,11 +78,7 @@ pub(super) fn one_side(
 }
 
 /// The place of walls at an end that the path does not follow which is farthest from what the wire cuts, and its wall, where that is too far.
-fn lost_at_an_end(
-    path: &[(usize, Element)],
-    walls: &[Wall],
-    correction: f64,
-) -> Option<(Point, usize)> {
+fn lost_at_an_end(path: &[(usize, Element)], walls: &[Wall], correction: f64) -> Option<Lost> {
     let followed = path
         .iter()
         .filter(|(_, element)| matches!(element.source, Source::Segment { .. }))
@@ -91,10 +94,13 @@ fn lost_at_an_end(
     let lost = walls.iter().enumerate();
     let lost = lost.filter(|(wall, _)| !(first..last).contains(wall));
     let places = lost.flat_map(|(wall, Wall { geometry, .. })| {
-        [0.0, 0.5, 1.0].map(|share| (geometry.point_at(share), wall))
+        [0.0, 0.5, 1.0].map(|share| Lost {
+            near: geometry.point_at(share),
+            wall,
+        })
     });
     let (away, lost) = places
-        .map(|lost| (pieces.distance_to(lost.0, 2.0 * correction), lost))
+        .map(|lost| (pieces.distance_to(lost.near, 2.0 * correction), lost))
         .max_by(|a, b| a.0.total_cmp(&b.0))?;
     (away > (1.0 + LEFT_OF_AN_END) * correction).then_some(lost)
 }

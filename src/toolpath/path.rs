@@ -169,3 +169,9 @@ impl From<Finding> for Refusal {
         Refusal::Findings(vec![finding])
     }
 }
+
+impl From<Vec<Finding>> for Refusal {
+    fn from(findings: Vec<Finding>) -> Refusal {
+        Refusal::Findings(findings)
+    }
+}

@@ -6,6 +6,7 @@ use super::corners::Element;
 use super::job::{Job, ROUNDING};
 use super::nest::Before;
 use super::offset::Wall;
+use super::open_contour::Lost;
 use super::path::Refusal;
 use crate::settings::SkimCorner;
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
@@ -98,10 +99,12 @@ impl Job<'_> {
                     None => Ok(Laid::Path(path)),
                 }
             }
-            Err(Fault::Several { near, wall }) => Err(Fault::Several {
-                near,
-                wall: rough.path[wall].wall,
-            }),
+            Err(Fault::Several(mut lost)) => {
+                for Lost { wall, .. } in &mut lost {
+                    *wall = rough.path[*wall].wall;
+                }
+                Err(Fault::Several(lost))
+            }
             Err(Fault::Unproved { wall }) => Err(Fault::Unproved {
                 wall: rough.path[wall].wall,
             }),

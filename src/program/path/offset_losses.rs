@@ -16,7 +16,7 @@ use crate::settings::{Effective, Settings, SideSetting};
 use std::sync::{Arc, LazyLock};
 
 /// Contours of more blocks are not looked at: it would take longer than an edit may take.
-pub(in crate::program) const MOST_BLOCKS: usize = crate::rules::lost_pocket::MOST_SEGMENTS;
+pub(in crate::program) const MOST_BLOCKS: usize = crate::toolpath::MOST_SEGMENTS_OF_MISFITS;
 
 /// The most pairs of blocks whose boxes come near each other, for each block, before all is looked at.
 const MOST_NEAR: usize = 32;

@@ -117,7 +117,7 @@ fn wrong_by(slack: f64, outline: &[[f64; 3]], role: Role, settings: &Effective) 
             let rules: Vec<Rule> = found.iter().map(|finding| finding.rule).collect();
             let loops = std::panic::catch_unwind(|| judged(outline, C * side)).ok()??;
             match rules[..] {
-                [Rule::LostPocket] if loops.len() != 1 => None,
+                [Rule::LostPocket, ..] if loops.len() != 1 => None,
                 [Rule::OffsetCollapse] if valid.is_empty() || loops.is_empty() => None,
                 _ => Some(format!(
                     "refused: {found:?}, the other library has {} loops",
