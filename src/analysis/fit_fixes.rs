@@ -1,6 +1,7 @@
 //! Repairs of corners in which a punch and its plate bind.
 
 use super::Analysis;
+use super::fits::Answer;
 use crate::drawing::{ContourSegment, Drawing, DrawingEdit};
 use crate::finding::{Detail, Finding, Fix, FixKind, Place, Side};
 use crate::fit::{Fitted, SegmentOf, Sharper, Spot};
@@ -151,13 +152,12 @@ impl Analysis {
     fn laid_pair(&self, drawing: &Drawing, both: [usize; 2]) -> Option<Arc<Fitted>> {
         let outlines = self.outlines(drawing);
         let keys = self.in_machining_order(drawing);
-        if let Some(answer) = self.fits.get(&(keys[both[0]], keys[both[1]]))
-            && !answer.is_old
-        {
-            return answer.known.clone();
+        let answer = self.fits.get(&(keys[both[0]], keys[both[1]]));
+        if let Some(known) = answer.and_then(Answer::holds) {
+            return known.clone();
         }
         let both = both.map(|index| (keys[index], &outlines[index]));
-        self.fitted(drawing, both).map(Arc::new)
+        self.fitted(drawing, both, [None, None]).map(Arc::new)
     }
 
     /// In how many places the pairs bind to whose outlines the segments of a spot belong.

@@ -19,23 +19,29 @@ const MOST_SEGMENTS: usize = 100_000;
 #[derive(Clone, Debug)]
 pub(crate) struct Answer {
     /// `None` where one of the two has no path, which other findings report.
-    pub(super) known: Option<Arc<Fitted>>,
-    /// One of the two has been edited since: it may follow the edit.
-    pub(super) is_old: bool,
+    known: Option<Arc<Fitted>>,
+    /// Where each of the two has been edited since.
+    edited: [Edited; 2],
 }
 
-/// What the wire leaves of a contour.
-#[derive(Clone, Debug)]
-pub(crate) struct Left {
-    part: Arc<Part>,
-    /// Where the contour has been edited since.
-    edited: Edited,
-}
+impl Answer {
+    fn new(known: Option<Arc<Fitted>>) -> Answer {
+        let edited = [Edited::not(), Edited::not()];
+        Answer { known, edited }
+    }
 
-impl Left {
-    fn new(part: Arc<Part>) -> Left {
-        let edited = Edited::not();
-        Left { part, edited }
+    /// What is known, where neither of the two has been edited.
+    pub(super) fn holds(&self) -> Option<&Option<Arc<Fitted>>> {
+        let is_old = self.edited.iter().any(Edited::is_any);
+        (!is_old).then_some(&self.known)
+    }
+
+    /// The parts of contours that have not been edited.
+    fn unedited(&self) -> [Option<&Arc<Part>>; 2] {
+        [0, 1].map(|which| {
+            let known = self.known.as_ref().filter(|_| !self.edited[which].is_any());
+            known.map(|known| &known.parts[which])
+        })
     }
 }
 
@@ -60,11 +66,12 @@ impl Analysis {
         if let Some(own) = self.walls.get_mut(&key) {
             own.edited.merge(there);
         }
-        for (_, left) in self.parts.iter_mut().filter(|((of, _), _)| *of == key) {
-            left.edited.merge(there);
-        }
         for ((one, other), answer) in &mut self.fits {
-            answer.is_old |= *one == key || *other == key;
+            for (of, edited) in [one, other].into_iter().zip(&mut answer.edited) {
+                if *of == key {
+                    edited.merge(there);
+                }
+            }
         }
     }
 
@@ -72,7 +79,6 @@ impl Analysis {
     pub(super) fn forget_fits(&mut self, key: ContourKey) {
         self.walls.remove(&key);
         self.beside.retain(|both| !both.contains(&key));
-        self.parts.retain(|(of, _), _| *of != key);
         self.fits
             .retain(|(one, other), _| *one != key && *other != key);
     }
@@ -96,7 +102,7 @@ impl Analysis {
             self.report_alone(drawing, &paired.outlines[index], &paired.missing, report);
         }
         // They are no longer partners.
-        self.fits.retain(|_, answer| !answer.is_old);
+        self.fits.retain(|_, answer| answer.holds().is_some());
     }
 
     /// How partners are determined; `None` where fits are not to be checked.
@@ -226,7 +232,7 @@ impl Analysis {
         let known = |pair: [usize; 2]| {
             let [one, other] = pair.map(|index| keys.get(index).copied());
             let answer = self.fits.get(&(one?, other?))?;
-            let known = answer.known.clone().filter(|_| !answer.is_old)?;
+            let known = answer.holds()?.clone()?;
             Some((pair, known))
         };
         let pairs = pairs.into_iter().map(known).collect::<Option<_>>()?;
@@ -261,14 +267,17 @@ impl Analysis {
             return None;
         }
         let [(one, punch), (other, plate)] = both;
-        if let Some(answer) = self.fits.get(&(one, other))
-            && !answer.is_old
-        {
-            return answer.known.clone();
+        if let Some(known) = self.fits.get(&(one, other)).and_then(Answer::holds) {
+            return known.clone();
         }
         let is_small = punch.contour.len().max(plate.contour.len()) <= MOST_SEGMENTS;
-        if is_small && let Some(known) = self.followed(drawing, both) {
-            return Some(known);
+        let old = self.fits.remove(&(one, other)).filter(|_| is_small);
+        let mut unedited = [None, None];
+        if let Some(old) = old {
+            unedited = old.unedited().map(Option::<&_>::cloned);
+            if let Some(known) = self.followed(drawing, both, old) {
+                return Some(known);
+            }
         }
         for (key, outline) in both.into_iter().filter(|_| is_small) {
             let own = self.walls.entry(key);
@@ -277,24 +286,10 @@ impl Analysis {
                 *own = Own::of(drawing, outline);
             }
         }
-        let known = is_small.then(|| self.fitted(drawing, both)).flatten();
-        let known = known.map(Arc::new);
-        if let Some(known) = &known {
-            self.keep_parts([one, other], known.parts.clone());
-        }
-        let answer = Answer {
-            known: known.clone(),
-            is_old: false,
-        };
-        self.fits.insert((one, other), answer);
+        let fitted = || self.fitted(drawing, both, unedited);
+        let known = is_small.then(fitted).flatten().map(Arc::new);
+        (self.fits).insert((one, other), Answer::new(known.clone()));
         known
-    }
-
-    /// The parts of contours as they are now.
-    fn keep_parts(&mut self, keys: [ContourKey; 2], parts: [Arc<Part>; 2]) {
-        for ((key, role), part) in keys.into_iter().zip(ROLES).zip(parts) {
-            self.parts.insert((key, role), Left::new(part));
-        }
     }
 
     /// What is known of two partners after an edit, if both parts could follow it from what was known before.
@@ -302,56 +297,35 @@ impl Analysis {
         &mut self,
         drawing: &Drawing,
         both: [(ContourKey, &Outline); 2],
+        Answer { known, edited }: Answer,
     ) -> Option<Arc<Fitted>> {
-        let keys = both.map(|(key, _)| key);
-        let [one, other] = keys;
-        let [of_punch, of_plate] = [(one, ROLES[0]), (other, ROLES[1])];
-        let known = self.fits.get(&(one, other))?.known.as_ref()?;
-        let is_sound = |of: &(ContourKey, Role), part: &Arc<Part>| {
-            let left = self.parts.get(of);
-            left.is_some_and(|left| left.edited.within().is_some() && Arc::ptr_eq(&left.part, part))
-        };
-        let [punch, plate] = &known.parts;
-        if !is_sound(&of_punch, punch) || !is_sound(&of_plate, plate) {
-            return None;
-        }
+        let outlines = [
+            (both[0].1, edited[0].within()?),
+            (both[1].1, edited[1].within()?),
+        ];
         // They are changed in place, if nothing else shares them.
-        let known = self.fits.remove(&(one, other))?.known?;
-        let edited = [of_punch, of_plate].map(|of| self.parts.remove(&of).map(|left| left.edited));
-        let mut fitted = Arc::unwrap_or_clone(known);
+        let mut fitted = Arc::unwrap_or_clone(known?);
         let Fitted { parts, held } = &mut fitted;
-        let edited = edited.map(|edited| edited.unwrap_or(Edited::Anywhere));
-        let outlines = [0, 1].map(|which| {
-            let within = edited[which].within().unwrap_or_default();
-            (both[which].1, within)
-        });
+        let keys = (both[0].0, both[1].0);
         let settings = &self.settings;
-        let have = fit::follow(drawing, outlines, settings, one == other, (parts, held));
-        for ((of, part), has) in [of_punch, of_plate].iter().zip(&fitted.parts).zip(have) {
-            if has {
-                self.parts.insert(*of, Left::new(part.clone()));
-            }
-        }
-        if have != [true; 2] {
+        let is_cut_twice = keys.0 == keys.1;
+        if !fit::follow(drawing, outlines, settings, is_cut_twice, (parts, held)) {
             return None;
         }
         let known = Some(Arc::new(fitted));
-        let answer = Answer {
-            known: known.clone(),
-            is_old: false,
-        };
-        self.fits.insert((one, other), answer);
+        self.fits.insert(keys, Answer::new(known.clone()));
         known
     }
 
-    /// Two outlines, or one that is cut twice, laid in each other.
+    /// Two outlines, or one that is cut twice, laid in each other; what of their parts is `known`.
     pub(super) fn fitted(
         &self,
         drawing: &Drawing,
         both: [(ContourKey, &Outline); 2],
+        known: [Option<Arc<Part>>; 2],
     ) -> Option<Fitted> {
         let settings = &self.settings;
-        let [(one, punch), (other, plate)] = both;
+        let [(one, punch), (_, plate)] = both;
         let walls = |key: ContourKey| {
             let own = self.walls.get(&key).filter(|own| own.is_new());
             own.map(|own| &*own.walls)
@@ -364,18 +338,22 @@ impl Analysis {
                 Some(Fitted { parts, held })
             }
             Partners::Drawn => {
-                let part_of = |key: ContourKey, outline: &Outline, role: Role| {
-                    let known = self.parts.get(&(key, role));
-                    if let Some(left) = known.filter(|left| !left.edited.is_any()) {
-                        return Some(left.part.clone());
+                let part_of = |which: usize, (key, outline): (ContourKey, &Outline)| {
+                    let role = ROLES[which];
+                    // A punch may be that of several partners.
+                    let of_pairs = self
+                        .fits
+                        .iter()
+                        .filter(|(pair, _)| [pair.0, pair.1][which] == key);
+                    let mut of_pairs = of_pairs.filter_map(|(_, answer)| answer.unedited()[which]);
+                    if let Some(known) = known[which].as_ref().or_else(|| of_pairs.next()) {
+                        return Some(known.clone());
                     }
                     let part = fit::drawn_part(drawing, outline, role, settings, walls(key));
                     part.ok().map(Arc::new)
                 };
-                let (punch_part, plate_part) = rayon::join(
-                    || part_of(one, punch, ROLES[0]),
-                    || part_of(other, plate, ROLES[1]),
-                );
+                let (punch_part, plate_part) =
+                    rayon::join(|| part_of(0, both[0]), || part_of(1, both[1]));
                 let parts = [punch_part?, plate_part?];
                 let both = parts.each_ref().map(|part| &**part);
                 let outlines = [punch, plate];

@@ -43,7 +43,7 @@ pub(crate) use contours::is_cut;
 pub use largest_wire::{largest_wire, work};
 
 use crate::drawing::{
-    Chains, Contour, ContourKey, Delta, Drawing, EntityId, Outline, RUN, Role, Touched,
+    Chains, Contour, ContourKey, Delta, Drawing, EntityId, Outline, RUN, Touched,
 };
 use crate::finding::{Finding, NoFix};
 use crate::geometry::{Bounds, Grid};
@@ -100,8 +100,6 @@ pub struct Analysis {
     lost: FxHashMap<ContourKey, Loss>,
     /// What was found between partners, or for a contour that is cut twice.
     fits: FxHashMap<(ContourKey, ContourKey), fits::Answer>,
-    /// What the wire leaves of the contours of pairs.
-    parts: FxHashMap<(ContourKey, Role), fits::Left>,
     /// The segments of contours that may belong to a pair, for questions about what is near.
     walls: FxHashMap<ContourKey, own_walls::Own>,
     /// Which contours run beside each other, each time the smaller one first.
@@ -145,7 +143,6 @@ impl Analysis {
             answers: FxHashMap::default(),
             lost: FxHashMap::default(),
             fits: FxHashMap::default(),
-            parts: FxHashMap::default(),
             walls: FxHashMap::default(),
             beside: FxHashSet::default(),
             order: OnceLock::new(),

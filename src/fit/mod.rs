@@ -170,15 +170,14 @@ fn limits(drawing: &Drawing, settings: &Effective, is_cut_twice: bool) -> Limits
 }
 
 /// Two parts laid in each other follow an edit of their outlines, of each of which it is known
-/// which segments may have changed. A part that cannot follow stays as it was, and so does the
-/// result; returns which of the two have followed.
+/// which segments may have changed. False where one of them cannot: then nothing of this holds.
 pub(crate) fn follow(
     drawing: &Drawing,
     outlines: [(&Outline, &[Range<usize>]); 2],
     settings: &Effective,
     is_cut_twice: bool,
     (parts, held): (&mut [Arc<Part>; 2], &mut Held),
-) -> [bool; 2] {
+) -> bool {
     let follow = |which: usize, part: &mut Arc<Part>| {
         let (outline, edited) = outlines[which];
         if edited.is_empty() {
@@ -200,11 +199,12 @@ pub(crate) fn follow(
     };
     let [punch, plate] = parts;
     let moved = [follow(0, punch), follow(1, plate)];
-    if let [Some(of_punch), Some(of_plate)] = &moved {
-        let limits = limits(drawing, settings, is_cut_twice);
-        held.follow([punch, plate], [of_punch, of_plate], &limits);
-    }
-    moved.map(|moved| moved.is_some())
+    let [Some(of_punch), Some(of_plate)] = &moved else {
+        return false;
+    };
+    let limits = limits(drawing, settings, is_cut_twice);
+    held.follow([punch, plate], [of_punch, of_plate], &limits);
+    true
 }
 
 /// How far apart the walls of the two parts lie that are cut along one contour, mm.
