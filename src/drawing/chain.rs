@@ -251,10 +251,8 @@ impl Chains {
         let few = distinct.len() * BULK <= self.ends_of.len();
         let mut ends = self.ends.take().filter(|_| few);
         for &id in &distinct {
-            if let (Some(old), Some(ends)) = (self.ends_of(id), &mut ends) {
-                End::both(id.0)
-                    .into_iter()
-                    .for_each(|end| ends.remove(self.cells.of(end.of(old)), end));
+            if let (Some(_), Some(ends)) = (self.ends_of(id), &mut ends) {
+                End::both(id.0).into_iter().for_each(|end| ends.remove(end));
             }
             self.ends_of[id.0 as usize] = NO_ENDS;
         }

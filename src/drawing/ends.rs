@@ -194,59 +194,10 @@ fn hash((column, row): Cell, lists: usize) -> usize {
     (hash.wrapping_mul(SPREAD) >> 32) as usize & (lists - 1)
 }
 
-/// Ends in lists, one for all cells with the same hash. The caller knows where an end lies.
+/// Ends in lists, one for all cells with the same hash, numbered as their first ends come. Where the entities of a drawing are
+/// ordered in the plane, lists that are read one after another lie side by side in memory.
 #[derive(Clone, Debug)]
 pub(super) struct Buckets {
-    lists: Lists,
-    count: usize,
-}
-
-impl Buckets {
-    /// For the ends of entities numbered below `entities`, about `count` of them.
-    pub(super) fn new(entities: usize, count: usize) -> Buckets {
-        Buckets {
-            lists: Lists {
-                first: vec![NONE; count.next_power_of_two()],
-                next: vec![NONE; 2 * entities],
-            },
-            count: 0,
-        }
-    }
-
-    /// True where new ends have made the lists long.
-    pub(super) fn is_crowded(&self) -> bool {
-        self.count > 4 * self.lists.first.len()
-    }
-
-    /// Makes room for the ends of entities numbered below `entities`.
-    pub(super) fn grow(&mut self, entities: usize) {
-        self.lists.next.resize(2 * entities, NONE);
-    }
-
-    fn list(&self, cell: Cell) -> usize {
-        hash(cell, self.lists.first.len())
-    }
-
-    /// Puts an end before all others of its cell.
-    pub(super) fn insert(&mut self, cell: Cell, end: End) {
-        self.lists.insert(self.list(cell), end);
-        self.count += 1;
-    }
-
-    pub(super) fn remove(&mut self, cell: Cell, end: End) {
-        self.count -= usize::from(self.lists.remove(self.list(cell), end));
-    }
-
-    /// The ends of a cell, and of others with the same hash.
-    pub(super) fn of_cell(&self, cell: Cell) -> impl Iterator<Item = End> + '_ {
-        self.lists.of(self.list(cell))
-    }
-}
-
-/// Ends in lists as in [`Buckets`], the lists numbered as their first ends come. Where the entities of a drawing are
-/// ordered in the plane, lists that are read one after another lie side by side in memory.
-#[derive(Debug)]
-pub(super) struct Numbered {
     lists: Lists,
     /// By hash of a cell: the number of its list.
     by_hash: Vec<u32>,
@@ -255,16 +206,15 @@ pub(super) struct Numbered {
     is_there: Vec<u64>,
     /// By end: the number of its list.
     of_end: Vec<u32>,
-    /// The number of ends in each list, up to 255.
-    lengths: Vec<u8>,
+    count: usize,
 }
 
-impl Numbered {
-    /// For about `count` of the ends of entities numbered below `entities`.
-    pub(super) fn new(entities: usize, count: usize) -> Numbered {
+impl Buckets {
+    /// For the ends of entities numbered below `entities`, about `count` of them.
+    pub(super) fn new(entities: usize, count: usize) -> Buckets {
         let ends = 2 * entities;
         let hashes = count.next_power_of_two();
-        Numbered {
+        Buckets {
             lists: Lists {
                 first: Vec::with_capacity(count),
                 next: vec![NONE; ends],
@@ -272,8 +222,19 @@ impl Numbered {
             by_hash: vec![NONE; hashes],
             is_there: vec![0; hashes.div_ceil(64)],
             of_end: vec![NONE; ends],
-            lengths: Vec::with_capacity(count),
+            count: 0,
         }
+    }
+
+    /// True where new ends have made the lists long.
+    pub(super) fn is_crowded(&self) -> bool {
+        self.count > 4 * self.by_hash.len()
+    }
+
+    /// Makes room for the ends of entities numbered below `entities`.
+    pub(super) fn grow(&mut self, entities: usize) {
+        self.lists.next.resize(2 * entities, NONE);
+        self.of_end.resize(2 * entities, NONE);
     }
 
     /// Puts a new end before all others of its cell.
@@ -284,12 +245,16 @@ impl Numbered {
             self.is_there[hash / 64] |= 1 << (hash % 64);
             *number = self.lists.first.len() as u32;
             self.lists.first.push(NONE);
-            self.lengths.push(0);
         }
-        self.of_end[end.0 as usize] = *number;
-        let length = &mut self.lengths[*number as usize];
-        *length = length.saturating_add(1);
+        self.of_end[end.index()] = *number;
         self.lists.insert(*number as usize, end);
+        self.count += 1;
+    }
+
+    /// Takes out an end that is in a list.
+    pub(super) fn remove(&mut self, end: End) {
+        let list = self.of_end[end.index()] as usize;
+        self.count -= usize::from(self.lists.remove(list, end));
     }
 
     /// Number of lists.
@@ -303,17 +268,13 @@ impl Numbered {
     }
 
     /// The lists of more than `count` ends.
-    pub(super) fn long_lists(&self, count: u8) -> impl Iterator<Item = usize> + '_ {
-        self.lengths
-            .iter()
-            .enumerate()
-            .filter(move |(_, length)| **length > count)
-            .map(|(list, _)| list)
+    pub(super) fn long_lists(&self, count: usize) -> impl Iterator<Item = usize> + '_ {
+        (0..self.len()).filter(move |list| self.of_list(*list).nth(count).is_some())
     }
 
     /// The ends of the cell of an end that is in a list, and of others with the same hash.
     pub(super) fn beside(&self, end: End) -> impl Iterator<Item = End> + '_ {
-        self.lists.of(self.of_end[end.0 as usize] as usize)
+        self.lists.of(self.of_end[end.index()] as usize)
     }
 
     /// The ends of a cell, and of others with the same hash.

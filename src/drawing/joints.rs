@@ -3,7 +3,7 @@
 mod borders;
 
 use super::doubles::{self, SAME_PLACE};
-use super::ends::{Cell, Cells, End, Ends, NO_ENDS, Numbered, ONE_POINT, has_ends};
+use super::ends::{Buckets, Cell, Cells, End, Ends, NO_ENDS, ONE_POINT, has_ends};
 use super::{Drawing, EntityId};
 use crate::geometry::Point;
 use rayon::prelude::*;
@@ -12,7 +12,7 @@ use std::borrow::Cow;
 use std::cmp::{Ordering, Reverse};
 
 /// The ends of cells with more than these are sorted into smaller ones.
-const DENSE: u8 = 64;
+const DENSE: usize = 64;
 
 /// More ends than these in one small cell are a crowd, where not all pairs are compared. A drawing to be cut has a few.
 pub(super) const CROWD: usize = 64;
@@ -31,7 +31,7 @@ pub(super) struct Joints<'a> {
     cells: Cells,
     /// Of each entity; NaN where there are none, or where the entity is set aside. Those of a whole drawing are not copied.
     places: Cow<'a, [Ends]>,
-    all: Numbered,
+    all: Buckets,
     /// Ends of dense cells in smaller ones.
     dense: Option<Dense>,
     /// By end: its possible partner.
@@ -54,7 +54,7 @@ struct Dense {
     /// The large cells that are dense.
     large: FxHashSet<Cell>,
     cells: Cells,
-    ends: Numbered,
+    ends: Buckets,
     crowded: FxHashMap<Cell, Vec<End>>,
 }
 
@@ -76,7 +76,7 @@ impl<'a> Joints<'a> {
                 Cow::Owned(each.collect())
             }
         };
-        let mut all = Numbered::new(count, 2 * count);
+        let mut all = Buckets::new(count, 2 * count);
         for (at, &ends) in (0..).zip(&*places).filter(|(_, ends)| has_ends(ends)) {
             End::both(at)
                 .into_iter()
@@ -324,13 +324,13 @@ impl<'a> Joints<'a> {
                 .or_default()
                 .push(end);
         }
-        counts.retain(|_, ends| ends.len() > usize::from(DENSE));
+        counts.retain(|_, ends| ends.len() > DENSE);
         if counts.is_empty() {
             return;
         }
         let cells = Cells::small(self.cells.join);
         let count = counts.values().map(Vec::len).sum();
-        let mut ends = Numbered::new(self.entities.len(), count);
+        let mut ends = Buckets::new(self.entities.len(), count);
         let mut small: FxHashMap<Cell, Vec<End>> = FxHashMap::default();
         for &end in counts.values().flatten() {
             let cell = cells.of(self.place(end));
