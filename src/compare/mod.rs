@@ -12,23 +12,25 @@
 mod aligned;
 mod basis;
 mod budget;
+mod cover;
 mod difference;
 mod drawn;
+mod entry;
 mod findings;
 mod foreign;
 mod judged;
-
+mod leads;
 mod level;
 mod names;
 mod own;
 mod place;
 mod reported;
+mod resume;
 mod rewritten;
 mod ring;
 mod traced;
 mod walk;
 mod walls;
-mod ways;
 mod words;
 
 pub use crate::finding::DifferenceKind;

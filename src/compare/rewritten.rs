@@ -16,7 +16,7 @@ const MOST: usize = 20_000;
 pub(super) struct Rewritten {
     pub(super) traced: Traced,
     /// Of each block the segment of the drawing that it follows; `None` for the ways in, out and between, and stops.
-    sources: Vec<Option<(EntityId, usize)>>,
+    pub(super) sources: Vec<Option<(EntityId, usize)>>,
     /// From its places to those of the drawing.
     pub(super) shift: Vector,
 }
@@ -41,11 +41,6 @@ impl Asked {
 }
 
 impl Rewritten {
-    /// The segment of the drawing that a block of it follows.
-    pub(super) fn source(&self, nth: usize) -> Option<(EntityId, usize)> {
-        *self.sources.get(nth)?
-    }
-
     pub(super) fn of(basis: Basis, asked: &Asked) -> Option<Rewritten> {
         let mut settings = match (asked.format, basis.settings.mills) {
             (Format::Milling, true) => basis.settings.milled().ok()?,
