@@ -120,9 +120,6 @@ faults! {
     /// The wire came back to where a cut began, and leads on from there by this much, µm.
     LeadsOn { length: f64 } [Rule::NotClosed]
         => say!(the_wire_leads_on_from_the_start_hole, mm(length / 1e3));
-    /// A program of one contour, which closes, ends this far from where it began, µm.
-    EndsElsewhere { x: f64, y: f64 } [Rule::NotClosed]
-        => say!(the_program_ends_elsewhere_than_it_began, mm(x.hypot(*y) / 1000.0), x / 1000.0, y / 1000.0);
     MissingEnd { word: String } [Rule::MissingEnd] => say!(the_program_lacks_its_end, word);
     TextAfterEnd { word: String } [Rule::TextAfterEnd] => say!(text_behind_which_ends_the_program, word);
     DoubledNumber { number: u32 } [Rule::BlockNumber] => say!(block_number_n_stands_twice, number);
@@ -285,7 +282,6 @@ impl Fault {
             | Fault::PassRises { .. }
             | Fault::PassAside { .. }
             | Fault::EndlessCalls => Severity::Warning,
-            Fault::EndsElsewhere { .. } => Severity::Information,
             Fault::LooksLikeInches { .. } => Severity::Hint,
             _ => self.rule().default_severity(),
         }

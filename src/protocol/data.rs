@@ -232,9 +232,7 @@ impl FindingData {
             return;
         };
         self.at = match **fault {
-            Fault::NotClosed { .. }
-            | Fault::EndsElsewhere { .. }
-            | Fault::PositionMismatch { .. } => self.end,
+            Fault::NotClosed { .. } | Fault::PositionMismatch { .. } => self.end,
             Fault::PathCrossesItself { from_block, .. } => {
                 from_block.map(|by| (stand.start + by).into())
             }
@@ -269,9 +267,7 @@ impl FindingData {
             }
             Fault::AbsurdSize { size } => self.length = Some(size),
             Fault::TooManyDigits { value, .. } => self.length = Some(mm(value)),
-            Fault::NotClosed { x, y }
-            | Fault::EndsElsewhere { x, y }
-            | Fault::PositionMismatch { x, y } => {
+            Fault::NotClosed { x, y } | Fault::PositionMismatch { x, y } => {
                 self.distance = Some(x.hypot(y) / 1000.0);
             }
             Fault::RadiusOff { radius, meant } => {

@@ -269,7 +269,6 @@ declare! {
     the_settings_say_the_other_side(side, is, wanted) => "{side}, which is {is} this contour: the settings say {wanted}, so the wire cuts into the part";
     it_comes_from_the_other_side(side) => "{side} of this contour, but the wire comes to it from the other side: it crosses the part's edge";
     the_cut_does_not_close(hypot, x, y) => "the cut does not close: it ends {hypot} mm from its beginning (X {x:+.3}, Y {y:+.3})";
-    the_program_ends_elsewhere_than_it_began(hypot, x, y) => "the contour closes, but the program ends {hypot} mm from where it began (X {x:+.3}, Y {y:+.3}): the control does not count back to zero, and the wire is not over its start hole";
     the_wire_leads_on_from_the_start_hole(length) => "the wire was back at the start hole, and is led {length} mm on from there while it cuts: expected a stop before this block";
     the_other_passes_run_on_the_other_side(side, is, others) => "{side}, which is {is} this contour: its other passes run {others} it, so one of them cuts into the part";
     this_pass_has_a_larger_correction(correction, before, by) => "the correction of this pass, {correction} mm, is above that of the pass before, {before} mm: this one cuts nothing, and the one before has cut {by} mm too deep; corrections decrease from pass to pass";

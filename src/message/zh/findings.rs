@@ -264,7 +264,6 @@ translate! {
     the_settings_say_the_other_side(side, is, wanted) => "{side}，即此轮廓的{is}：而设置为{wanted}，电极丝会切入工件";
     it_comes_from_the_other_side(side) => "{side}，但它从另一侧来到此轮廓：会穿过工件的边";
     the_cut_does_not_close(hypot, x, y) => "切割不封闭：终点偏离起点 {hypot} mm（X {x:+.3}，Y {y:+.3}）";
-    the_program_ends_elsewhere_than_it_began(hypot, x, y) => "轮廓封闭，但程序终点偏离起点 {hypot} mm（X {x:+.3}，Y {y:+.3}）：控制器计数不归零，电极丝不在穿丝孔上";
     the_wire_leads_on_from_the_start_hole(length) => "电极丝已回到穿丝孔，却又一边切割一边移开 {length} mm：此段之前应有停机";
     the_other_passes_run_on_the_other_side(side, is, others) => "{side}，即此轮廓的{is}：其余各次切割在{others}，其中必有一次切入工件";
     this_pass_has_a_larger_correction(correction, before, by) => "本次切割的补偿量 {correction} mm 大于上一次的 {before} mm：本次什么也切不到，而上一次已多切 {by} mm；补偿量应逐次递减";

@@ -20,7 +20,6 @@ impl Document {
         self.judge_positions(&mut findings, off);
         self.judge_size(&mut findings);
         self.judge_ways(&mut findings);
-        self.judge_return(&mut findings);
         findings
     }
 
@@ -58,27 +57,6 @@ impl Document {
             {
                 findings.push(Finding::of(Fault::LeadsOn { length }, self.range_of(last)));
             }
-        }
-    }
-
-    /// `not-closed`, told of a program of one contour that closes and ends elsewhere than it began: people look for the
-    /// zero on the control before they take the part out.
-    fn judge_return(&self, findings: &mut Vec<Finding>) {
-        let cut = |cut: &usize| self.cuts[*cut].has_blocks();
-        let mut cuts = (0..self.cut_count()).filter(cut);
-        let (Some(only), None, Some(_)) = (cuts.next(), cuts.next(), self.view.end) else {
-            return;
-        };
-        let own = &self.cuts[only];
-        let ends = own.verdict().ends;
-        if own.closes
-            && own.rare().errors == 0
-            && !ends.returns()
-            && let Some(last) = self.blocks_of(&(only..only + 1)).next_back()
-        {
-            let by = ends.travel().ideal;
-            let fault = Fault::EndsElsewhere { x: by.x, y: by.y };
-            findings.push(Finding::of(fault, self.range_of(last)));
         }
     }
 

@@ -10,7 +10,7 @@ use super::super::repair::{BLOCKS, Change, Loose, Path, Repair, Slip, Written, l
 use super::super::rules::{TextFix, kind_of};
 use super::contours::OneContour;
 use super::{At, Document};
-use crate::finding::{Detail, Fault, Finding, FixKind, Rule, Severity};
+use crate::finding::{Finding, FixKind, Rule, Severity};
 use crate::program::grid::Node;
 use crate::program::repair::offered;
 use crate::program::three_b::block::Block;
@@ -21,12 +21,6 @@ impl Document {
     /// The repairs of the contour with a finding, the most likely one first.
     pub(super) fn contour_fixes(&self, finding: &Finding) -> Option<Vec<TextFix>> {
         let range = finding.place.in_text()?;
-        // The contour closes: nothing in it is to be repaired.
-        if let Detail::Program(fault) = &finding.detail
-            && matches!(**fault, Fault::EndsElsewhere { .. })
-        {
-            return None;
-        }
         let contour = self.contour_at(self.entry_at(range)?)?;
         let is_of_way = matches!(
             finding.rule,
