@@ -119,7 +119,7 @@ fn format(arguments: &Arguments, path: &Path) -> Result<bool, Failure> {
     let settings = opened.document.settings().clone();
     let program = opened.program()?;
     let text = program.text();
-    let (edits, left) = program::format_saying(program, &settings, 0..text.line_count());
+    let edits = program::format(program, &settings, 0..text.line_count());
     let before = text.bytes();
     let after = edited(before, &edits)
         .ok_or_else(|| Failure::of(path, say!(internal_error, say!(the_edits_overlap))))?;
@@ -140,9 +140,6 @@ fn format(arguments: &Arguments, path: &Path) -> Result<bool, Failure> {
         output::write(target.output.as_deref(), &bytes, arguments.overwrite)?;
     } else if is_changed {
         output::write_over(path, opened.seen.as_ref(), &opened.writing.written(&after))?;
-    }
-    if let Some(sentence) = left {
-        output::say(&say!(says, output::name(path), sentence));
     }
     let findings = opened.document.all_findings();
     // Even where the meaning is plain and the block was read, its text is damaged.

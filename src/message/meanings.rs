@@ -49,7 +49,7 @@ const MEANINGS: &[(&str, &str)] = &[
     ("program.format = 4b", "4B：工件的轮廓，由控制器偏移。"),
     ("program.format = iso", "ISO，按 profile。"),
     ("program.format = milling", "电极铣削用的 ISO。"),
-    ("program.layout", "程序段的形式。整理程序而没有设置时，保持程序自己的形式。"),
+    ("program.layout", "程序段的形式。整理程序而没有设置时，保持程序自己的形式；不论哪种形式，原有的段号和终点都不变。"),
     ("program.layout = compact", "没有空格：`B9900B0B9900GXL1`。"),
     ("program.layout = aligned", "用空格对齐各列。"),
     ("program.layout = checking", "对齐，程序段后有段号和以 mm 计的绝对终点。"),

@@ -32,7 +32,6 @@ pub(crate) mod write;
 pub use document::{Document, Language};
 pub use format::Format;
 pub use layout::format;
-pub(crate) use layout::format_saying;
 pub use refactorings::{Offer, Proposal, offers, refactorings, scaled};
 pub(crate) use whereabouts::{Stand, Whereabouts};
 pub(crate) use write::{CutCorner, ProofError, ProvedProgram};

@@ -13,7 +13,8 @@ use crate::program::refactor::reverse::reversed;
 use crate::program::refactor::scale::{self, between_units};
 use crate::program::refactor::sheet::Sheet;
 use crate::program::refactor::start_here::begun_here;
-use crate::program::three_b::refactor::{corrected, laid_out, split};
+use crate::program::three_b;
+use crate::program::three_b::refactor::{corrected, split, with_ends, without_ends};
 use crate::settings::{Effective, Layout};
 use crate::text::TextEdit;
 use std::cell::LazyCell;
@@ -105,11 +106,11 @@ refactorings! {
     Document::ThreeB(own), "correct.punch", say!(apply_the_correction_outside, settings.correction)
         => corrected(own, sheet()?, Role::Punch);
     Document::ThreeB(own), "layout.compact", say!(convert_to_the_compact_layout)
-        => laid_out(own, settings, Layout::Compact);
+        => Ok(laid_out(own, Layout::Compact));
     Document::ThreeB(own), "layout.aligned", say!(convert_to_the_aligned_layout)
-        => laid_out(own, settings, Layout::Aligned);
-    Document::ThreeB(own), "layout.checking", say!(convert_to_the_checking_layout)
-        => laid_out(own, settings, Layout::Checking);
+        => Ok(laid_out(own, Layout::Aligned));
+    Document::ThreeB(own), "coordinates.insert", say!(write_the_end_of_each_block) => with_ends(own, sheet()?);
+    Document::ThreeB(own), "coordinates.remove", say!(leave_the_ends_of_blocks_out) => without_ends(own, sheet()?);
     Document::Iso(own), "coordinates.absolute", say!(make_all_coordinates_absolute_g90)
         => counted(own, sheet()?, false);
     Document::Iso(own), "coordinates.incremental", say!(let_all_coordinates_count_from_where_the_wire_stands)
@@ -123,6 +124,11 @@ refactorings! {
     Document::Iso(_), "number", say!(number_the_blocks_in_tens) => numbered(document, settings);
     _, "number", say!(number_the_blocks_from_1) => numbered(document, settings);
     _, "withoutNumbers", say!(leave_the_block_numbers_out) => without_numbers(document, settings);
+}
+
+fn laid_out(program: &three_b::Document, layout: Layout) -> Vec<TextEdit> {
+    let (text, words) = (program.text(), program.words());
+    three_b::format::format(text, Some(layout), &words, 0..text.line_count())
 }
 
 /// What may be possible at a selection of bytes, nothing of it tried. `wanted` chooses by id.

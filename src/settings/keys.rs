@@ -148,7 +148,8 @@ tables! {
     ProgramSettings() {
         /// What `wedm generate`, `wedm pair` and `wedm report` write where neither `--format` nor the name of the file says it. Not set: 3B.
         format: ProgramFormat => name;
-        /// Form of the blocks. Programs that are formatted keep their own where none is set.
+        /// Form of the blocks. Programs that are formatted keep their own where none is set, and in every one the block numbers
+        /// and end points that they have.
         layout: Layout = Layout::Compact => name;
         /// Whether 3B and 4B programs begin with `; Start Point = x , y`, the comment that says where the wire is threaded, mm; and ISO
         /// programs that the control offsets with comments such as `(D1 = 0.2000)`, the correction of each register, mm. Not set: in every

@@ -21,7 +21,7 @@ fn programs_are_formatted_where_they_are_told_to_be() {
         (
             "format hole.3b --layout checking",
             0,
-            &["N    1: B   9900 B      0 B   9900 GX L1  ;      9.900 ,      0.000\n"],
+            &["B   9900 B      0 B   9900 GX L1\nB   9900 B      0 B  39600 GY NR1\n"],
         ),
         (
             "format --check hole.3b",

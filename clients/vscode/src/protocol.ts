@@ -591,7 +591,7 @@ export interface ProgramSettings {
    */
   format?: ProgramFormat;
   /**
-   * Form of the blocks. Programs that are formatted keep their own where none is set.
+   * Form of the blocks. Programs that are formatted keep their own where none is set, and in every one the block numbers and end points that they have.
    */
   layout?: Layout;
   /**

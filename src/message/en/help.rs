@@ -9,7 +9,7 @@ pub(in crate::message) const HELP: &[(&str, &str)] = &[
   wedm check --correction 0.12 drawings/   a whole folder, with another correction
   wedm fix plate.dxf -o fixed.dxf          repair what can be repaired
   wedm generate fixed.dxf --side opening -o plate.3b
-  wedm format plate.3b --layout checking   with block numbers and end points
+  wedm format plate.3b --layout aligned    its blocks in columns
   wedm convert plate.3b -o plate.dxf       a program back to a drawing, or to ISO
   wedm demo                                a whole session, on a drawing that ships inside
 
@@ -38,7 +38,7 @@ Exit codes: 0 no error found, 1 errors in the drawing, 2 could not read, or wron
     ("fix in_place", "Write the repaired drawing over the input"),
     ("fix diff", "Print what would change, and write nothing"),
     ("format", "Bring programs into one layout"),
-    ("format/", "Blocks, words, comments and block numbers stay, and so does the path of the machine: every line is read again before it is accepted. Lines that cannot be read stay as they are. Without a layout, here or in the settings, a program keeps that of most of its blocks. Ends with 1 when `--check` or `--diff` finds something to change."),
+    ("format/", "Blocks, words, comments, block numbers and end points stay, and so does the path of the machine: every line is read again before it is accepted. Lines that cannot be read stay as they are. Without a layout, here or in the settings, a program keeps that of most of its blocks. Ends with 1 when `--check` or `--diff` finds something to change."),
     ("format paths", "Programs, and folders to search for them"),
     ("format output", "Write the formatted program there (`-` is stdout); one PATH"),
     ("format in_place", "Write formatted programs over the inputs"),

@@ -158,11 +158,11 @@ declare! {
     apply_the_correction_inside(correction) => "Apply the correction of {correction:.3} mm inside (opening)";
     apply_the_correction_outside(correction) => "Apply the correction of {correction:.3} mm outside (punch)";
     the_contour_is_open_and_the_side_of_the_wire_unknown(ordinal) => "contour {ordinal} is open: the side of the wire is not known";
-    end_points_are_left_as_they_are(rule, line) => "end points and block numbers are left as they are until {rule} in line {line} is repaired, see wedm check";
-    end_points_cannot_be_trusted(rule, line) => "end points cannot be worked out until {rule} in line {line} is repaired";
+    end_points_cannot_be_trusted(rule, line) => "end points are neither written nor left out until {rule} in line {line} is repaired";
     convert_to_the_compact_layout => "Convert to the compact layout";
     convert_to_the_aligned_layout => "Convert to the aligned layout";
-    convert_to_the_checking_layout => "Convert to the checking layout, with numbers and end points";
+    write_the_end_of_each_block => "Write the end of each block after it, with block numbers";
+    leave_the_ends_of_blocks_out => "Leave the end points after blocks out";
     the_block_of_a_line_leads_nowhere(line) => "line {line}: the block leads nowhere";
     that_line_cannot_be_read(line) => "line {line} cannot be read";
     a_line_holds_several_blocks(line, blocks) => "line {line} holds {blocks} blocks: format the program first";

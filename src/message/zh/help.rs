@@ -24,7 +24,7 @@ pub(in crate::message) const HELP: &[(&str, &str)] = &[
   wedm check --correction 0.12 drawings/   整个文件夹，用另一补偿量
   wedm fix plate.dxf -o fixed.dxf          自动修复可安全修复的问题
   wedm generate fixed.dxf --side opening -o plate.3b
-  wedm format plate.3b --layout checking   带段号和终点
+  wedm format plate.3b --layout aligned    程序段按列对齐
   wedm convert plate.3b -o plate.dxf       程序转回图形，或转成 ISO
   wedm demo                                用自带的图形演示全过程
 
@@ -68,7 +68,7 @@ pub(in crate::message) const HELP: &[(&str, &str)] = &[
     ("format", "把程序整理成一种排版"),
     (
         "format/",
-        "程序段、代码、注释和段号不变，机床的动作也不变：每一行都重新读过才采用。读不出的行原样保留。这里和设置中都没有指定排版时，用程序中多数程序段的排版。`--check` 或 `--diff` 发现要改的，以 1 结束。",
+        "程序段、代码、注释、段号和终点不变，机床的动作也不变：每一行都重新读过才采用。读不出的行原样保留。这里和设置中都没有指定排版时，用程序中多数程序段的排版。`--check` 或 `--diff` 发现要改的，以 1 结束。",
     ),
     ("format paths", "程序，以及要查找程序的文件夹"),
     (

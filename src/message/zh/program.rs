@@ -158,11 +158,11 @@ translate! {
     apply_the_correction_inside(correction) => "向内补偿 {correction:.3} mm（型孔）";
     apply_the_correction_outside(correction) => "向外补偿 {correction:.3} mm（凸模）";
     the_contour_is_open_and_the_side_of_the_wire_unknown(ordinal) => "轮廓 {ordinal} 不封闭：不知道电极丝在哪一侧";
-    end_points_are_left_as_they_are(rule, line) => "第 {line} 行的 {rule} 修复之前，终点坐标和段号保持原样，见 wedm check";
-    end_points_cannot_be_trusted(rule, line) => "第 {line} 行的 {rule} 修复之前，无法算出终点坐标";
+    end_points_cannot_be_trusted(rule, line) => "第 {line} 行的 {rule} 修复之前，终点坐标既不写出也不去掉";
     convert_to_the_compact_layout => "转换为紧凑格式";
     convert_to_the_aligned_layout => "转换为对齐格式";
-    convert_to_the_checking_layout => "转换为校对格式，带段号和终点";
+    write_the_end_of_each_block => "在每个程序段后写出终点，并加段号";
+    leave_the_ends_of_blocks_out => "去掉程序段后的终点";
     the_block_of_a_line_leads_nowhere(line) => "第 {line} 行：程序段没有去向";
     that_line_cannot_be_read(line) => "第 {line} 行读不出";
     a_line_holds_several_blocks(line, blocks) => "第 {line} 行有 {blocks} 个程序段：请先整理程序格式";

@@ -68,9 +68,10 @@ fn refactorings_are_offered_as_versioned_edits_or_with_their_reason() {
             .is_some_and(|reason| reason.contains("lead")),
         "{all:?}"
     );
-    assert_eq!(
-        named(&all, "layout.checking")["title"],
-        "Convert to the checking layout, with numbers and end points"
+    let stated = editor.with(named(&all, "coordinates.insert"));
+    assert!(
+        stated.contains("N1 B9900B0B9900GXL1  ;      9.900 ,      0.000\n"),
+        "{stated}"
     );
     // The light bulb asks at every move of the cursor.
     let mut params = in_lines(3, 3);

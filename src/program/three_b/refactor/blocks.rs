@@ -33,7 +33,7 @@ pub(in crate::program) struct Blocks<'a> {
 /// A block in its line.
 pub(in crate::program) struct Own {
     /// Bytes of the text.
-    range: Range<usize>,
+    pub(super) range: Range<usize>,
     pub(super) block: Block,
     part: Option<PartArc>,
     /// The text states its end point behind it.
@@ -144,7 +144,7 @@ impl<'a> Blocks<'a> {
     }
 
     /// The last piece of a kind in the line of a block, as bytes of the text.
-    fn beside(&self, own: &Own, field: Field) -> Option<Range<usize>> {
+    pub(super) fn beside(&self, own: &Own, field: Field) -> Option<Range<usize>> {
         let text = self.document.text();
         let line = text.line_of(own.range.start);
         let (bytes, start) = (text.line(line), text.line_start(line));

@@ -232,6 +232,7 @@ fn what_changes_nothing_is_not_offered() {
         "refactor.rewrite.merge",
         "refactor.rewrite.split",
         "refactor.rewrite.layout.compact",
+        "refactor.rewrite.coordinates.remove",
         "refactor.rewrite.startHere",
     ] {
         assert!(!ids.contains(&absent), "{absent} in {ids:?}");
