@@ -24,6 +24,8 @@ type Farthest = (u64, usize, bool);
 struct Told {
     order: (Farthest, u64, [usize; 2]),
     of: ContourKey,
+    /// It is known on which side of the contour the wire runs.
+    has_side: bool,
     left: Left,
 }
 
@@ -55,7 +57,7 @@ impl Analysis {
         // The wire follows a contour that is its own path.
         let mildest = report.is_for_a_path().then_some(Severity::Warning);
         let (known, unknown): (Vec<Told>, Vec<Told>) =
-            (told.into_iter()).partition(|told| side_of(self, told.of).is_some());
+            told.into_iter().partition(|told| told.has_side);
         self.report_ends(drawing, &known, mildest, report);
         self.report_ends(drawing, &unknown, Some(Severity::Warning), report);
     }
@@ -70,7 +72,10 @@ impl Analysis {
         report.count(Rule::LostPocket, mildest, told.len());
         // Only the first ones are reported.
         let most = report.room(Rule::LostPocket, mildest);
-        for Told { order, of, left } in told.iter().take(most) {
+        for Told {
+            order, of, left, ..
+        } in told.iter().take(most)
+        {
             let (_, _, walls) = order;
             if let Some(outlook) = self.outlook(drawing, *of)
                 && let Some(place) = outlook.place(left.index)
@@ -166,7 +171,12 @@ impl Around<'_> {
         // Depths are not negative: their bits are in their order.
         let order = (place, left.depth.to_bits(), walls);
         let of = each.one.0;
-        Some(Told { order, of, left })
+        Some(Told {
+            order,
+            of,
+            has_side: self.side.is_some(),
+            left,
+        })
     }
 }
 

@@ -340,13 +340,15 @@ impl Analysis {
             Partners::Drawn => {
                 let part_of = |which: usize, (key, outline): (ContourKey, &Outline)| {
                     let role = ROLES[which];
-                    // A punch may be that of several partners.
-                    let of_pairs = self
-                        .fits
-                        .iter()
-                        .filter(|(pair, _)| [pair.0, pair.1][which] == key);
-                    let mut of_pairs = of_pairs.filter_map(|(_, answer)| answer.unedited()[which]);
-                    if let Some(known) = known[which].as_ref().or_else(|| of_pairs.next()) {
+                    // A punch may be that of several partners, whose pairs stand in a row.
+                    let of_punch = || {
+                        let pairs = self
+                            .fits
+                            .range((key, ContourKey::MIN)..=(key, ContourKey::MAX));
+                        let mut parts = pairs.filter_map(|(_, answer)| answer.unedited()[which]);
+                        parts.next().filter(|_| which == 0)
+                    };
+                    if let Some(known) = known[which].as_ref().or_else(of_punch) {
                         return Some(known.clone());
                     }
                     let part = fit::drawn_part(drawing, outline, role, settings, walls(key));

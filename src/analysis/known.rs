@@ -5,6 +5,7 @@ use super::report::Report;
 use super::together::of_observations;
 use crate::drawing::{Contour, ContourIndex, Drawing, Role};
 use crate::finding::{Detail, Place, Rule, Severity, Side};
+use crate::rules::arc_as_chords::REACH;
 use crate::rules::{AtHand, LOCAL_RULES, Limits, LocalRule, Observation, Outlook};
 use crate::settings::Effective;
 use std::iter::once;
@@ -15,7 +16,7 @@ const AT_ONCE: usize = 256;
 /// Where runs are farther apart than this, as the first and the last of a contour, the segments between them are not at hand.
 const NEAR: usize = 4;
 /// Segments at hand before and after the runs, as many as rules look at; others are worked out when a rule asks for them.
-const ABOUT: usize = 80;
+const ABOUT: usize = REACH;
 
 #[derive(Clone, Debug)]
 pub(crate) struct Known {

@@ -58,6 +58,7 @@ use pairs::Pairs;
 use pockets::Loss;
 use report::Tally;
 use rustc_hash::{FxHashMap, FxHashSet};
+use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
 use suppressed::Judged;
 use told::Told;
@@ -99,7 +100,7 @@ pub struct Analysis {
     /// What the path along a contour loses, for a side and with or without a neck.
     lost: FxHashMap<ContourKey, Loss>,
     /// What was found between partners, or for a contour that is cut twice.
-    fits: FxHashMap<(ContourKey, ContourKey), fits::Answer>,
+    fits: BTreeMap<(ContourKey, ContourKey), fits::Answer>,
     /// The segments of contours that may belong to a pair, for questions about what is near.
     walls: FxHashMap<ContourKey, own_walls::Own>,
     /// Which contours run beside each other, each time the smaller one first.
@@ -142,7 +143,7 @@ impl Analysis {
             pairs: Pairs::default(),
             answers: FxHashMap::default(),
             lost: FxHashMap::default(),
-            fits: FxHashMap::default(),
+            fits: BTreeMap::new(),
             walls: FxHashMap::default(),
             beside: FxHashSet::default(),
             order: OnceLock::new(),
