@@ -2,15 +2,15 @@
 
 import * as vscode from "vscode";
 import { LSPErrorCodes, ResponseError } from "vscode-languageclient/node";
-import type { Methods } from "../protocol";
+import type { Methods } from "../../../picture/protocol";
 import type { Pictures } from "../picture/pictures";
 import type { Server } from "../server/server";
-import type { Sides } from "./keep";
-import { choices } from "./profiles";
-import { PAIR_IS_NOT_SET, SIDE_IS_NOT_KNOWN } from "./refusals";
+import type { Sides } from "../../../picture/keep";
+import { choices } from "../../../picture/profiles";
+import { PAIR_IS_NOT_SET, SIDE_IS_NOT_KNOWN } from "../../../picture/refusals";
 import { settingsThere } from "./settingsFile";
 import { askSides } from "./sides";
-import { t } from "../words";
+import { t } from "../../../picture/words";
 
 export type Format = "3b" | "4b" | "iso" | "milling";
 

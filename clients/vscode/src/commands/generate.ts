@@ -3,15 +3,15 @@
 import * as vscode from "vscode";
 import type { Front } from "../front";
 import { isDrawing } from "../languages";
-import type { Milling, Program } from "../protocol";
+import type { Milling, Program } from "../../../picture/protocol";
 import type { Server } from "../server/server";
 import type { Pictures } from "../picture/pictures";
 import { attempt, ENDINGS, type Format, TITLES } from "./attempt";
 import { openMade, write } from "./output";
 import { offerToKeep } from "./sides";
-import { blocksOf, findingsOf } from "./counted";
+import { blocksOf, findingsOf } from "../../../picture/counted";
 import { subject } from "./subject";
-import { t } from "../words";
+import { t } from "../../../picture/words";
 
 /** The number of slugs that are named. */
 const SLUGS = 4;

@@ -1,6 +1,6 @@
 // Numbers of things, in words. Knows nothing of VS Code.
 
-import { t } from "../words";
+import { t } from "./words";
 
 export function blocksOf(count: number): string {
   return count === 1 ? t("1 block") : t("{0} blocks", count);

@@ -1,8 +1,8 @@
 // The findings below the picture: rules with their counts, of which one may be chosen, and each finding as a button to its place.
 
-import type { Contour, Fault, Severity } from "../src/picture/messages";
-import { element } from "./page";
-import { t } from "../src/words";
+import type { Contour, Fault, Severity } from "./messages";
+import { element } from "./host";
+import { t } from "./words";
 
 /** More chips than this nobody reads; all of them are under Problems. */
 const MOST = 200;

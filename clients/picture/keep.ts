@@ -1,7 +1,7 @@
 // Writes the user's answers about contours into the text of a wedm.toml. Knows nothing of VS Code.
 
-import type { Said } from "../picture/messages";
-import type { Role } from "../protocol";
+import type { Said } from "./messages";
+import type { Role } from "./protocol";
 
 /** By nesting, or what each contour or layer is. */
 export type Sides = { side: "auto" } | { contours: Record<string, Role> } | { layers: Record<string, Role> };

@@ -1,6 +1,6 @@
-// What the picture's page and the extension say to each other.
+// What the picture and its host say to each other: VS Code's extension, or the page of `wedm view`.
 
-import type { ContourSettings, Repair, Role, SimulatedBlock } from "../protocol";
+import type { ContourSettings, Repair, Role, SimulatedBlock } from "./protocol";
 
 export type Severity = "error" | "warning" | "information" | "hint";
 
@@ -47,6 +47,8 @@ export interface Card {
 export interface Shown {
   type: "picture";
   uri: string;
+  /** The document that it was made of, whose view stays as it is. */
+  madeOf?: string;
   name: string;
   /** With a fit there is no wire to play, and nothing to save. */
   kind: "drawing" | "program" | "fit";

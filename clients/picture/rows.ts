@@ -1,7 +1,7 @@
 // The radius list as rows: a contour and the segments in it, then the entities that are in none. Knows nothing of VS Code.
 
-import type { ContoursContour, InspectedEntity, InspectedSegment, Inspection } from "../protocol";
-import { t } from "../words";
+import type { ContoursContour, InspectedEntity, InspectedSegment, Inspection } from "./protocol";
+import { t } from "./words";
 
 export interface SegmentRow {
   kind: "segment";

@@ -1,6 +1,6 @@
 // Made out of docs/protocol.schema.json by generate-protocol.mjs: edit neither by hand.
 
-/** Version of the name space that this extension speaks. */
+/** Version of the name space that these clients speak. */
 export const PROTOCOL = 1;
 
 export type SegmentKind = "line" | "arc" | "circle";

@@ -1,6 +1,6 @@
 // Takes the server's SVG into the page, and knows which of its elements stand for which segment or line.
 
-import type { SegmentShape } from "../src/protocol";
+import type { SegmentShape } from "./protocol";
 import { Canvas } from "./canvas";
 import type { Box } from "./frame";
 

@@ -1,8 +1,8 @@
 // The parts of a pair: what each is called, and its file. Knows nothing of VS Code.
 
-import type { PairProgram } from "../protocol";
+import type { PairProgram } from "./protocol";
 import { blocksOf } from "./counted";
-import { t } from "../words";
+import { t } from "./words";
 
 /** `washer-punch.3b`, as `wedm pair` names it; characters that a file name cannot hold become `_`. */
 export function partFile(stem: string, part: string, ending: string): string {

@@ -1,9 +1,9 @@
 // The card of what is picked: a finding with its reason and its repairs, or a contour with its settings.
 
-import type { Card, Contour, Fault, Said } from "../src/picture/messages";
-import type { Repair, Role } from "../src/protocol";
-import { element, host } from "./page";
-import { t } from "../src/words";
+import type { Card, Contour, Fault, Said } from "./messages";
+import type { Repair, Role } from "./protocol";
+import { element, type Host } from "./host";
+import { t } from "./words";
 
 /** What the next click in the picture sets. */
 export interface Asking {
@@ -17,6 +17,7 @@ export class Cards {
   #open: Contour | null = null;
 
   constructor(
+    private readonly host: Host,
     /** Shows what a repair would bring; null for nothing. */
     private readonly ghost: (repair: Repair | null) => void,
     private readonly asked: (asking: Asking | null) => void,
@@ -70,14 +71,14 @@ export class Cards {
         this.ghost(repair);
       });
       button.addEventListener("click", () => {
-        host.postMessage({ type: "fix", fault: index, repair: which });
+        this.host.hear({ type: "fix", fault: index, repair: which });
         this.close();
       });
       return button;
     });
     const explain = made("button", t("About {0}", fault.rule), "link");
     explain.addEventListener("click", () => {
-      host.postMessage({ type: "explain", rule: fault.rule });
+      this.host.hear({ type: "explain", rule: fault.rule });
     });
     const heading = made("h2", fault.message, fault.severity);
     const links = [explain];
@@ -107,7 +108,7 @@ export class Cards {
       return;
     }
     const say = (said: Said): void => {
-      host.postMessage({ type: "say", handles: contour.handles, said });
+      this.host.hear({ type: "say", handles: contour.handles, said });
     };
     // An open contour has no inside: its sides are those of the direction in which it is drawn.
     const shapes: [Role, string][] = contour.closed ? [["opening", t("Opening")], ["punch", t("Punch")]] : [["left", t("Left")], ["right", t("Right")]];

@@ -1,10 +1,10 @@
 // Moves the wire along its way: slider, play and pause, speed, and the figures of the block that is being cut.
 
-import type { SimulatedBlock } from "../src/protocol";
-import { element, host } from "./page";
+import type { SimulatedBlock } from "./protocol";
+import { element, type Host } from "./host";
 import type { Sheet } from "./sheet";
 import { type Spot, Track } from "./track";
-import { t } from "../src/words";
+import { t } from "./words";
 
 /** How long the whole way takes at speed 1, in seconds: so that a short program can be followed, and a long one seen. */
 const SHORTEST = 6;
@@ -38,7 +38,7 @@ export class Player {
   #wire: SVGCircleElement | null = null;
   #trail: SVGPathElement | null = null;
 
-  constructor() {
+  constructor(private readonly host: Host) {
     this.#button.addEventListener("click", () => {
       this.toggle();
     });
@@ -221,7 +221,7 @@ export class Player {
   #tell(line: number | null): void {
     if (line !== this.#toldLine) {
       this.#toldLine = line;
-      host.postMessage({ type: "playing", line });
+      this.host.hear({ type: "playing", line });
     }
   }
 

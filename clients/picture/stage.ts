@@ -2,7 +2,7 @@
 
 import { type Box, centred, fitted, moved, roundLength, sees, unitsPerPixel, zoomed } from "./frame";
 import { type Picked, pickedFrom, type Sheet } from "./sheet";
-import { element } from "./page";
+import { element } from "./host";
 
 /** Pixels about a thin line that count as upon it. */
 const REACH = 6;

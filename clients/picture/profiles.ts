@@ -1,6 +1,6 @@
 // How an ISO program can be written, and what a machine reads, as lists to choose from. Knows nothing of VS Code.
 
-import { t } from "../words";
+import { t } from "./words";
 
 export interface Choice {
   label: string;
