@@ -1,4 +1,4 @@
-// Writes the user's answers about contours into the text of a wedm.toml. Knows nothing of VS Code.
+// Writes the user's answers into the text of a wedm.toml, and reads what stands there. Knows nothing of VS Code.
 
 import type { Said } from "./messages";
 import type { Role } from "./protocol";
@@ -29,7 +29,23 @@ function written(value: Said[keyof Said]): string | null {
   return Array.isArray(value) ? `[${value.map((number) => String(Number(number.toFixed(6)))).join(", ")}]` : JSON.stringify(value);
 }
 
-function withKey(text: string, table: string | null, key: string, value: string | null): string {
+/** What stands at a key of a table, as it is written; undefined where it is not set. `table` null: before the first table. */
+export function valueOf(text: string, table: string | null, key: string): string | undefined {
+  let isWithin = table === null;
+  for (const line of text.split(/\r?\n/)) {
+    if (/^\s*\[/.test(line)) {
+      isWithin = table !== null && isHead(line, table);
+    }
+    const value = new RegExp(`^\\s*${key}\\s*=\\s*("[^"]*"|\\[[^\\]]*\\]|[^#\\s]+)`).exec(line)?.[1];
+    if (isWithin && value !== undefined) {
+      return value;
+    }
+  }
+  return undefined;
+}
+
+/** The text with this value at a key; null takes the key out. Every other line stays as it is. */
+export function withKey(text: string, table: string | null, key: string, value: string | null): string {
   const end = text.includes("\r\n") ? "\r\n" : "\n";
   const lines = text === "" ? [] : text.replace(/\r?\n$/, "").split(/\r?\n/);
   const heads = lines.flatMap((line, index) => (/^\s*\[/.test(line) ? [index] : []));

@@ -14,9 +14,13 @@ import { t } from "./words";
 /** What takes keys of its own. */
 const CONTROLS = "button, select, input, textarea, summary, dialog, [role=listbox]";
 
+type Marked = { handle: string; segment: number | null } | { line: number };
+
 export class Picture {
   #uri = "";
   #shown: Shown | null = null;
+  /** What is marked, so that it is marked in the next picture of the document, too. */
+  #marked: Marked | null = null;
   readonly #stage = new Stage((picked, twice, event) => {
     this.#pick(picked, twice, event);
   });
@@ -45,13 +49,13 @@ export class Picture {
         this.#show(message);
         break;
       case "segment":
-        this.#follow(message.handle === null ? [] : (sheet?.ofSegment(message.handle, message.segment) ?? []));
+        this.#follow(this.#select(message.handle === null ? null : { handle: message.handle, segment: message.segment }));
         break;
       case "contour":
         this.#follow(message.handles.flatMap((handle) => sheet?.ofSegment(handle, null) ?? []));
         break;
       case "line":
-        this.#follow(sheet?.ofLine(message.line) ?? []);
+        this.#follow(this.#select({ line: message.line }));
         this.#player.toLine(message.line);
         break;
       case "trouble":
@@ -72,6 +76,20 @@ export class Picture {
         this.#player.play();
         break;
     }
+  }
+
+  /** Marks a segment, with null an entity, and goes near it. */
+  approach(handle: string, segment: number | null): void {
+    const sheet = this.#stage.sheet;
+    if (sheet !== null) {
+      this.#select({ handle, segment });
+      this.#stage.approach(sheet.boxOf(sheet.ofSegment(handle, segment)));
+    }
+  }
+
+  /** Marks a contour by an entity of it, and opens its card. */
+  openContour(handle: string): void {
+    this.#showCardOf(handle, null);
   }
 
   zoom(factor: number): void {
@@ -113,10 +131,15 @@ export class Picture {
 
   /** A click in the picture is the answer. */
   #ask(asking: Asking | null): void {
+    const wasAsking = document.body.classList.contains("asking");
     document.body.classList.toggle("asking", asking !== null);
     const thread = t("Click where the wire is to be threaded. Esc: as it was.");
     const entry = t("Click the point of the contour where the cut is to begin. Esc: as it was.");
-    this.#trouble(asking === null ? "" : asking.key === "thread" ? thread : entry, false);
+    if (asking !== null) {
+      this.#trouble(asking.key === "thread" ? thread : entry, false);
+    } else if (wasAsking) {
+      this.#trouble("");
+    }
   }
 
   #pick(picked: Picked | null, twice: boolean, event?: MouseEvent): void {
@@ -132,7 +155,7 @@ export class Picture {
       return;
     }
     if (picked.line !== undefined) {
-      sheet.select(sheet.ofLine(picked.line));
+      this.#select({ line: picked.line });
       this.host.hear({ type: "line", line: picked.line });
       if (twice) {
         this.#stage.approach(sheet.boxOf(sheet.ofLine(picked.line)));
@@ -160,8 +183,7 @@ export class Picture {
   }
 
   #pickSegment(sheet: Sheet, handle: string, segment: number | null, close: boolean): void {
-    const elements = sheet.ofSegment(handle, segment);
-    sheet.select(elements);
+    const elements = this.#select({ handle, segment });
     this.host.hear({ type: "segment", handle, segment });
     if (close) {
       this.#stage.approach(sheet.boxOf(elements));
@@ -228,8 +250,8 @@ export class Picture {
     this.#player.put(sheet, message.blocks, message.lines, same);
     const { title, note, alert, severity } = sheet.heading();
     element("title", HTMLElement).textContent = title;
-    element("note", HTMLElement).textContent = note;
-    const place = element("alert", HTMLElement);
+    const [notes, place] = [element("note", HTMLElement), element("alert", HTMLElement)];
+    notes.textContent = notes.title = note;
     place.textContent = place.title = alert;
     place.className = severity;
     if (sheet.drawing === null) {
@@ -237,10 +259,20 @@ export class Picture {
     } else if (this.#cards.asking === null) {
       this.#trouble("");
     }
+    this.#select(same ? this.#marked : null);
     this.#cards.refresh(same ? message.contours : [], message.keeps);
     if (this.#cards.open !== null) {
       sheet.select(this.#cards.open.handles.flatMap((each) => sheet.ofSegment(each, null)));
     }
+  }
+
+  #select(marked: Marked | null): SVGElement[] {
+    const sheet = this.#stage.sheet;
+    this.#marked = marked;
+    const line = marked !== null && "line" in marked ? marked.line : null;
+    const elements = line !== null ? sheet?.ofLine(line) : marked !== null && "handle" in marked ? sheet?.ofSegment(marked.handle, marked.segment) : [];
+    sheet?.select(elements ?? []);
+    return elements ?? [];
   }
 
   #trouble(message: string, stale = true): void {

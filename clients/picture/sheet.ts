@@ -23,12 +23,13 @@ export class Sheet {
 
   /** Throws when the text is no SVG. */
   constructor(text: string) {
-    const parsed = new DOMParser().parseFromString(text, "image/svg+xml");
+    // The page has its own colours, those of the theme. A policy that allows no style complains of the server's, so it goes first.
+    const parsed = new DOMParser().parseFromString(text.replace(/<style>[^<]*<\/style>/, ""), "image/svg+xml");
     const root = parsed.documentElement;
     if (!(root instanceof SVGSVGElement)) {
       throw new Error("the server's picture is no SVG");
     }
-    // The page has its own colours, those of the theme, and runs nothing that came with a drawing.
+    // Nothing runs that came with a drawing.
     for (const foreign of root.querySelectorAll("style, script, foreignObject")) {
       foreign.remove();
     }

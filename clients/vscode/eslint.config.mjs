@@ -8,7 +8,7 @@ export default defineConfig(
   tseslint.configs.strictTypeChecked,
   tseslint.configs.stylisticTypeChecked,
   {
-    languageOptions: { parserOptions: { project: ["vscode", "picture", "vscode/webview", "vscode/tests"].map((folder) => new URL(`../${folder}/tsconfig.json`, import.meta.url).pathname) } },
+    languageOptions: { parserOptions: { project: ["vscode", "picture", "view", "vscode/webview", "vscode/tests"].map((folder) => new URL(`../${folder}/tsconfig.json`, import.meta.url).pathname) } },
     rules: {
       eqeqeq: "error",
       "@typescript-eslint/no-floating-promises": ["error", { allowForKnownSafeCalls: [{ from: "package", name: "test", package: "node:test" }] }],

@@ -6,18 +6,12 @@ import type { Methods } from "../../../picture/protocol";
 import type { Pictures } from "../picture/pictures";
 import type { Server } from "../server/server";
 import type { Sides } from "../../../picture/keep";
+import { type Format, TITLES } from "../../../picture/programs";
 import { choices } from "../../../picture/profiles";
 import { PAIR_IS_NOT_SET, SIDE_IS_NOT_KNOWN } from "../../../picture/refusals";
 import { settingsThere } from "./settingsFile";
 import { askSides } from "./sides";
 import { t } from "../../../picture/words";
-
-export type Format = "3b" | "4b" | "iso" | "milling";
-
-/** Functions, since the language is not chosen yet when this is read. */
-export const TITLES: Record<Format, () => string> = { "3b": () => "3B", "4b": () => "4B", iso: () => "ISO", milling: () => t("Milling") };
-/** The endings of its files; the first is proposed. */
-export const ENDINGS: Record<Format, readonly [string, ...string[]]> = { "3b": ["3b"], "4b": ["4b"], iso: ["iso", "nc"], milling: ["iso", "nc"] };
 
 interface How {
   options?: { program?: { profile: string } };
