@@ -46,6 +46,8 @@ export class Bench implements Host {
   #isStale = false;
   #isFit = false;
   #madeOf: string | undefined;
+  /** Counts what is opened: of two that are asked for, the later one is shown. */
+  #opening = 0;
 
   constructor(
     private readonly server: Server,
@@ -89,7 +91,12 @@ export class Bench implements Host {
       await this.turnTo(kept, madeOf);
       return;
     }
+    this.#opening += 1;
+    const opening = this.#opening;
     const { bytes, revision } = await read(uri);
+    if (opening !== this.#opening) {
+      return;
+    }
     const language = languageOfFile(nameOf(uri), new TextDecoder().decode(bytes.subarray(0, 65_536))) ?? "dxf";
     await this.turnTo(ofFile(uri, language, bytes, revision), madeOf);
   }
