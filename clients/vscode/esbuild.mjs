@@ -49,7 +49,7 @@ if (asked.has("--production")) {
   await writeFile("dist/THIRD-PARTY.txt", await licences(Object.keys(metafile.inputs)));
 }
 await build({ ...common, platform: "browser", entryPoints: ["webview/picture.ts"], outfile: "dist/picture.js", format: "iife" });
-await cp("webview/picture.css", "dist/picture.css");
+await build({ ...common, entryPoints: ["webview/picture.css"], outfile: "dist/picture.css" });
 for (const picture of await pictures("walkthrough")) {
   await cp(`../../docs/pictures/${picture}`, `dist/pictures/${picture}`);
 }

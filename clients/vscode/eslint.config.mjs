@@ -3,12 +3,12 @@ import { defineConfig } from "eslint/config";
 import tseslint from "typescript-eslint";
 
 export default defineConfig(
-  { ignores: ["dist/", "node_modules/", "tests/host/", "**/*.mjs", "src/protocol.ts"] },
+  { ignores: ["**/dist/", "**/node_modules/", "vscode/tests/host/", "**/*.mjs", "picture/protocol.ts"] },
   js.configs.recommended,
   tseslint.configs.strictTypeChecked,
   tseslint.configs.stylisticTypeChecked,
   {
-    languageOptions: { parserOptions: { project: ["./tsconfig.json", "./webview/tsconfig.json", "./tests/tsconfig.json"] } },
+    languageOptions: { parserOptions: { project: ["vscode", "picture", "view", "vscode/webview", "vscode/tests"].map((folder) => new URL(`../${folder}/tsconfig.json`, import.meta.url).pathname) } },
     rules: {
       eqeqeq: "error",
       "@typescript-eslint/no-floating-promises": ["error", { allowForKnownSafeCalls: [{ from: "package", name: "test", package: "node:test" }] }],

@@ -1,15 +1,15 @@
-// Writes src/protocol.ts: the types of the requests that this extension may make, out of the published schema.
+// Writes clients/picture/protocol.ts: the types of the requests that a client may make, out of the published schema.
 //   node generate-protocol.mjs [--check]
 // With --check nothing is written; it fails where the file is not that of the schema.
 import { compile } from "json-schema-to-typescript";
 import { readFile, writeFile } from "node:fs/promises";
 
-const TARGET = new URL("src/protocol.ts", import.meta.url);
+const TARGET = new URL("../picture/protocol.ts", import.meta.url);
 const schema = JSON.parse(await readFile(new URL("../../docs/protocol.schema.json", import.meta.url), "utf8"));
 
 /**
  * A schema as the compiler reads it. It knows tuples by the name that they had before 2020-12. And it takes an optional key to be
- * null as well, which neither the server nor this extension ever sends. Keys beside a reference would become a second type.
+ * null as well, which neither the server nor a client of ours ever sends. Keys beside a reference would become a second type.
  */
 function readable(node) {
   if (Array.isArray(node)) {
@@ -57,7 +57,7 @@ const types = await compile(readable(methods), "Methods", {
 });
 const text = `// Made out of docs/protocol.schema.json by generate-protocol.mjs: edit neither by hand.
 
-/** Version of the name space that this extension speaks. */
+/** Version of the name space that these clients speak. */
 export const PROTOCOL = ${schema.protocol};
 
 ${types}`;
@@ -65,6 +65,6 @@ ${types}`;
 if (!process.argv.includes("--check")) {
   await writeFile(TARGET, text);
 } else if ((await readFile(TARGET, "utf8")) !== text) {
-  console.error("src/protocol.ts is not that of docs/protocol.schema.json; make it again with: npm run protocol");
+  console.error("clients/picture/protocol.ts is not that of docs/protocol.schema.json; make it again with: npm run protocol");
   process.exitCode = 1;
 }

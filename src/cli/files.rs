@@ -283,6 +283,13 @@ fn say_encoding(writing: Writing) {
     }
 }
 
+/// The faults of a `wedm.toml`.
+pub(crate) fn faults_of_settings(file: &Path) -> Result<Vec<Row>, Failure> {
+    // It holds for itself, too.
+    let (_, rows) = settings_for(file, &Common::default(), &Settings::default())?;
+    Ok(rows)
+}
+
 /// The settings for an input, and the faults found in settings files.
 fn settings_for(
     path: &Path,
@@ -410,6 +417,8 @@ pub(crate) struct Search<'a> {
     pub(crate) exclude: &'a [String],
     /// Hidden files, too, and what .gitignore and its like name.
     pub(crate) all: bool,
+    /// How many folders deep; all where nothing is said.
+    pub(crate) depth: Option<usize>,
 }
 
 /// The files that `paths` name: files as they are, folders searched, sorted by name, without duplicates. `-` is kept.
@@ -464,6 +473,7 @@ fn walk(path: &Path, search: &Search) -> Result<ignore::Walk, ignore::Error> {
     Ok(walk
         .standard_filters(!search.all)
         .require_git(false)
+        .max_depth(search.depth)
         .overrides(excluded.build()?)
         .sort_by_file_name(std::ffi::OsStr::cmp)
         .build())

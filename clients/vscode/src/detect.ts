@@ -2,7 +2,7 @@
 // If the user chooses another one, that stays.
 
 import * as vscode from "vscode";
-import { languageOf } from "./content";
+import { languageOf } from "../../picture/content";
 
 /** Endings under which programs come besides their own. */
 const ENDINGS = /\.(txt|cnc|cmd|eia|tap)$/i;

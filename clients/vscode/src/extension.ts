@@ -23,7 +23,7 @@ import { rulePages } from "./rulePages";
 import { sayWhatFails } from "./server/notices";
 import { Server } from "./server/server";
 import { Status } from "./status";
-import { speak } from "./words";
+import { speak } from "../../picture/words";
 
 /** Settings that count from the server's next start. */
 const STARTS_ANEW = ["wedm.server.path", "wedm.server.log"];

@@ -1,7 +1,7 @@
 // Correction, side and unit as the status bar has room for them. Knows nothing of VS Code itself.
 
-import type { SettingsInForce, SideSetting } from "./protocol";
-import { t } from "./words";
+import type { SettingsInForce, SideSetting } from "../../picture/protocol";
+import { t } from "../../picture/words";
 
 export function inShort(settings: Pick<SettingsInForce, "correction" | "correctionFrom" | "corrections" | "side" | "unitsToMm">): string {
   const { correction, correctionFrom, corrections, side, unitsToMm } = settings;

@@ -1,7 +1,7 @@
 // Files that VS Code hands to no extension, because they are too large: the user is told, and offered a check by path.
 
 import * as vscode from "vscode";
-import { t } from "./words";
+import { t } from "../../picture/words";
 
 /** VS Code's own limit, in bytes: above it a text is not synchronised with extensions. */
 const LIMIT = 50 * 1024 * 1024;

@@ -1,7 +1,7 @@
 // Between segments and their places in the text.
 
 import * as vscode from "vscode";
-import type { Located } from "./protocol";
+import type { Located } from "../../picture/protocol";
 import type { Server } from "./server/server";
 
 /** What is written at a position; null where it is nothing with geometry, or the server cannot answer. */

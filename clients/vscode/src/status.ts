@@ -3,9 +3,9 @@
 import * as vscode from "vscode";
 import type { Front } from "./front";
 import { inShort } from "./inShort";
-import type { SettingsInForce } from "./protocol";
+import type { SettingsInForce } from "../../picture/protocol";
 import type { Server, State } from "./server/server";
-import { t } from "./words";
+import { t } from "../../picture/words";
 
 /** The wait, in ms, since edits come in bursts. */
 const CALM = 150;

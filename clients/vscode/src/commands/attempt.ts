@@ -2,22 +2,16 @@
 
 import * as vscode from "vscode";
 import { LSPErrorCodes, ResponseError } from "vscode-languageclient/node";
-import type { Methods } from "../protocol";
+import type { Methods } from "../../../picture/protocol";
 import type { Pictures } from "../picture/pictures";
 import type { Server } from "../server/server";
-import type { Sides } from "./keep";
-import { choices } from "./profiles";
-import { PAIR_IS_NOT_SET, SIDE_IS_NOT_KNOWN } from "./refusals";
+import type { Sides } from "../../../picture/keep";
+import { type Format, TITLES } from "../../../picture/programs";
+import { choices } from "../../../picture/profiles";
+import { PAIR_IS_NOT_SET, SIDE_IS_NOT_KNOWN } from "../../../picture/refusals";
 import { settingsThere } from "./settingsFile";
 import { askSides } from "./sides";
-import { t } from "../words";
-
-export type Format = "3b" | "4b" | "iso" | "milling";
-
-/** Functions, since the language is not chosen yet when this is read. */
-export const TITLES: Record<Format, () => string> = { "3b": () => "3B", "4b": () => "4B", iso: () => "ISO", milling: () => t("Milling") };
-/** The endings of its files; the first is proposed. */
-export const ENDINGS: Record<Format, readonly [string, ...string[]]> = { "3b": ["3b"], "4b": ["4b"], iso: ["iso", "nc"], milling: ["iso", "nc"] };
+import { t } from "../../../picture/words";
 
 interface How {
   options?: { program?: { profile: string } };

@@ -5,7 +5,7 @@ import type { Server } from "../server/server";
 import { type Listed, read } from "./listed";
 import { complaint, optionsFor, programOf, runNoticed } from "./run";
 import { uriOf } from "./subject";
-import { t } from "../words";
+import { t } from "../../../picture/words";
 
 const SEVERITIES: Record<Listed["severity"], vscode.DiagnosticSeverity> = {
   error: vscode.DiagnosticSeverity.Error,

@@ -10,7 +10,7 @@ import type { Server } from "../server/server";
 import { openMade, write } from "./output";
 import { complaint, programOf, run } from "./run";
 import { subject } from "./subject";
-import { t } from "../words";
+import { t } from "../../../picture/words";
 
 const EXTENSIONS: Record<string, string> = { "3b": ".3b", "wire-iso": ".iso" };
 

@@ -2,10 +2,10 @@
 
 import * as vscode from "vscode";
 import type { Front } from "../front";
-import type { SettingsInForce } from "../protocol";
+import type { SettingsInForce } from "../../../picture/protocol";
 import type { Server } from "../server/server";
 import { isAboveZero, numberOf } from "./numbers";
-import { t } from "../words";
+import { t } from "../../../picture/words";
 
 const KEYS = /^\s*(corrections?|wire[-_]?diameter|tool[-_]?diameter|gap)\s*=/i;
 

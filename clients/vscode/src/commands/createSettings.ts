@@ -6,11 +6,11 @@ import type { Server } from "../server/server";
 import { folderOf, isThere } from "./folder";
 import { type Answers, GAP, initOptions, isPasses, WIRE } from "./init";
 import { isAboveZero, numberOf } from "./numbers";
-import { machines } from "./profiles";
+import { machines } from "../../../picture/profiles";
 import { complaint, programOf, run } from "./run";
 import { settingsThere } from "./settingsFile";
 import { uriOf } from "./subject";
-import { t } from "../words";
+import { t } from "../../../picture/words";
 
 /** The number of questions. */
 const STEPS = 4;

@@ -3,11 +3,11 @@
 import * as vscode from "vscode";
 import type { Front } from "../front";
 import { isDrawing } from "../languages";
-import type { HoleForm } from "../protocol";
+import type { HoleForm } from "../../../picture/protocol";
 import type { Server } from "../server/server";
 import { write } from "./output";
 import { subject } from "./subject";
-import { t } from "../words";
+import { t } from "../../../picture/words";
 
 const FORMS: readonly HoleForm[] = ["csv", "dxf"];
 

@@ -3,11 +3,11 @@
 import * as vscode from "vscode";
 import type { Front } from "../front";
 import { isOurs } from "../languages";
-import type { PictureForm } from "../protocol";
+import type { PictureForm } from "../../../picture/protocol";
 import type { Server } from "../server/server";
 import { write } from "./output";
 import { uriOf } from "./subject";
-import { t } from "../words";
+import { t } from "../../../picture/words";
 
 const FORMS: readonly PictureForm[] = ["pdf", "png", "svg"];
 

@@ -4,7 +4,7 @@ import * as vscode from "vscode";
 import { type CodeAction, LSPErrorCodes, ResponseError, TextDocumentEdit } from "vscode-languageclient/node";
 import type { Front } from "../front";
 import type { Server } from "../server/server";
-import { t } from "../words";
+import { t } from "../../../picture/words";
 
 /** Kind of the action that makes every safe repair. */
 const FIX_ALL = "source.fixAll.wedm";

@@ -1,7 +1,7 @@
 // Which folder what a command makes is written to.
 
 import * as vscode from "vscode";
-import { t } from "../words";
+import { t } from "../../../picture/words";
 
 /** The folder of a file; of a text that is no file yet, that of the workspace. */
 export function folderOf(uri: vscode.Uri): vscode.Uri | undefined {

@@ -4,16 +4,17 @@ import * as vscode from "vscode";
 import type { Front } from "../front";
 import { isDrawing } from "../languages";
 import type { Pictures } from "../picture/pictures";
-import type { PairProgram } from "../protocol";
+import type { PairProgram } from "../../../picture/protocol";
 import type { Server } from "../server/server";
-import { attempt, ENDINGS, type Format, TITLES } from "./attempt";
-import { findingsOf } from "./counted";
+import { attempt } from "./attempt";
+import { ENDINGS, type Format, TITLES } from "../../../picture/programs";
+import { findingsOf } from "../../../picture/counted";
 import { askFolder, folderOf, isThere } from "./folder";
 import { openMade, write } from "./output";
-import { partFile, toldOfPart } from "./parts";
+import { partFile, toldOfPart } from "../../../picture/parts";
 import { offerToKeep } from "./sides";
 import { subject } from "./subject";
-import { t } from "../words";
+import { t } from "../../../picture/words";
 
 /** A wire cuts a pair; nothing of it is milled. */
 const FORMATS: readonly Format[] = ["3b", "4b", "iso"];

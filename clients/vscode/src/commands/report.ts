@@ -10,7 +10,7 @@ import { complaint, type Outcome, optionsFor, programOf, runNoticed } from "./ru
 import { saved } from "./saved";
 import { showReport } from "./showReport";
 import { uriOf } from "./subject";
-import { t } from "../words";
+import { t } from "../../../picture/words";
 
 /** The Explorer hands over what was clicked, and all that is chosen there. */
 export async function report(server: Server, front: Front, clicked: unknown, all: unknown): Promise<void> {

@@ -4,7 +4,7 @@ import { spawn } from "node:child_process";
 import * as vscode from "vscode";
 import type { Server } from "../server/server";
 import { asOptions } from "./inForce";
-import { t } from "../words";
+import { t } from "../../../picture/words";
 
 export interface Outcome {
   /** null when it was ended by a signal. */

@@ -3,7 +3,7 @@
 import { setTimeout as pause } from "node:timers/promises";
 import * as vscode from "vscode";
 import { isOurs } from "../languages";
-import { t } from "../words";
+import { t } from "../../../picture/words";
 
 /** How long a file is given to be saved, ms. */
 const PATIENCE = 3000;

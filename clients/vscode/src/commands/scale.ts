@@ -5,7 +5,7 @@ import type { Front } from "../front";
 import { isProgram } from "../languages";
 import { isAboveZero, numberOf } from "./numbers";
 import { subject } from "./subject";
-import { t } from "../words";
+import { t } from "../../../picture/words";
 
 /** The server's command, which the client offers as its own while the server runs. */
 const COMMAND = "wedm.scale";

@@ -4,7 +4,7 @@ import { randomBytes } from "node:crypto";
 import { readFile } from "node:fs/promises";
 import * as vscode from "vscode";
 import { linked, pageOf } from "./reportPage";
-import { t } from "../words";
+import { t } from "../../../picture/words";
 
 const VIEW_TYPE = "wedm.report";
 

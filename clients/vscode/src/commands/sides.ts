@@ -2,11 +2,11 @@
 
 import * as vscode from "vscode";
 import type { Pictures } from "../picture/pictures";
-import type { ContoursContour, Role } from "../protocol";
+import type { ContoursContour, Role } from "../../../picture/protocol";
 import type { Server } from "../server/server";
-import { keep, type Sides } from "./keep";
+import { keep, type Sides } from "../../../picture/keep";
 import { rewrite, settingsFile } from "./settingsFile";
-import { t } from "../words";
+import { t } from "../../../picture/words";
 
 /** By nesting, one by one, or the answer for the only one. */
 interface Way extends vscode.QuickPickItem {

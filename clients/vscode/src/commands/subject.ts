@@ -3,7 +3,7 @@
 import * as vscode from "vscode";
 import type { Front } from "../front";
 import { isOurs } from "../languages";
-import { t } from "../words";
+import { t } from "../../../picture/words";
 
 /** Commands come from the palette, a menu, a code lens or another program: with a URI, with its text, or with nothing. */
 export async function subject(

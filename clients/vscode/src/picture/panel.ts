@@ -3,23 +3,23 @@
 import * as vscode from "vscode";
 import { LSPErrorCodes, ResponseError } from "vscode-languageclient/node";
 import { isDrawing, isOurs } from "../languages";
-import { keepContour } from "../commands/keep";
+import { keepContour } from "../../../picture/keep";
 import { rewrite, settingsFile } from "../commands/settingsFile";
 import { reveal, revealLine, segmentAt } from "../place";
-import type { Repair, SimulatedBlock } from "../protocol";
+import type { Repair, SimulatedBlock } from "../../../picture/protocol";
 import { rulePage } from "../rulePages";
 import type { Server } from "../server/server";
-import { type Contour, type Fault, fromPage, type FromPage, type Said, type Severity, type ToPage } from "./messages";
+import { type Contour, type Fault, fromPage, type FromPage, type Said, type ToPage } from "../../../picture/messages";
 import { page } from "./page";
-import { whyOf } from "./why";
-import { t } from "../words";
+import { contoursOf, faultOf as shownFault, faultsOfFit } from "../../../picture/shown";
+import { whyOf } from "../../../picture/why";
+import { t } from "../../../picture/words";
 
 export const VIEW_TYPE = "wedm.picture";
 /** A picture is made at most this often while somebody types, in ms. */
 const CALM = 120;
 /** The picture of a very large drawing takes long: at least half of the time is left for everything else, up to this wait. */
 const LONGEST_CALM = 5_000;
-const SEVERITIES: readonly Severity[] = ["error", "warning", "information", "hint"];
 
 export interface Role {
   /** True for the editor of one document; else it is beside the text, and follows whatever is in front. */
@@ -193,15 +193,11 @@ export class Picture implements vscode.Disposable {
 
   /** One outline in the other, and the places where less is left than there should be, the tightest first. */
   async #drawFit(uri: vscode.Uri, name: string): Promise<void> {
-    const { svg, places, clearance: wanted } = await this.server.request("wedm/fit", { uri: uri.toString() });
+    const fit = await this.server.request("wedm/fit", { uri: uri.toString() });
     this.#found = [];
-    const sorted = [...places].sort((a, b) => a.clearance - b.clearance);
-    const faults = sorted.map(({ at, clearance, handle, segment, of }): Fault => {
-      const left = t("{0} mm left", clearance.toFixed(4));
-      return { severity: clearance < 0 ? "error" : "warning", rule: "does-not-fit", message: `${left} (${of})`, left, at, reach: Math.max(wanted, wanted - clearance), handle, segment };
-    });
+    const faults = faultsOfFit(fit);
     const nothing = { contours: [], blocks: [], lines: [], isEditor: false, keeps: false };
-    await this.#tell({ type: "picture", uri: uri.toString(), name, kind: "fit", svg, faults, ...nothing });
+    await this.#tell({ type: "picture", uri: uri.toString(), name, kind: "fit", svg: fit.svg, faults, ...nothing });
   }
 
   /** The contours with their settings. */
@@ -210,19 +206,7 @@ export class Picture implements vscode.Disposable {
       this.server.request("wedm/contours", { uri: uri.toString() }),
       this.server.request("wedm/settings", { uri: uri.toString() }),
     ]);
-    const contours = listed.contours.map((contour, index): Contour => {
-      const handles = [...new Set(contour.segments.map(({ handle }) => handle))];
-      const said = handles.map((handle) => settings.contours?.[handle]).find((each) => each !== undefined) ?? {};
-      return {
-        number: (contour.order ?? index) + 1,
-        handles,
-        closed: contour.closed,
-        role: contour.role,
-        length: contour.length * listed.unitsToMm,
-        said,
-      };
-    });
-    return { contours, toMm: listed.unitsToMm, keeps: uri.scheme === "file" };
+    return { contours: contoursOf(listed, settings), toMm: listed.unitsToMm, keeps: uri.scheme === "file" };
   }
 
   /** Why a finding is one, and what would repair it. */
@@ -370,21 +354,8 @@ function findings(uri: vscode.Uri): vscode.Diagnostic[] {
 }
 
 function faultOf(diagnostic: vscode.Diagnostic, toMm: number): Fault {
-  const { handle, segment, radius } = dataOf(diagnostic);
-  const code = typeof diagnostic.code === "object" ? diagnostic.code.value : diagnostic.code;
-  return {
-    severity: SEVERITIES[diagnostic.severity] ?? "hint",
-    rule: String(code ?? ""),
-    message: diagnostic.message,
-    line: diagnostic.range.start.line,
-    ...(typeof handle === "string" ? { handle } : {}),
-    ...(typeof segment === "number" ? { segment } : {}),
-    ...(typeof radius === "number" ? { radius: radius * toMm } : {}),
-  };
-}
-
-/** The client keeps the server's `data` on the diagnostics that it makes. */
-function dataOf(diagnostic: vscode.Diagnostic): { handle?: unknown; segment?: unknown; radius?: unknown } {
-  const data: unknown = (diagnostic as { data?: unknown }).data;
-  return typeof data === "object" && data !== null ? data : {};
+  const { code, severity, message, range } = diagnostic;
+  const rule = String((typeof code === "object" ? code.value : code) ?? "");
+  // The client keeps the server's `data` on the diagnostics that it makes.
+  return shownFault({ severity, rule, message, line: range.start.line, data: (diagnostic as { data?: unknown }).data }, toMm);
 }

@@ -6,7 +6,7 @@ import type { Front } from "../front";
 import { isDrawing, isOurs } from "../languages";
 import type { Server } from "../server/server";
 import { Picture, VIEW_TYPE } from "./panel";
-import { t } from "../words";
+import { t } from "../../../picture/words";
 
 /** Not restored after a reload of the window: the user asks for it again. */
 const FIT_TYPE = "wedm.fit";

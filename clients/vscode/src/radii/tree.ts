@@ -5,8 +5,8 @@ import type { Front } from "../front";
 import { isDrawing, isOurs } from "../languages";
 import { reveal, segmentAt } from "../place";
 import type { Server } from "../server/server";
-import { type EntityRow, type Row, rows, summary } from "./rows";
-import { t } from "../words";
+import { type EntityRow, type Row, rows, summary } from "../../../picture/rows";
+import { t } from "../../../picture/words";
 
 /** Edits come in bursts, and a long list is not made for each. */
 const CALM = 250;

@@ -1,7 +1,7 @@
 // Where the server's program is: by the setting, beside the extension, on the PATH, where cargo installs. Knows nothing of VS Code.
 
 import { delimiter, isAbsolute, join } from "node:path";
-import { t } from "../words";
+import { t } from "../../../picture/words";
 
 export interface Places {
   /** `wedm.server.path`, where it is set. */

@@ -1,7 +1,7 @@
 // Whether the program that answered is a server that this extension can speak with.
 
-import { PROTOCOL } from "../protocol";
-import { t } from "../words";
+import { PROTOCOL } from "../../../picture/protocol";
+import { t } from "../../../picture/words";
 
 /** The parts of the answer to `initialize` that are checked; an unknown program may have sent anything. */
 export interface Answer {

@@ -2,7 +2,7 @@
 
 import * as vscode from "vscode";
 import type { Server } from "./server";
-import { t } from "../words";
+import { t } from "../../../picture/words";
 
 const HOW = vscode.Uri.parse("https://github.com/wedm/wedm#install");
 

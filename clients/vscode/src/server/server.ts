@@ -7,7 +7,7 @@ import * as vscode from "vscode";
 import type { CodeAction, CodeActionParams, LanguageClient, LanguageClientOptions } from "vscode-languageclient/node";
 import { CloseAction, ErrorAction, RevealOutputChannelOn, State as ClientState } from "vscode-languageclient/node";
 import { selector } from "../languages";
-import type { Methods } from "../protocol";
+import type { Methods } from "../../../picture/protocol";
 import { abilities } from "./abilities";
 import { QuietClient } from "./client";
 import { findServer } from "./find";
@@ -15,7 +15,7 @@ import { misfit } from "./handshake";
 import { isProgram, launch } from "./process";
 import { Restarts } from "./restarts";
 import { forServer } from "./settings";
-import { t } from "../words";
+import { t } from "../../../picture/words";
 
 /** What may be asked: the requests of wedm's own name space, and the one of LSP that VS Code would answer otherwise. */
 interface Requests extends Methods {

@@ -4,7 +4,7 @@ import { writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import type { Browser, Page } from "playwright-core";
 import { html } from "../../src/picture/html";
-import type { Shown, ToPage } from "../../src/picture/messages";
+import type { Shown, ToPage } from "../../../picture/messages";
 import { EXTENSION } from "./paths";
 
 const THEME =

@@ -4,7 +4,7 @@ import { test } from "node:test";
 import { asOptions } from "../../src/commands/inForce";
 import { GAP, initOptions, isPasses, WIRE } from "../../src/commands/init";
 import { isAboveZero, numberOf } from "../../src/commands/numbers";
-import { choices, machines } from "../../src/commands/profiles";
+import { choices, machines } from "../../../picture/profiles";
 import { linked, pageOf } from "../../src/commands/reportPage";
 
 test("of what is set in VS Code only what no wedm.toml sets becomes an option", () => {

@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { cases } from "../../../languages.json";
 import manifest from "../../package.json";
-import { languageOf } from "../../src/content";
+import { languageOf } from "../../../picture/content";
 
 for (const { text, language } of cases) {
   test(`the language of ${JSON.stringify(text.slice(0, 24))}`, () => {

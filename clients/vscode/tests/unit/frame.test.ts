@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { type Box, centred, fitted, moved, roundLength, sees, unitsPerPixel, zoomed } from "../../webview/frame";
+import { type Box, centred, fitted, moved, roundLength, sees, unitsPerPixel, zoomed } from "../../../picture/frame";
 
 function close(seen: Box, expected: Box): void {
   for (const key of ["x", "y", "width", "height"] as const) {

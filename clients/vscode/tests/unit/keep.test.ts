@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { keep, keepContour, type Sides } from "../../src/commands/keep";
+import { keep, keepContour, type Sides } from "../../../picture/keep";
 
 test("what is said of contours is written into wedm.toml, and nothing else is touched", () => {
   const check = (text: string, sides: Sides, expected: string): void => {

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { read } from "../../src/commands/listed";
-import { fromPage } from "../../src/picture/messages";
+import { fromPage } from "../../../picture/messages";
 
 test("of the page's messages only those are heard that say something", () => {
   const check = (message: unknown, expected: unknown): void => {

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { partFile, toldOfPart } from "../../src/commands/parts";
-import type { PairProgram } from "../../src/protocol";
+import { partFile, toldOfPart } from "../../../picture/parts";
+import type { PairProgram } from "../../../picture/protocol";
 
 test("files of parts are named as wedm pair names them", () => {
   assert.equal(partFile("washer", "punch", "3b"), "washer-punch.3b");

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { test } from "node:test";
-import { choices } from "../../src/commands/profiles";
+import { choices } from "../../../picture/profiles";
 
 test("the profiles that ship are those of the page on programs", async () => {
   const page = await readFile(new URL("../../../../docs/programs.md", import.meta.url), "utf8");

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { test } from "node:test";
-import { PAIR_IS_NOT_SET, SIDE_IS_NOT_KNOWN } from "../../src/commands/refusals";
+import { PAIR_IS_NOT_SET, SIDE_IS_NOT_KNOWN } from "../../../picture/refusals";
 
 /** The server's sentence of a name, in both languages. */
 async function sentences(name: string): Promise<string[]> {

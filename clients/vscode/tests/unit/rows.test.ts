@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import type { Inspection } from "../../src/protocol";
-import { rows, summary } from "../../src/radii/rows";
+import type { Inspection } from "../../../picture/protocol";
+import { rows, summary } from "../../../picture/rows";
 
 const inspection: Inspection = {
   unitsToMm: 25.4,

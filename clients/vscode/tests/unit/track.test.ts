@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { Track } from "../../webview/track";
+import { Track } from "../../../picture/track";
 
 test("a distance is a place in a piece", () => {
   const track = new Track([2, 0, 3]);

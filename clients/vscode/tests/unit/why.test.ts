@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { readdir, readFile } from "node:fs/promises";
 import { test } from "node:test";
-import { whyOf } from "../../src/picture/why";
+import { whyOf } from "../../../picture/why";
 
 const rules = new URL("../../../../docs/", import.meta.url);
 

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { readdir, readFile } from "node:fs/promises";
 import { test } from "node:test";
-import { speak, t } from "../../src/words";
+import { speak, t } from "../../../picture/words";
 
 const root = new URL("../../", import.meta.url);
 const read = (name: string): Promise<string> => readFile(new URL(name, root), "utf8");
@@ -18,7 +18,7 @@ function sentences(source: string): string[] {
 }
 
 test("every sentence has its twin, with the same placeholders", async () => {
-  const files = await Promise.all(["src", "webview"].map((folder) => readdir(new URL(folder, root), { recursive: true }).then((names) => names.map((name) => `${folder}/${name}`))));
+  const files = await Promise.all(["src", "webview", "../picture"].map((folder) => readdir(new URL(folder, root), { recursive: true }).then((names) => names.map((name) => `${folder}/${name}`))));
   const sources = await Promise.all(files.flat().filter((name) => name.endsWith(".ts") && !name.endsWith("words.ts")).map(read));
   const said = new Set(sources.flatMap(sentences).filter((sentence) => !sentence.startsWith(".")));
   const twins = await table("l10n/bundle.l10n.zh-cn.json");

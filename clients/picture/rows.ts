@@ -1,0 +1,96 @@
+// The radius list as rows: a contour and the segments in it, then the entities that are in none. Knows nothing of VS Code.
+
+import type { ContoursContour, InspectedEntity, InspectedSegment, Inspection } from "./protocol";
+import { t } from "./words";
+
+export interface SegmentRow {
+  kind: "segment";
+  handle: string;
+  segment: InspectedSegment;
+  label: string;
+  description: string;
+  faulty: boolean;
+}
+
+/** A contour, or an entity that is in none. */
+export interface EntityRow {
+  kind: "entity";
+  /** The handle of its first entity, by which it is named. */
+  handle: string;
+  handles: string[];
+  label: string;
+  description: string;
+  faults: number;
+  segments: SegmentRow[];
+}
+
+export type Row = EntityRow | SegmentRow;
+
+/** Contours in the order in which they are cut. With `onlyFaults`, those without a fault are left out. */
+export function rows(inspection: Inspection, onlyFaults: boolean, contours: readonly ContoursContour[] = []): EntityRow[] {
+  const toMm = inspection.unitsToMm;
+  const entities = new Map(inspection.entities.map((entity) => [entity.handle, entity]));
+  const numbered = contours.map((contour, index) => ({ contour, number: (contour.order ?? index) + 1 }));
+  numbered.sort((a, b) => a.number - b.number);
+  const listed = numbered.map(({ contour, number }) => contourRow(contour, number, entities, toMm, onlyFaults));
+  const held = new Set(listed.flatMap(({ handles }) => handles));
+  const loose = inspection.entities.filter(({ handle }) => !held.has(handle));
+  const all = [...listed, ...loose.map((entity) => entityRow(entity, toMm, onlyFaults))];
+  return onlyFaults ? all.filter((entity) => entity.faults > 0) : all;
+}
+
+function contourRow(
+  contour: ContoursContour,
+  number: number,
+  entities: ReadonlyMap<string, InspectedEntity>,
+  toMm: number,
+  onlyFaults: boolean,
+): EntityRow {
+  const handles = [...new Set(contour.segments.map(({ handle }) => handle))];
+  const segments = handles.flatMap((handle) => {
+    const own = entities.get(handle)?.segments ?? [];
+    return own.map((segment) => segmentRow(handle, segment, toMm, handles.length > 1));
+  });
+  const layers = [...new Set(handles.map((handle) => entities.get(handle)?.layer ?? ""))];
+  const row = { handle: handles[0] ?? "", handles, label: t("Contour {0}", number), layer: layers.join(", ") };
+  return withSegments(row, segments, onlyFaults);
+}
+
+function entityRow(entity: InspectedEntity, toMm: number, onlyFaults: boolean): EntityRow {
+  const segments = entity.segments.map((segment) => segmentRow(entity.handle, segment, toMm, false));
+  const row = { handle: entity.handle, handles: [entity.handle], label: `${entity.type} ${entity.handle}`, layer: entity.layer };
+  return withSegments(row, segments, onlyFaults);
+}
+
+function withSegments(row: Pick<EntityRow, "handle" | "handles" | "label"> & { layer: string }, segments: SegmentRow[], onlyFaults: boolean): EntityRow {
+  const { layer, ...named } = row;
+  const faults = segments.filter((segment) => segment.faulty).length;
+  const count = segments.length === 1 ? t("1 segment") : t("{0} segments", segments.length);
+  return {
+    kind: "entity",
+    ...named,
+    description: `${layer} · ${faults === 0 ? count : t("{0} of {1} not ok", faults, count)}`,
+    faults,
+    segments: onlyFaults ? segments.filter((segment) => segment.faulty) : segments,
+  };
+}
+
+function segmentRow(handle: string, segment: InspectedSegment, toMm: number, isNamed: boolean): SegmentRow {
+  const mm = (length: number): string => (length * toMm).toFixed(3);
+  const what = segment.radius === undefined ? t("line {0}", mm(segment.length)) : `R ${mm(segment.radius)}`;
+  const [x, y] = segment.start;
+  return {
+    kind: "segment",
+    handle,
+    segment,
+    label: `${isNamed ? `${handle} · ` : ""}${segment.index}   ${what}`,
+    description: segment.verdict === "ok" ? `${mm(x)}, ${mm(y)}` : `${segment.verdict} · ${mm(x)}, ${mm(y)}`,
+    faulty: segment.verdict !== "ok",
+  };
+}
+
+/** The totals above the list. */
+export function summary(list: EntityRow[]): string {
+  const faults = list.reduce((sum, entity) => sum + entity.faults, 0);
+  return faults === 0 ? t("all ok") : t("{0} not ok", faults);
+}
