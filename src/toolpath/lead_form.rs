@@ -60,13 +60,17 @@ impl Landing {
         oblique.abs() > OBLIQUE
     }
 
+    /// Where the same path ends, once round its contour: its way out is a lead gone backwards.
+    pub(super) fn once_round(&self) -> Landing {
+        Landing {
+            along: -self.along,
+            ..*self
+        }
+    }
+
     /// Where such a path ends, at `path`, for a lead that is gone backwards.
     pub(crate) fn of_end(path: Point, along: Vector, side: f64, control: f64) -> Landing {
-        let begin = Landing::of_begin(path, along, side, control);
-        Landing {
-            along: -along,
-            ..begin
-        }
+        Landing::of_begin(path, along, side, control).once_round()
     }
 }
 

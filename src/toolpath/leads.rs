@@ -331,7 +331,15 @@ pub(super) fn thread_hole(
     if settings.lead_in == 0.0 {
         return Ok(begin);
     }
-    let clear = |thread: Point| surroundings.way(thread, landing, correction / unit_mm);
+    // An arc comes from one side and leaves to the other: both have to be free. All other ways are the same both times.
+    let clear = |thread: Point| {
+        let way = |landing: &Landing| surroundings.way(thread, landing, correction / unit_mm);
+        let way_in = way(landing)?;
+        match surroundings.lead {
+            Lead::Arc => way(&landing.once_round()),
+            _ => Ok(way_in),
+        }
+    };
     for &center in threading.first {
         if (center - begin).norm() <= 1e-6 / unit_mm {
             return Ok(begin);

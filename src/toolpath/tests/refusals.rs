@@ -135,6 +135,27 @@ fn where_no_lead_fits_another_side_is_entered() {
     }
 }
 
+/// In the slit of a keyhole near the rim of a disc an arc comes in along the slit, but finds no way out past its mouth.
+#[test]
+fn an_arc_has_a_way_in_and_a_way_out() {
+    let keyhole: &[[f64; 3]] = &[
+        [4.869440, 0.301592, 32.322464518],
+        [4.869440, -0.301592, 0.0],
+        [3.853293, -0.301592, -8.195790205],
+        [3.853293, 0.301592, 0.0],
+    ];
+    let (drawing, outlines) = drawing(&[(keyhole, Some(Role::Punch))]);
+    let settings = Effective {
+        lead: Lead::Arc,
+        correction: 0.13,
+        ..defaults()
+    };
+    let path = plan(&drawing, &outlines, &settings, None)
+        .unwrap_or_else(|refusal| panic!("{refusal:?}"))
+        .remove(0);
+    assert!(path.thread_hole.x < -5.0, "{}", path.thread_hole);
+}
+
 #[test]
 fn a_slot_narrower_than_the_wire_is_left_out_and_an_error() {
     for (width, fits) in [(0.19, false), (0.2, true), (0.201, true)] {
