@@ -283,15 +283,8 @@ fn say_encoding(writing: Writing) {
     }
 }
 
-/// The faults of a `wedm.toml`.
-pub(crate) fn faults_of_settings(file: &Path) -> Result<Vec<Row>, Failure> {
-    // It holds for itself, too.
-    let (_, rows) = settings_for(file, &Common::default(), &Settings::default())?;
-    Ok(rows)
-}
-
 /// The settings for an input, and the faults found in settings files.
-fn settings_for(
+pub(crate) fn settings_for(
     path: &Path,
     common: &Common,
     last: &Settings,

@@ -3,6 +3,7 @@
 use super::{Failure, Verdict, check, files, output};
 use crate::compare::plain as plain_path;
 use crate::disk::{Fence, plain};
+use crate::server;
 use crate::view::{Bench, Root, Shown, is_of_ours};
 use clap::Args;
 use std::io::ErrorKind;
@@ -25,6 +26,7 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
+    server::log_to_stderr();
     let shown = shown(&arguments.paths)?;
     let folders = shown.roots.iter().map(|root| root.folder.clone());
     let fence = Fence::around(folders).map_err(|error| Failure(plain(&error)))?;

@@ -216,7 +216,7 @@ impl Inbox for ToState {
 }
 
 /// Logs to stderr by `WEDM_LOG`, warnings and worse by default. Standard output belongs to the protocol.
-fn log_to_stderr() {
+pub(crate) fn log_to_stderr() {
     let said = std::env::var("WEDM_LOG").ok();
     let filter: Targets = said
         .and_then(|said| said.parse().ok())

@@ -1,26 +1,22 @@
 //! The requests of the page, and what each is answered.
 
-use super::connections::Place;
 use super::guard::Pass;
+use super::places::Place;
+use super::reply::{Answer, Body, json_of, refusal, too_much, with};
 use super::shelf::Change;
 use super::{Page, View, files, socket};
 use crate::message::{Asker, Language, speak, spoken};
 use futures_util::stream;
-use http_body_util::combinators::UnsyncBoxBody;
-use http_body_util::{BodyExt, Full, StreamBody};
+use http_body_util::{BodyExt, StreamBody};
 use hyper::body::{Bytes, Frame, Incoming};
 use hyper::header::{self, HeaderValue};
 use hyper::{Method, Request, Response, StatusCode};
-use serde::Serialize;
 use serde_json::json;
 use std::convert::Infallible;
 use std::sync::Arc;
 use std::time::Duration;
 use tokio::sync::broadcast::error::RecvError;
 use tokio_tungstenite::tungstenite::handshake::server::create_response_with_body;
-
-pub(super) type Body = UnsyncBoxBody<Bytes, Infallible>;
-pub(super) type Answer = Response<Body>;
 
 /// The page, as the repository holds it.
 const PAGE: [(&str, &str, &[u8]); 4] = [
@@ -76,7 +72,7 @@ async fn answer_known(view: &Arc<View>, request: Request<Incoming>) -> Answer {
     let path = request.uri().path();
     let of_page = PAGE.iter().find(|(name, ..)| *name == path);
     match (request.method(), path) {
-        (&Method::GET, "/api/start") => start(view, &request),
+        (&Method::GET, "/api/start") => start(view, &request).await,
         (&Method::GET, "/api/files") => json_of(&view.shelf.listed()),
         (&Method::GET, "/api/changes") => changes(view),
         (&Method::GET, "/api/file") => files::read(view, &request).await,
@@ -92,19 +88,21 @@ async fn answer_known(view: &Arc<View>, request: Request<Incoming>) -> Answer {
     }
 }
 
-fn start(view: &View, request: &Request<Incoming>) -> Answer {
+async fn start(view: &Arc<View>, request: &Request<Incoming>) -> Answer {
     // On Windows no environment says a language; the browser does.
     let accepted = request.headers().get(header::ACCEPT_LANGUAGE);
     let first = accepted.and_then(|accepted| accepted.to_str().ok()?.split([',', ';']).next());
     if let Some(language) = first.and_then(Language::of) {
         speak(language, Asker::Client);
     }
+    let shared = view.clone();
+    let has_settings = tokio::task::spawn_blocking(move || shared.shelf.has_settings());
     json_of(&json!({
         "version": env!("CARGO_PKG_VERSION"),
         "language": spoken().tag(),
         "roots": view.shelf.roots(),
         "opened": view.shelf.opened(),
-        "hasSettings": view.shelf.has_settings(),
+        "hasSettings": has_settings.await.unwrap_or_default(),
     }))
 }
 
@@ -146,29 +144,4 @@ fn lsp(view: &Arc<View>, mut request: Request<Incoming>) -> Answer {
     let upgrade = hyper::upgrade::on(&mut request);
     tokio::spawn(socket::converse(view.clone(), page, upgrade));
     answer
-}
-
-pub(super) fn with(status: StatusCode, kind: &'static str, bytes: Bytes) -> Answer {
-    let mut answer = Response::new(Full::new(bytes).boxed_unsync());
-    *answer.status_mut() = status;
-    let kind = HeaderValue::from_static(kind);
-    answer.headers_mut().insert(header::CONTENT_TYPE, kind);
-    answer
-}
-
-fn json_of(value: &impl Serialize) -> Answer {
-    match serde_json::to_vec(value) {
-        Ok(json) => with(StatusCode::OK, "application/json", json.into()),
-        Err(error) => refusal(StatusCode::INTERNAL_SERVER_ERROR, error),
-    }
-}
-
-/// A plain sentence.
-pub(super) fn refusal(status: StatusCode, sentence: impl ToString) -> Answer {
-    let text = sentence.to_string() + "\n";
-    with(status, "text/plain; charset=utf-8", text.into())
-}
-
-pub(super) fn too_much() -> Answer {
-    refusal(StatusCode::SERVICE_UNAVAILABLE, say!(too_much_at_a_time))
 }

@@ -1,96 +1,19 @@
-//! The connections, and who gives way where there are too many.
-//!
-//! A *stranger* is a connection on which no request has had the cookie yet: any program on this computer can open one, and
-//! any page of the browser. So many of them, or such as say nothing, push each other out, and never a page of ours.
+//! Takes connections, and has their requests answered.
 
-use super::View;
-use super::answers;
+use super::places::Place;
+use super::{View, answers};
 use hyper::server::conn::http1;
 use hyper::service::service_fn;
 use hyper_util::rt::{TokioIo, TokioTimer};
-use rustc_hash::FxHashSet;
-use std::collections::VecDeque;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::Arc;
 use std::time::Duration;
 use tokio::net::{TcpListener, TcpStream};
 use tokio::sync::oneshot;
 
-/// Browsers open six at a time.
-const MOST_STRANGERS: usize = 32;
-/// Pages have two or three each while nothing is loaded.
-const MOST_KNOWN: usize = 128;
 /// For the head of a request, and between two requests.
 const PATIENCE: Duration = Duration::from_secs(20);
 /// The longest head of a request: a `file:` URI that is encoded twice takes a few kilobytes.
 const LONGEST_HEAD: usize = 64 * 1024;
-
-#[derive(Default)]
-pub(super) struct Connections {
-    open: Mutex<Open>,
-}
-
-#[derive(Default)]
-struct Open {
-    next: u64,
-    /// The oldest first, each with what tells it to go.
-    strangers: VecDeque<(u64, oneshot::Sender<()>)>,
-    known: FxHashSet<u64>,
-}
-
-/// The place of one connection among them.
-pub(super) struct Place {
-    number: u64,
-    connections: Arc<Connections>,
-}
-
-impl Connections {
-    fn lock(&self) -> MutexGuard<'_, Open> {
-        self.open.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    /// A place for a stranger, and what tells it to go.
-    fn admit(self: &Arc<Self>) -> (Place, oneshot::Receiver<()>) {
-        let mut open = self.lock();
-        open.next += 1;
-        if open.strangers.len() >= MOST_STRANGERS
-            && let Some((_, oldest)) = open.strangers.pop_front()
-        {
-            let _ = oldest.send(());
-        }
-        let (go, told) = oneshot::channel();
-        let number = open.next;
-        open.strangers.push_back((number, go));
-        let connections = self.clone();
-        (
-            Place {
-                number,
-                connections,
-            },
-            told,
-        )
-    }
-}
-
-impl Place {
-    /// It is one of ours from now on; false where there are too many of them.
-    pub(super) fn is_known(&self) -> bool {
-        let mut open = self.connections.lock();
-        let is_known = open.known.contains(&self.number);
-        if !is_known && open.known.len() < MOST_KNOWN {
-            open.strangers.retain(|(number, _)| *number != self.number);
-            return open.known.insert(self.number);
-        }
-        is_known
-    }
-}
-
-impl Drop for Place {
-    fn drop(&mut self) {
-        let mut open = self.connections.lock();
-        open.known.remove(&self.number);
-        open.strangers.retain(|(number, _)| *number != self.number);
-    }
-}
 
 /// Takes connections for ever.
 pub(super) async fn accept(listener: TcpListener, view: Arc<View>) {

@@ -1,7 +1,7 @@
 //! One file, read or written: within the fence, and of a kind that wedm makes or reads.
 
 use super::View;
-use super::answers::{Answer, refusal, too_much, with};
+use super::reply::{Answer, refusal, too_much, with};
 use crate::disk::{self, Barred, Seen, ending_of};
 use crate::document::FileKind;
 use crate::server::path_of;

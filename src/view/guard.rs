@@ -4,7 +4,7 @@
 //! *Host* is what the browser believes to speak to: a name of another that was made to lead here (DNS rebinding) differs.
 //! *Origin* is the page that asks.
 
-use super::answers::{Answer, Body, refusal};
+use super::reply::{Answer, Body, refusal};
 use hyper::header::{self, HeaderName, HeaderValue};
 use hyper::{Method, Request, Response, StatusCode};
 
@@ -72,29 +72,29 @@ impl Guard {
         let Some(host) = self.host(request) else {
             return Err(refusal(StatusCode::FORBIDDEN, say!(another_host)));
         };
-        let changes = *request.method() != Method::GET || request.uri().path() == "/lsp";
+        let path = request.uri().path();
         let is_own = match request.headers().contains_key(header::ORIGIN) {
             true => one(request, &header::ORIGIN)
                 .and_then(|origin| origin.strip_prefix("http://"))
                 .is_some_and(|origin| origin == host),
-            false => !changes,
+            false => {
+                // Newer browsers say where a request comes from; the first address may be a link in another page.
+                let site = request.headers().get("sec-fetch-site");
+                let is_of_others = site.is_some_and(|site| site != "same-origin" && site != "none");
+                *request.method() == Method::GET && path != "/lsp" && (!is_of_others || path == "/")
+            }
         };
-        // Newer browsers say it of every request; a first address may be a link in another page.
-        let site = request.headers().get("sec-fetch-site");
-        let is_of_others = site.is_some_and(|site| site != "same-origin" && site != "none");
-        if !is_own || (is_of_others && request.uri().path() != "/") {
+        if !is_own {
             return Err(refusal(StatusCode::FORBIDDEN, say!(another_page_asks)));
         }
         if let Some(token) = self.token(request) {
-            return match self.token.is(token) {
-                true => Ok(Pass::New(self.welcome())),
-                false => Err(refusal(StatusCode::FORBIDDEN, say!(another_address))),
-            };
+            if self.token.is(token) {
+                return Ok(Pass::New(self.welcome()));
+            }
+        } else if self.has_cookie(request) {
+            return Ok(Pass::Known);
         }
-        match self.has_cookie(request) {
-            true => Ok(Pass::Known),
-            false => Err(refusal(StatusCode::FORBIDDEN, say!(another_address))),
-        }
+        Err(refusal(StatusCode::FORBIDDEN, say!(another_address)))
     }
 
     fn token<'a, T>(&self, request: &'a Request<T>) -> Option<&'a str> {
@@ -133,12 +133,22 @@ impl Guard {
 
     /// What every answer says to the browser: nothing is kept, guessed, shown in other pages, or taken from elsewhere.
     pub(super) fn seal(&self, answer: &mut Answer) {
-        let policy = format!(
-            "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; \
-             connect-src 'self' ws://127.0.0.1:{port} ws://localhost:{port}; font-src 'self'; \
-             base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
-            port = self.port
+        let sockets = format!(
+            "connect-src 'self' ws://127.0.0.1:{0} ws://localhost:{0}",
+            self.port
         );
+        let policy = [
+            "default-src 'none'",
+            "script-src 'self'",
+            "style-src 'self'",
+            "img-src data: 'self' blob:",
+            &sockets,
+            "font-src 'self'",
+            "base-uri 'none'",
+            "form-action 'none'",
+            "frame-ancestors 'none'",
+        ];
+        let policy = policy.join("; ");
         let headers = answer.headers_mut();
         headers.extend(
             HeaderValue::try_from(policy)

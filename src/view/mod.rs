@@ -4,7 +4,7 @@
 //! them. Nothing is decided here that the server or the command line could decide: which files there are and how many
 //! faults each has is asked of whoever opens the bench.
 //!
-//! - *Guard*: who may ask. *Connections*: how many may. *Answers*: the requests, each with its answer.
+//! - *Guard*: who may ask. *Places*: how many may. *Connections*, *Answers*, *Reply*: the requests, each with its answer.
 //! - *Socket*: a session of the server for each page. *Files*: one file read or written, within the fence alone.
 //! - *Shelf*: the files that are shown, with their counts. *Watch*: what tells the shelf and the pages of changes.
 
@@ -12,6 +12,8 @@ mod answers;
 mod connections;
 mod files;
 mod guard;
+mod places;
+mod reply;
 mod shelf;
 mod socket;
 mod watch;
@@ -20,8 +22,8 @@ pub(crate) use files::is_of_ours;
 pub(crate) use shelf::{Counts, Root, Shown};
 
 use crate::disk::Fence;
-use connections::Connections;
 use guard::Guard;
+use places::Connections;
 use shelf::Shelf;
 use std::io;
 use std::net::Ipv4Addr;
@@ -99,12 +101,16 @@ impl Bench {
         let view = View {
             guard,
             connections: Arc::default(),
-            shelf: Shelf::fill(shown, fence.clone())?,
+            shelf: Arc::new(Shelf::new(shown, fence.clone())),
             fence,
             pages: counted::Sender::new(0),
             room: Arc::new(Semaphore::new(ROOM)),
             writing: std::sync::Mutex::default(),
         };
+        let (counting, watching) = (view.shelf.clone(), view.shelf.clone());
+        let thread = |name: &str| std::thread::Builder::new().name(name.into());
+        thread("wedm-count").spawn(move || counting.count())?;
+        thread("wedm-watch").spawn(move || watch::watch(&watching))?;
         Ok(Bench {
             runtime,
             listener,

@@ -4,17 +4,15 @@
 //! sessions. Which files there are, and how many faults each has, is asked of whoever opens the bench.
 
 use super::files::LARGEST;
-use super::watch;
 use crate::disk::{Fence, ending_of};
 use crate::document::FileKind;
-use crate::program::Language;
 use crate::server::uri_of;
 use crate::settings;
-use serde::Serialize;
+use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 use tokio::sync::broadcast;
 
@@ -65,12 +63,11 @@ impl Change {
     /// A server-sent event.
     pub(super) fn as_event(&self) -> String {
         let (name, data) = match self {
-            Change::Files => ("files", serde_json::json!({})),
-            Change::Saved { uri, modified } => (
-                "saved",
-                serde_json::json!({ "uri": uri, "modified": modified }),
-            ),
-            Change::Writing { uri } => ("writing", serde_json::json!({ "uri": uri })),
+            Change::Files => ("files", json!({})),
+            Change::Saved { uri, modified } => {
+                ("saved", json!({ "uri": uri, "modified": modified }))
+            }
+            Change::Writing { uri } => ("writing", json!({ "uri": uri })),
         };
         format!("event: {name}\ndata: {data}\n\n")
     }
@@ -115,47 +112,16 @@ pub(super) struct Shelf {
     changes: broadcast::Sender<Change>,
 }
 
-#[derive(Serialize)]
-pub(super) struct RootNamed {
-    name: String,
-    uri: String,
-}
-
-#[derive(Serialize)]
-pub(super) struct Listed {
-    files: Vec<ListedFile>,
-    pending: bool,
-    left: usize,
-}
-
-#[derive(Serialize)]
-struct ListedFile {
-    uri: String,
-    path: String,
-    language: &'static str,
-    bytes: u64,
-    modified: u64,
-    errors: Option<usize>,
-    warnings: Option<usize>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    trouble: Option<String>,
-}
-
 impl Shelf {
-    /// Begins to look for files, to count them, and to watch them.
-    pub(super) fn fill(shown: Shown, fence: Fence) -> std::io::Result<Arc<Shelf>> {
-        let shelf = Arc::new(Shelf {
+    /// An empty one.
+    pub(super) fn new(shown: Shown, fence: Fence) -> Shelf {
+        Shelf {
             shown,
             fence,
             listing: Mutex::default(),
             asked: Condvar::new(),
             changes: broadcast::Sender::new(MOST_WAITING),
-        });
-        let (counting, watching) = (shelf.clone(), shelf.clone());
-        let thread = |name: &str| std::thread::Builder::new().name(name.into());
-        thread("wedm-count").spawn(move || counting.count())?;
-        thread("wedm-watch").spawn(move || watch::watch(&watching))?;
-        Ok(shelf)
+        }
     }
 
     fn lock(&self) -> MutexGuard<'_, Listing> {
@@ -175,15 +141,15 @@ impl Shelf {
         &self.shown.roots
     }
 
-    pub(super) fn roots(&self) -> Vec<RootNamed> {
-        let named = |root: &Root| {
-            let name = root.folder.file_name().unwrap_or(root.folder.as_os_str());
-            Some(RootNamed {
-                name: name.to_string_lossy().into_owned(),
-                uri: uri_of(&root.folder)?,
+    /// For `/api/start`.
+    pub(super) fn roots(&self) -> Vec<Value> {
+        let roots = self.shown.roots.iter();
+        roots
+            .map(|root| {
+                let name = root.folder.file_name().unwrap_or(root.folder.as_os_str());
+                json!({ "name": name.to_string_lossy(), "uri": uri_of(&root.folder) })
             })
-        };
-        self.shown.roots.iter().filter_map(named).collect()
+            .collect()
     }
 
     /// The URIs of the files that were named by themselves.
@@ -201,47 +167,42 @@ impl Shelf {
         self.shown.roots.iter().all(has)
     }
 
-    pub(super) fn listed(&self) -> Listed {
+    /// For `/api/files`.
+    pub(super) fn listed(&self) -> Value {
         let listing = self.lock();
         let files = listing.entries.iter();
-        Listed {
-            files: files
-                .filter_map(|(path, entry)| self.listed_file(path, entry))
-                .collect(),
-            pending: !listing.is_found || listing.is_counting || !listing.uncounted.is_empty(),
-            left: listing.left,
-        }
+        let is_counted = listing.is_found && !listing.is_counting && listing.uncounted.is_empty();
+        json!({
+            "files": files.map(|(path, entry)| self.listed_file(path, entry)).collect::<Vec<_>>(),
+            "pending": !is_counted,
+            "left": listing.left,
+        })
     }
 
-    fn listed_file(&self, path: &Path, entry: &Entry) -> Option<ListedFile> {
-        let root = self.shown.roots.iter().map(|root| &root.folder);
-        let mut rests = root.filter_map(|folder| path.strip_prefix(folder).ok());
-        let counts = entry
-            .counted
-            .as_ref()
-            .and_then(|counted| counted.as_ref().ok());
-        let trouble = entry
-            .counted
-            .as_ref()
-            .and_then(|counted| counted.as_ref().err());
-        Some(ListedFile {
-            uri: uri_of(path)?,
-            path: rests
-                .next()
-                .unwrap_or(path)
-                .to_string_lossy()
-                .replace('\\', "/"),
-            language: match FileKind::of_ending(&ending_of(path)) {
-                Some(FileKind::Drawing) => "dxf",
-                Some(FileKind::Program(Language::ThreeB)) => "3b",
-                Some(FileKind::Program(Language::Iso)) => "wire-iso",
-                None => "toml",
-            },
-            bytes: entry.stamp.bytes,
-            modified: entry.stamp.milliseconds(),
-            errors: counts.map(|counts| counts.errors),
-            warnings: counts.map(|counts| counts.warnings),
-            trouble: trouble.cloned(),
+    fn listed_file(&self, path: &Path, entry: &Entry) -> Value {
+        let roots = self.shown.roots.iter();
+        let rest = roots
+            .filter_map(|root| path.strip_prefix(&root.folder).ok())
+            .next();
+        let language = match FileKind::of_ending(&ending_of(path)) {
+            Some(FileKind::Drawing) => "dxf",
+            Some(FileKind::Program(language)) => language.id(),
+            None => "toml",
+        };
+        let (counts, trouble) = match &entry.counted {
+            None => (None, None),
+            Some(Ok(counts)) => (Some(counts), None),
+            Some(Err(sentence)) => (None, Some(sentence)),
+        };
+        json!({
+            "uri": uri_of(path),
+            "path": rest.unwrap_or(path).to_string_lossy().replace('\\', "/"),
+            "language": language,
+            "bytes": entry.stamp.bytes,
+            "modified": entry.stamp.milliseconds(),
+            "errors": counts.map(|counts| counts.errors),
+            "warnings": counts.map(|counts| counts.warnings),
+            "trouble": trouble,
         })
     }
 
@@ -259,7 +220,7 @@ impl Shelf {
             paths.extend(found);
         }
         let (named, others): (Vec<PathBuf>, Vec<PathBuf>) = (paths.into_iter())
-            .filter(|path| self.fence.encloses(path))
+            .filter(|path| self.fence.encloses(path) && uri_of(path).is_some())
             .partition(|path| self.shown.opened.contains(path));
         let count = named.len() + others.len();
         self.lock().left = count.saturating_sub(MOST);
@@ -334,7 +295,6 @@ impl Shelf {
         let dependent: Vec<PathBuf> = dependent.cloned().collect();
         listing.uncounted.extend(dependent);
         drop(listing);
-        self.asked.notify_one();
         if old.is_some() != stamp.is_some() {
             self.tell(Change::Files);
         }
@@ -342,10 +302,11 @@ impl Shelf {
             let modified = stamp.milliseconds();
             self.tell(Change::Saved { uri, modified });
         }
+        self.asked.notify_one();
     }
 
     /// Counts for ever.
-    fn count(&self) {
+    pub(super) fn count(&self) {
         let mut told = Instant::now();
         loop {
             let mut listing = self.lock();

@@ -35,7 +35,7 @@ struct Watch<'a> {
 }
 
 /// Watches for ever.
-pub(super) fn watch(shelf: &Arc<Shelf>) {
+pub(super) fn watch(shelf: &Shelf) {
     let (reports, reported) = sync_channel(MOST);
     let missed = Arc::new(AtomicBool::new(false));
     let missed_by = missed.clone();
@@ -82,12 +82,11 @@ impl Watch<'_> {
         let mut next_look = Instant::now() + pause;
         let (mut is_due, mut not_before) = (false, Instant::now());
         loop {
-            let until_look = if is_due { not_before } else { next_look };
-            let until_look = until_look.saturating_duration_since(Instant::now());
-            let wait = match self.unsettled.is_empty() {
-                true => until_look,
-                false => until_look.min(SETTLED),
-            };
+            let next = if is_due { not_before } else { next_look };
+            let settling = self.unsettled.values();
+            let settled = settling.map(|unsettled| unsettled.since + SETTLED).min();
+            let until = settled.map_or(next, |settled| settled.min(next));
+            let wait = until.saturating_duration_since(Instant::now());
             let mut touched = BTreeSet::new();
             match reported.recv_timeout(wait) {
                 Ok(path) => touched.extend([path].into_iter().chain(reported.try_iter())),

@@ -355,7 +355,11 @@ fn check(
 pub(crate) fn count(path: &Path, fence: &Fence) -> Result<Counts, String> {
     let arguments = Arguments::default();
     let rows = match path.file_name() == Some(settings::FILE_NAME.as_ref()) {
-        true => files::faults_of_settings(path).map_err(|Failure(sentence)| sentence)?,
+        true => {
+            // It holds for itself, too.
+            let read = files::settings_for(path, &arguments.common, &Settings::default());
+            read.map_err(|Failure(sentence)| sentence)?.1
+        }
         false => {
             let folders = Folders::within(fence);
             let checked = check(path, &arguments, &Settings::default(), &folders, false);

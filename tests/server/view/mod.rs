@@ -3,6 +3,7 @@
 mod files;
 mod guard;
 mod many;
+mod outside;
 mod session;
 mod start;
 

@@ -47,7 +47,7 @@ fn what_cannot_be_shown_is_said() {
     );
     check(
         &["--port", &port, "--lang", "zh"],
-        &format!("错误: 端口 {port} 已被其他程序占用：请用 --port 另选一个，或不指定"),
+        &format!("错误：端口 {port} 已被其他程序占用：请用 --port 另选一个，或不指定"),
     );
 }
 
