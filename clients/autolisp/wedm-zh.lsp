@@ -22,6 +22,7 @@
     (repaired . "改了 %1 个图元；用 U 可一次撤销")
     (left . "剩下 %1 处")
     (not-repaired . "没有修复：%1：%2")
+    (no-undo . "UNDO 已关闭，不修复：否则无法撤销")
     (undone . "什么都没有改：图元 %1 改不了（图层是否锁定？）")
     (which-side . "电极丝走哪一侧：按嵌套、型孔、凸模 [自动(Auto)/型孔(Opening)/凸模(Punch)] <不写>：")
     (save-program . "保存程序")

@@ -33,6 +33,7 @@
     (repaired . "%1 entities changed; U takes all of it back")
     (left . "left: %1")
     (not-repaired . "not repaired: %1: %2")
+    (no-undo . "nothing is repaired while UNDO is switched off: it could not be taken back")
     (undone . "nothing was changed: entity %1 could not be changed (is its layer locked?)")
     (which-side . "Side of the wire, by nesting, in an opening or round a punch [Auto/Opening/Punch] <none>: ")
     (save-program . "Save the program")
@@ -49,12 +50,10 @@
   (and (setq page (getvar "SYSCODEPAGE"))
        (= (strcase page) "ANSI_936")))
 
-(defun wedm:language ( / named)
-  (cond ((member (setq named (getenv "WEDM_LANG")) '("zh" "en")) named)
-        ((wedm:is-chinese) "zh")
-        (T "en")))
-
 ;; GBK is what a program under code page 936 reads and shows; elsewhere only ASCII is sure.
+(defun wedm:language ()
+  (if (and (wedm:is-chinese) (/= (getenv "WEDM_LANG") "en")) "zh" "en"))
+
 (defun wedm:encoding ()
   (if (wedm:is-chinese) "gbk" "ascii"))
 
@@ -118,8 +117,11 @@
     (wedm:say 'failed (list message)))
   (princ))
 
+(defun wedm:can-undo ()
+  (= 1 (logand 1 (getvar "UNDOCTL"))))
+
 (defun wedm:begin-group ()
-  (if (= 1 (logand 1 (getvar "UNDOCTL")))
+  (if (wedm:can-undo)
     (progn
       (command "_.UNDO" "_BE")
       (setq wedm:in-group T))))
@@ -189,7 +191,7 @@
         (wedm:say 'too-late (list wedm:patience)))
       (foreach file (list answer part errors)
         (vl-file-delete file))
-      items)))
+      (if (wedm:has-failed items) nil items))))
 
 (defun wedm:lines (path / file line lines)
   (if (setq file (open path "r"))
@@ -285,9 +287,11 @@
 ;;; Marks and lists.
 
 (defun wedm:layer (name colour)
-  (command "_.-LAYER" "_N" name "_C" colour name "_T" name "_U" name ""))
+  (command "_.-LAYER" "_N" name "_C" colour name "_ON" name "_T" name "_U" name ""))
 
 (defun wedm:clear (layer / selection index)
+  (if (tblsearch "LAYER" layer)
+    (command "_.-LAYER" "_U" layer ""))
   (if (setq selection (ssget "_X" (list (cons 8 layer))))
     (repeat (setq index (sslength selection))
       (setq index (1- index))
@@ -358,7 +362,7 @@
     (progn
       (setq items (wedm:ask (strcat verb " " (wedm:quoted file))))
       (vl-file-delete file)
-      (if (wedm:has-failed items) nil items))))
+      items)))
 
 ;; Those of the findings that concern the selection; all where there is none.
 (defun wedm:chosen (findings selection)
@@ -383,14 +387,29 @@
 (defun wedm:without (codes groups)
   (vl-remove-if '(lambda (group) (member (car group) codes)) groups))
 
+;; The groups of a list in the place of those with their codes.
+(defun wedm:put (fresh groups)
+  (foreach group fresh
+    (setq groups (subst group (assoc (car group) groups) groups)))
+  groups)
+
 ;; Gives an entity other geometry. Its other groups stay: layer, colour, elevation, extrusion, data of other programs.
 (defun wedm:set-entity (entity groups / kind)
   (setq kind (cdr (assoc 0 groups)))
   (cond
     ((= kind "POLYLINE") (wedm:set-polyline entity groups))
-    ((= kind "LWPOLYLINE")
-     (entmod (append (wedm:without '(90 70 43 10 40 41 42 91) (entget entity)) (cdr groups))))
-    (T (entmod (append (wedm:without (mapcar 'car (cdr groups)) (entget entity)) (cdr groups))))))
+    ((= kind "LWPOLYLINE") (wedm:set-vertices entity groups))
+    (T (entmod (wedm:put (cdr groups) (entget entity))))))
+
+;; The vertices take the place of the old ones: behind what is of the whole polyline, before its extrusion.
+(defun wedm:set-vertices (entity groups / old extrusion)
+  (setq old (entget entity)
+        extrusion (assoc 210 old))
+  (entmod
+    (append
+      (wedm:put (list (assoc 90 groups) (assoc 70 groups)) (wedm:without '(43 10 40 41 42 91 210) old))
+      (wedm:without '(0 90 70) groups)
+      (if extrusion (list extrusion)))))
 
 ;; The groups from each code 10 on, as a list for each vertex.
 (defun wedm:vertices (groups / vertices)
@@ -413,13 +432,13 @@
         vertices (wedm:vertices (cddr groups))
         records (wedm:records entity))
   (if (= (length records) (length vertices))
-    (and (entmod (append (wedm:without '(70) head) (list flags)))
+    (and (entmod (wedm:put (list flags) head))
          (not (member nil
                 (mapcar '(lambda (record vertex)
-                           (entmod (append (wedm:without '(10 40 41 42) (entget record)) vertex)))
+                           (entmod (wedm:put vertex (entget record))))
                   records vertices)))
          (progn (entupd entity) T))
-    (and (wedm:make-polyline (append (wedm:without '(-1 5 100 330 70) head) (list flags)) vertices)
+    (and (wedm:make-polyline (wedm:put (list flags) (wedm:without '(-1 5 100 102 330 360) head)) vertices)
          (entdel entity))))
 
 (defun wedm:make-polyline (head vertices / common)
@@ -446,9 +465,15 @@
       (setq refused (if (= (type (cadr item)) 'STR) (cadr item) "?"))))
   refused)
 
-(defun c:RMINFIX ( / *error* items changes refused left)
+(defun c:RMINFIX ( / *error*)
   (setq *error* wedm:failed)
   (wedm:begin)
+  (if (wedm:can-undo)
+    (wedm:repair)
+    (wedm:say 'no-undo nil))
+  (wedm:end))
+
+(defun wedm:repair ( / items changes refused left)
   (setq items (wedm:ask-anew "fix")
         changes (vl-remove-if-not '(lambda (item) (member (car item) '(entmod entdel entmake))) items)
         left (wedm:faults items)
@@ -460,8 +485,7 @@
     (refused
      (command "_.U")
      (wedm:say 'undone (list refused)))
-    (items (wedm:tell-fixed items (length changes) left)))
-  (wedm:end))
+    (items (wedm:tell-fixed items (length changes) left))))
 
 (defun wedm:tell-fixed (items count left)
   (foreach line (wedm:get 'made (assoc 'fixed items))
@@ -495,7 +519,6 @@
               items (wedm:ask (strcat words (wedm:options format handles side)))
               refused (assoc 'refused items)))))
   (cond ((null items) nil)
-        ((wedm:has-failed items) nil)
         (refused
          (wedm:say 'failed (list (wedm:get 'message refused)))
          (wedm:list-all (wedm:faults items))
@@ -525,7 +548,7 @@
         (setq items (wedm:ask
                       (strcat words (wedm:options format handles (car tried))
                               " --overwrite -o " (wedm:quoted file)))))))
-  (if (and items (not (wedm:has-failed items)))
+  (if items
     (progn
       (wedm:list-all (wedm:faults items))
       (if (setq program (assoc 'program items))
@@ -557,15 +580,20 @@
 
 (setq wedm:shown-files nil)   ; those whose page was opened in this session
 
-(defun c:WEDMVIEW ( / *error* file program)
+;; The page lives as long as its program, which gets a window that is minimized. Whether there is one that knows `view` shows the
+;; answer to another command: both came at the same time.
+(defun c:WEDMVIEW ( / *error* file)
   (setq *error* wedm:failed)
   (wedm:begin)
-  (if (and (setq program (wedm:program)) (setq file (wedm:dxf)))
-    (if (or (not (member file wedm:shown-files)) (wedm:opens-again file))
-      (progn
-        (startapp program (strcat "view " (wedm:quoted file) " --lang " (wedm:language)))
-        (setq wedm:shown-files (cons file wedm:shown-files))
-        (wedm:say 'viewed (list file)))))
+  (if (and (setq file (wedm:dxf))
+           (wedm:ask (strcat "check " (wedm:quoted file)))
+           (or (not (member file wedm:shown-files)) (wedm:opens-again file)))
+    (progn
+      (startapp "cmd.exe"
+        (strcat "/d /s /c \"start \"wedm\" /min " (wedm:quoted (wedm:program))
+                " view " (wedm:quoted file) " --lang " (wedm:language) "\""))
+      (setq wedm:shown-files (cons file wedm:shown-files))
+      (wedm:say 'viewed (list file))))
   (wedm:end))
 
 (defun wedm:opens-again (file)

@@ -19,6 +19,7 @@ import ezdxf
 from ezdxf.document import Drawing
 from ezdxf.entities import DXFEntity
 from ezdxf.lldxf.tagwriter import TagCollector
+from ezdxf.lldxf.types import DXFTag
 from lisp import Cons, Defined, Fault, Interpreter, Misuse, Symbol, T, items, linked, text
 
 CLIENT = Path(__file__).resolve().parents[1]
@@ -87,7 +88,7 @@ class Cad:
         self.made: list[dict[int, Any]] = []
         self.zoomed: list[tuple[Any, Any]] = []
         self.pending: list[str] = []
-        self.started: list[tuple[str, str]] = []
+        self.started: list[str] = []
         self.commands: list[str] = []
         self.lisp = Interpreter()
         self.lisp.failed = self.failed  # type: ignore[method-assign]
@@ -171,6 +172,9 @@ class Cad:
         tags = TagCollector.dxftags(self.entity(name))
         second = next((at for at, tag in enumerate(tags) if at and tag.code == 0), len(tags))
         tags, groups, at = tags[:second], [Cons(-1, name)], 0
+        # A CAD program lists also what DXF leaves out where it is the default.
+        present = {tag.code for tag in tags}
+        tags += [DXFTag(code, default) for code, default in self.defaults(tags[0].value) if code not in present]
         is_light = tags[0].value == "LWPOLYLINE"
         while at < len(tags):
             code, value = tags[at].code, tags[at].value
@@ -184,6 +188,11 @@ class Cad:
                 groups.append(Cons(code, math.radians(value) if code in ANGLES else value))
             at += 1
         return linked(groups)
+
+    def defaults(self, kind: str) -> list[tuple[int, Any]]:
+        if kind == "VERTEX":
+            return [(40, 0.0), (41, 0.0), (42, 0.0)]
+        return [(210, 0.0), (220, 0.0), (230, 1.0)]
 
     def plain(self, groups: Any) -> list[tuple[int, Any]]:
         """Groups as pairs, their values as Python's; fails for a type that the code does not have."""
@@ -363,9 +372,9 @@ class Cad:
             elif option == "_C":
                 colour, name = words.pop(0), words.pop(0)
                 self.document.layers.get(name).color = int(colour)
-            elif option in ("_T", "_U"):
+            elif option in ("_ON", "_T", "_U"):
                 layer = self.document.layers.get(words.pop(0))
-                layer.thaw() if option == "_T" else layer.unlock()
+                {"_ON": layer.on, "_T": layer.thaw, "_U": layer.unlock}[option]()
             else:
                 raise Misuse(f"-LAYER {option}")
         if len(words) != 1:
@@ -405,10 +414,13 @@ class Cad:
                 stream.close()
 
     def startapp(self, program: str, words: str) -> int:
-        if program == "cmd.exe":
-            self.pending.append(words)
+        if program != "cmd.exe":
+            raise Misuse(f"{program} may have spaces in its name")
+        started = re.fullmatch(r'/d /s /c "start "wedm" /min (.*)"', words)
+        if started:
+            self.started.append(started[1])
         else:
-            self.started.append((program, words))
+            self.pending.append(words)
         return 33
 
     # What AutoLISP calls
@@ -494,6 +506,7 @@ class Cad:
             "entdel": self.entdel,
             "entnext": self.entnext,
             "entupd": lambda name: name,
+            "tblsearch": lambda table, name: linked([Cons(2, name)]) if table == "LAYER" and name in self.document.layers else None,
             "ssget": self.ssget,
             "sslength": len,
             "ssname": lambda selection, index: selection[index],

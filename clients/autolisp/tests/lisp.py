@@ -441,6 +441,11 @@ def functions(lisp: Interpreter) -> dict[str, Callable[..., Any]]:
     def mapped(function: Any, *lists: Any) -> Any:
         return linked(lisp.call(function, list(one)) for one in zip(*(items(each) for each in lists)))
 
+    def subst(new: Any, old: Any, all_of: Any) -> Any:
+        if old is None:
+            raise Misuse(f"{new!r} takes the place of nothing")
+        return linked(new if one == old else one for one in items(all_of))
+
     def appended(*lists: Any) -> Any:
         return linked(one for each in lists for one in items(each))
 
@@ -472,6 +477,7 @@ def functions(lisp: Interpreter) -> dict[str, Callable[..., Any]]:
         "cons": Cons,
         "list": lambda *values: linked(values),
         "append": appended,
+        "subst": subst,
         "reverse": lambda value: linked(reversed(items(value))),
         "last": last,
         "length": lambda value: len(items(value)),
