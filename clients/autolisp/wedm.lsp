@@ -450,11 +450,18 @@
     (entmake (append common vertex)))
   (entmake (list '(0 . "SEQEND") (assoc 8 head))))
 
+;; A new entity on the layer and in the line type of another: their names need not be in the code page of this program.
+(defun wedm:make-new (like groups / looks)
+  (setq looks (entget like))
+  (entmake
+    (append (wedm:without '(8 6 410) groups)
+            (vl-remove-if 'null (list (assoc 8 looks) (assoc 6 looks) '(410 . "Model"))))))
+
 ;; Makes one change; nil where the drawing does not take it.
 (defun wedm:make (item / entity)
   (cond
-    ((eq (car item) 'entmake) (entmake (cdr item)))
     ((null (setq entity (handent (cadr item)))) nil)
+    ((eq (car item) 'entmake) (wedm:make-new entity (cddr item)))
     ((eq (car item) 'entdel) (entdel entity))
     (T (wedm:set-entity entity (cddr item)))))
 
@@ -462,7 +469,7 @@
 (defun wedm:make-all (changes / refused)
   (foreach item changes
     (if (and (not refused) (not (wedm:make item)))
-      (setq refused (if (= (type (cadr item)) 'STR) (cadr item) "?"))))
+      (setq refused (cadr item))))
   refused)
 
 (defun c:RMINFIX ( / *error*)

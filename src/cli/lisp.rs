@@ -66,14 +66,16 @@ impl Answer {
         }
     }
 
-    /// `(entmod "2A" (10 …) …)`, `(entdel "2A")` or `(entmake (0 . "LINE") …)`.
+    /// `(entmod "2A" (10 …) …)`, `(entdel "2A")` or `(entmake "2A" (0 . "LINE") …)`, where 2A is an entity that the new one looks like.
     pub(crate) fn change(&self, change: &EntityChange) -> String {
         match change {
             EntityChange::Set { handle, groups } => {
                 format!("(entmod {}{})", self.string(handle), self.groups(groups))
             }
             EntityChange::Remove { handle } => format!("(entdel {})", self.string(handle)),
-            EntityChange::Make { groups } => format!("(entmake{})", self.groups(groups)),
+            EntityChange::Make { like, groups } => {
+                format!("(entmake {}{})", self.string(like), self.groups(groups))
+            }
         }
     }
 

@@ -36,23 +36,27 @@ pub(crate) enum EntityChange {
     Remove {
         handle: Handle,
     },
-    /// A new entity, complete but for its handle and its owner.
+    /// A new entity, complete but for its handle and its owner; it looks and lies `like` one that was there before.
     Make {
+        like: Handle,
         groups: Vec<Group>,
     },
 }
+
+/// What two entities have in common that look alike: layer, line type, colours, transparency, line weight, scale of the line type.
+const LOOKS: [i16; 7] = [8, 6, 62, 420, 440, 370, 48];
 
 /// What a new entity does not keep: handle, owner, markers of subclasses.
 const NOT_MADE: [i16; 3] = [5, 330, 100];
 
 impl Document {
-    /// What makes this drawing of the one `before`: what changes and goes in the order of that one, then what comes.
+    /// What makes this drawing of the one `before`: what changes, what comes, and last what goes.
     pub(crate) fn changes_since(&self, before: &Document) -> Vec<EntityChange> {
         let fresh: FxHashMap<&Handle, EntityId> = self.whole_entities().collect();
-        let mut changes = Vec::new();
+        let (mut changes, mut gone) = (Vec::new(), Vec::new());
         for (handle, old) in before.whole_entities() {
             match fresh.get(handle) {
-                None => changes.push(EntityChange::Remove {
+                None => gone.push(EntityChange::Remove {
                     handle: handle.clone(),
                 }),
                 Some(&new) if self.record_text(new) != before.record_text(old) => {
@@ -67,10 +71,14 @@ impl Document {
         let old: FxHashMap<&Handle, EntityId> = before.whole_entities().collect();
         for (handle, id) in self.whole_entities() {
             if !old.contains_key(handle) {
-                let groups = self.groups_to_make(id);
-                changes.push(EntityChange::Make { groups });
+                let (groups, looks) = (self.groups_to_make(id), self.looks(id));
+                let mut alike = before.whole_entities();
+                let alike = alike.find(|(_, old)| before.looks(*old) == looks);
+                let like = alike.map_or_else(|| Handle::new(""), |(like, _)| like.clone());
+                changes.push(EntityChange::Make { like, groups });
             }
         }
+        changes.extend(gone);
         changes
     }
 
@@ -93,20 +101,26 @@ impl Document {
         self.text.slice(start..end)
     }
 
-    fn kind_group(&self, id: EntityId) -> Group {
-        let kind = self.drawing.get(id).map(|entity| entity.kind.to_string());
-        (0, GroupValue::Text(kind.unwrap_or_default()))
+    fn looks(&self, id: EntityId) -> Vec<(i16, &[u8])> {
+        let lines = Lines::new(&self.text);
+        let looks = own_tags(lines, self.record_lines(id));
+        let looks = looks.filter(|tag| LOOKS.contains(&tag.code));
+        looks
+            .map(|tag| (tag.code, lines.trimmed(tag.value_line())))
+            .collect()
+    }
+
+    fn kind_of(&self, id: EntityId) -> String {
+        let entity = self.drawing.get(id);
+        entity.map_or_else(String::new, |entity| entity.kind.to_string())
     }
 
     fn geometry_groups(&self, id: EntityId) -> Vec<Group> {
         let lines = Lines::new(&self.text);
         let head: Vec<Tag> = own_tags(lines, self.record_lines(id)).collect();
         let number = |tags: &[Tag], code| number_of(lines, tags, code);
-        let mut groups = vec![self.kind_group(id)];
-        let kind = groups[0].1.clone();
-        let GroupValue::Text(kind) = &kind else {
-            return groups;
-        };
+        let kind = self.kind_of(id);
+        let mut groups = vec![(0, GroupValue::Text(kind.clone()))];
         let is_light = kind == "LWPOLYLINE";
         if !is_light && kind != "POLYLINE" {
             let own = |tag: &&Tag| matches!(tag.code, 10 | 11 | 40 | 50 | 51);
@@ -127,7 +141,6 @@ impl Document {
             true => of_all.unwrap_or(0.0),
             false => number(&head, code).unwrap_or(0.0),
         };
-        let widths = [40, 41].map(|code| (code, width(code)));
         for index in 0..count {
             let Some(range) = self.vertex_lines(id, index) else {
                 continue;
@@ -138,7 +151,7 @@ impl Document {
             };
             let dimensions = if is_light { 2 } else { 3 };
             groups.extend(self.group(&tags, x, dimensions));
-            for (code, default) in [widths[0], widths[1], (42, 0.0)] {
+            for (code, default) in [(40, width(40)), (41, width(41)), (42, 0.0)] {
                 let value = number(&tags, code).unwrap_or(default);
                 groups.push((code, GroupValue::Real(value)));
             }
@@ -149,7 +162,7 @@ impl Document {
     fn groups_to_make(&self, id: EntityId) -> Vec<Group> {
         let lines = Lines::new(&self.text);
         let tags: Vec<Tag> = own_tags(lines, self.record_lines(id)).collect();
-        let mut groups = vec![self.kind_group(id)];
+        let mut groups = vec![(0, GroupValue::Text(self.kind_of(id)))];
         for tag in tags.iter().filter(|tag| !NOT_MADE.contains(&tag.code)) {
             groups.extend(self.group(&tags, *tag, 3));
         }

@@ -68,6 +68,13 @@ def doubles(document: Drawing, x: float = 0) -> None:
     document.modelspace().add_line((x, 0), (x + 10, 0), dxfattribs={"layer": "模具"})
 
 
+def chords(document: Drawing, x: float = 0) -> None:
+    turns = [math.pi / 2 * step / 24 for step in range(1, 25)]
+    places = [(0.0, 0.0), (10.0, 0.0), (10.0, 5.0), *((5 + 5 * math.cos(turn), 5 + 5 * math.sin(turn)) for turn in turns), (0.0, 10.0)]
+    for start, end in zip(places, places[1:] + places[:1], strict=True):
+        document.modelspace().add_line((x + start[0], start[1]), (x + end[0], end[1]), dxfattribs={"layer": "模具", "color": 5})
+
+
 def from_below(document: Drawing, x: float = 0) -> None:
     points = [(-x, y, -bulge) for x, y, bulge in corners(x, 0.05)]
     document.modelspace().add_lwpolyline(points, "xyb", close=True, dxfattribs={"extrusion": (0, 0, -1)})
@@ -78,7 +85,7 @@ def square(document: Drawing, x: float = 0) -> None:
 
 
 def all_kinds(document: Drawing) -> None:
-    for place, draw in enumerate((tight, tight_and_wide, tight_lines, old_polyline, old_polyline_with_crumb, doubles, from_below)):
+    for place, draw in enumerate((tight, tight_and_wide, tight_lines, old_polyline, old_polyline_with_crumb, doubles, chords, from_below)):
         draw(document, 20.0 * place)
 
 
@@ -189,7 +196,7 @@ def test_a_session(tmp_path: Path, session: Session, route: str) -> None:
 
 @pytest.mark.parametrize("route", ROUTES)
 @pytest.mark.parametrize("page", PAGES)
-@pytest.mark.parametrize("draw", [tight, tight_and_wide, tight_lines, old_polyline, old_polyline_with_crumb, doubles, from_below, all_kinds])
+@pytest.mark.parametrize("draw", [tight, tight_and_wide, tight_lines, old_polyline, old_polyline_with_crumb, doubles, chords, from_below, all_kinds])
 def test_a_repair_is_that_of_the_command_line_and_one_step_of_undo(tmp_path: Path, draw: Callable[..., None], page: str, route: str) -> None:
     program = cad(tmp_path, draw, page=page, route=route)
     before, wanted = program.saved(), fixed(program)

@@ -154,7 +154,8 @@ fn applied(held: &mut Held, changes: &[EntityChange]) {
     for change in changes {
         match change {
             EntityChange::Remove { handle } => held.retain(|(own, _)| **own != **handle),
-            EntityChange::Make { groups } => {
+            EntityChange::Make { like, groups } => {
+                assert!(held.iter().any(|(own, _)| **own == **like), "{like}");
                 let record: Record = groups.iter().flat_map(tags).collect();
                 held.push((String::new(), vec![record]));
             }
@@ -177,7 +178,7 @@ fn set(records: &mut Vec<Record>, groups: &[Group]) {
             let vertex = with(&records[1], &[5, 10, 20, 30, 40, 41, 42], &[]);
             let end = records.pop().expect("a SEQEND");
             records.truncate(1);
-            records[0] = with(&records[0], &[70], &[flags.clone()]);
+            records[0] = with(&records[0], &[70], std::slice::from_ref(flags));
             for groups in groups.chunks(4) {
                 records.push(with(&vertex, &[], groups));
             }
@@ -227,26 +228,55 @@ fn entities(document: &dxf::Document, known: &Held) -> BTreeMap<String, String> 
     all
 }
 
+/// Compares what the lists make of the entities with the repaired file; the kinds of changes that were made.
+fn compared(squares: &[Square]) -> Vec<&'static str> {
+    let mut held: Held = Vec::new();
+    for (index, square) in squares.iter().enumerate() {
+        held.extend(square.held(0x100 + 16 * index, 20.0 * index as f64));
+    }
+    let before = dxf::Document::read(text_of(&held).into_bytes());
+    let document = Document::new(Source::Dxf(before.clone()), Arc::new(Effective::default()));
+    let Some(Repairs::OfText { repaired, .. }) = fix_all(&document) else {
+        return Vec::new();
+    };
+    let Source::Dxf(after) = repaired.source() else {
+        panic!("a drawing becomes a drawing");
+    };
+    let changes = after.changes_since(&before);
+    let known = held.clone();
+    applied(&mut held, &changes);
+    let made = dxf::Document::read(text_of(&held).into_bytes());
+    assert_eq!(entities(&made, &known), entities(after, &known));
+    let kind = |change: &EntityChange| match change {
+        EntityChange::Set { .. } => "set",
+        EntityChange::Remove { .. } => "remove",
+        EntityChange::Make { .. } => "make",
+    };
+    changes.iter().map(kind).collect()
+}
+
 proptest! {
     #[test]
     fn group_lists_repair_as_the_file_is_repaired(squares in squares()) {
-        let mut held: Held = Vec::new();
-        for (index, square) in squares.iter().enumerate() {
-            held.extend(square.held(0x100 + 16 * index, 20.0 * index as f64));
-        }
-        let before = dxf::Document::read(text_of(&held).into_bytes());
-        let document = Document::new(Source::Dxf(before.clone()), Arc::new(Effective::default()));
-        let Some(Repairs::OfText { repaired, .. }) = fix_all(&document) else {
-            return Ok(());
+        compared(&squares);
+    }
+}
+
+#[test]
+fn group_lists_set_and_remove_entities_of_each_kind() {
+    for (kind, double, expected) in [
+        (0, false, vec!["set"]),
+        (1, false, vec!["set"]),
+        (2, false, vec!["set"; 3]),
+        (2, true, vec!["set", "set", "set", "remove"]),
+    ] {
+        let square = Square {
+            kind,
+            radius: 0.05,
+            gap: 0.0,
+            double,
+            mirrored: false,
         };
-        let Source::Dxf(after) = repaired.source() else {
-            panic!("a drawing becomes a drawing");
-        };
-        let changes = after.changes_since(&before);
-        prop_assert!(!changes.is_empty());
-        let known = held.clone();
-        applied(&mut held, &changes);
-        let made = dxf::Document::read(text_of(&held).into_bytes());
-        prop_assert_eq!(entities(&made, &known), entities(after, &known));
+        assert_eq!(compared(&[square]), expected, "{kind}");
     }
 }
