@@ -16,6 +16,7 @@
     (found . "发现 %1 处；带 + 的可用 RMINFIX 修复")
     (hints . "另有 %1 处可能本来如此：WEDMVIEW 中可看")
     (line . "%1 %2%3 [%4] %5")
+    (more . "……另有 %1 处")
     (which-one . "要缩放到的编号 <结束>：")
     (no-such-number . "没有编号 %1")
     (nothing-to-repair . "没有可安全修复的问题")

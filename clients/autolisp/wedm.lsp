@@ -7,6 +7,7 @@
 (setq wedm:marks-layer "WEDM_MARKS")    ; wedm never checks nor cuts these two layers
 (setq wedm:path-layer "WEDM_PATH")
 (setq wedm:patience 120)                ; seconds that an answer may take where the program cannot be waited for
+(setq wedm:most-listed 100)             ; of more findings only the number is said; all are marked
 (setq wedm:most-handles 300)            ; more of them do not fit into a command line of Windows
 
 ;;; Texts: a key and a sentence in which %1, %2 ... stand for what is told.
@@ -27,6 +28,7 @@
     (found . "%1 found; RMINFIX repairs those with a +")
     (hints . "and %1 that may be as they are meant: WEDMVIEW shows them")
     (line . "%1 %2%3 [%4] %5")
+    (more . "... and %1 more")
     (which-one . "Number to zoom to <end>: ")
     (no-such-number . "there is no number %1")
     (nothing-to-repair . "there is nothing that can be repaired safely")
@@ -317,14 +319,19 @@
 
 (defun wedm:list-all (findings / number)
   (setq number 0)
-  (foreach item findings
+  (while (and findings (< number wedm:most-listed))
     (setq number (1+ number))
-    (wedm:say 'line
-      (list number
-            (if (vl-some '(lambda (fix) (cdr (assoc 'safe fix))) (wedm:get 'fixes item)) "+ " "")
-            (wedm:text (read (wedm:get 'severity item)) nil)
-            (wedm:get 'rule item)
-            (wedm:get 'message item)))))
+    (wedm:list-one number (car findings))
+    (setq findings (cdr findings)))
+  (if findings (wedm:say 'more (list (length findings)))))
+
+(defun wedm:list-one (number item)
+  (wedm:say 'line
+    (list number
+          (if (vl-some '(lambda (fix) (cdr (assoc 'safe fix))) (wedm:get 'fixes item)) "+ " "")
+          (wedm:text (read (wedm:get 'severity item)) nil)
+          (wedm:get 'rule item)
+          (wedm:get 'message item))))
 
 ;; True for a finding that concerns one of the handles.
 (defun wedm:concerns (item handles)

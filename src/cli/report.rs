@@ -5,6 +5,7 @@ use super::lisp::Answer;
 use super::output::{complain, styled};
 use super::{Failure, Verdict, output};
 use crate::document::{Document, Source};
+use crate::drawing::DrawingEdit;
 use crate::dxf::EntityChange;
 use crate::finding;
 use crate::finding::{Detail, Edit, Finding, Fix, Keep, Place, Rule, Severity};
@@ -153,7 +154,9 @@ pub(crate) fn add_fixes(rows: &mut [Row], document: &Document, findings: &[Findi
     let Source::Dxf(before) = document.source() else {
         return;
     };
+    let may = |edit: &DrawingEdit| before.text_edits(edit).is_ok();
     for (row, finding) in rows.iter_mut().zip(findings).take(MOST_WITH_FIXES) {
+        let safe = document.safe_fix(finding, &may).map(|fix| fix.edit);
         for fix in document.fixes(finding) {
             let Edit::Drawing(edit) = &fix.edit else {
                 continue;
@@ -165,8 +168,13 @@ pub(crate) fn add_fixes(rows: &mut [Row], document: &Document, findings: &[Findi
             for edit in edits.iter().rev() {
                 after.edit(edit.range.clone(), &edit.text);
             }
-            row.fixes
-                .push((fix.map(|_| ()), after.changes_since(before)));
+            // Whether "fix all" makes it is tried there, too.
+            let in_fix_all = safe.as_ref() == Some(&fix.edit);
+            let fix = Fix {
+                in_fix_all,
+                ..fix.map(|_| ())
+            };
+            row.fixes.push((fix, after.changes_since(before)));
         }
     }
 }

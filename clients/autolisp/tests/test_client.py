@@ -356,6 +356,14 @@ def test_a_locked_layer_leaves_the_drawing_as_it_is(tmp_path: Path) -> None:
     assert same(program.document, ezdxf.read(io.StringIO(before)))
 
 
+def test_of_many_findings_the_first_are_listed_and_all_are_marked(tmp_path: Path) -> None:
+    program = cad(tmp_path, *[tight] * 12)
+    program.lisp.run("(setq wedm:most-listed 10)")
+    shown = program.run("RMIN", 12, ENTER)
+    assert "\n10 + error" in shown and "\n11 " not in shown and "... and 2 more" in shown and "12 found" in shown
+    assert len(marks(program)) == 12 and len(program.zoomed) == 1
+
+
 def test_nothing_is_repaired_that_could_not_be_taken_back(tmp_path: Path) -> None:
     program = cad(tmp_path, tight)
     program.variables["UNDOCTL"] = 0
