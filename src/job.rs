@@ -29,7 +29,9 @@ use crate::fit::{self, Fit};
 use crate::program::{Format, ProofError, ProvedProgram};
 use crate::rule::Rule;
 use crate::settings::{Effective, Order, part_title};
-use crate::toolpath::{self, Finished, Planned, StartHole, Work, entities_of, plan_while};
+use crate::toolpath::{
+    self, Finished, Planned, StartHole, WirePath, Work, entities_of, plan_while,
+};
 use std::collections::BTreeSet;
 
 /// The caller while it waits: whether it still wants the result, and the progress that it is shown.
@@ -249,6 +251,8 @@ impl Wanted<'_> {
 /// The program of a drawing.
 pub struct Generated {
     pub program: ProvedProgram,
+    /// The paths of the wire that it follows, in drawing units.
+    pub paths: Vec<WirePath>,
     pub contours: usize,
     /// The contours that all passes leave, in mm and the drawing's coordinates, if there are several passes.
     pub finished: Option<Finished>,
@@ -413,6 +417,7 @@ fn written(
     Ok(Generated {
         program,
         contours: paths.iter().filter(|path| path.is_first()).count(),
+        paths,
         work,
         holes,
         finished: finished.map(|finished| Finished {

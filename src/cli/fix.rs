@@ -1,7 +1,8 @@
 //! `wedm fix`: every safe repair of a drawing or program, in its own bytes.
 
 use super::changes::print_diff;
-use super::options::Common;
+use super::lisp::Answer;
+use super::options::{Common, LispEncoding, targets};
 use super::output::{self, styled};
 use super::report::{self, Row};
 use super::{Failure, Verdict, ending, files};
@@ -14,6 +15,7 @@ use crate::message::{readable, said};
 use crate::protocol::FindingData;
 use crate::text::Writing;
 use clap::Args;
+use serde_json::json;
 use std::path::{Path, PathBuf};
 
 #[derive(Args, Debug)]
@@ -30,6 +32,8 @@ pub(crate) struct Arguments {
     target: Target,
     #[arg(long, requires = "output")]
     overwrite: bool,
+    #[arg(long, value_enum, default_value_t, hide_default_value = true)]
+    encoding: LispEncoding,
     #[arg(short, long)]
     quiet: bool,
     #[command(flatten)]
@@ -40,7 +44,7 @@ pub(crate) struct Arguments {
 #[group(required = true, multiple = false)]
 struct Target {
     #[arg(short, long, value_name = "OUT")]
-    output: Option<PathBuf>,
+    output: Vec<PathBuf>,
     #[arg(long)]
     in_place: bool,
     #[arg(long)]
@@ -82,54 +86,71 @@ const MOST_LISTED: usize = 1_000;
 
 pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let found = files::search(&arguments.paths, &files::Search::default());
+    let (target, is_for_lisp) = targets(&arguments.target.output)?;
+    let mut answer = is_for_lisp.then(|| Answer::new("fix", arguments.encoding));
     let mut verdict = Verdict::Clean;
-    for Failure(sentence) in &found.failures {
-        output::complain(sentence);
+    for failure in &found.failures {
+        output::complain(&failure.0);
+        if let Some(answer) = &mut answer {
+            answer.push_failure(failure);
+        }
         verdict = Verdict::Failed;
     }
-    if let ([_, _, ..], Some(_)) = (&found.files[..], &arguments.target.output) {
+    if let ([_, _, ..], Some(_)) = (&found.files[..], target) {
         let files = say!(files, found.files.len());
         return Err(Failure(say!(several_files_for_one_output, files)));
     }
     for path in &found.files {
-        match fix(path, arguments) {
+        match fix(path, arguments, target, answer.as_mut()) {
             Ok(own) => verdict = verdict.max(own),
-            Err(Failure(sentence)) => {
-                output::complain_once(&sentence);
+            Err(failure) => {
+                output::complain_once(&failure.0);
+                if let Some(answer) = &mut answer {
+                    answer.push_failure(&failure);
+                }
                 verdict = Verdict::Failed;
             }
         }
     }
+    answer.map_or(Ok(()), Answer::print)?;
     Ok(verdict)
 }
 
-fn fix(path: &Path, arguments: &Arguments) -> Result<Verdict, Failure> {
+fn fix(
+    path: &Path,
+    arguments: &Arguments,
+    target: Option<&Path>,
+    answer: Option<&mut Answer>,
+) -> Result<Verdict, Failure> {
     if arguments.target.in_place {
         output::refuse_irregular(path)?;
     }
     let common = &arguments.common;
-    let opened = files::open_to_use(
-        path,
-        arguments.target.output.as_deref(),
-        common,
-        &common.settings(),
-    )?;
-    if let Some(target) = &arguments.target.output {
+    let opened = files::open_to_use(path, target, common, &common.settings())?;
+    if let Some(target) = target {
         ending::as_read(&opened, target)?;
     }
     let input = path;
     let path = files::shown(path);
+    let before = answer.is_some().then(|| opened.document.clone());
     let repair = repair(path, opened.document, !arguments.quiet)?;
-    deliver(
-        input,
-        arguments,
-        &repair,
-        opened.seen.as_ref(),
-        opened.writing,
-    )?;
+    // With `--output lisp` alone nothing is written.
+    if target.is_some() || arguments.target.output.is_empty() {
+        deliver(
+            input,
+            arguments,
+            target,
+            &repair,
+            opened.seen.as_ref(),
+            opened.writing,
+        )?;
+    }
+    if let (Some(answer), Some(before)) = (answer, before) {
+        add_to(answer, path, &before, &repair);
+    }
     if !arguments.quiet {
         summarise(path, &repair);
-        go_on(input, arguments, &repair);
+        go_on(input, arguments, target, &repair);
         output::say_against(&repair.document);
     }
     let errors_left = repair
@@ -276,10 +297,9 @@ fn planned(path: &Path, document: &Document) -> Vec<(Row, String)> {
 }
 
 /// The command that comes next, with the name of the file that was written.
-fn go_on(input: &Path, arguments: &Arguments, repair: &Repair) {
-    let written = arguments.target.output.as_deref();
+fn go_on(input: &Path, arguments: &Arguments, target: Option<&Path>, repair: &Repair) {
     let stdout = Path::new(output::STDIN);
-    let file = written.or(arguments.target.in_place.then_some(input));
+    let file = target.or(arguments.target.in_place.then_some(input));
     let Some(file) = file.filter(|file| *file != stdout) else {
         return;
     };
@@ -353,19 +373,41 @@ fn choices(document: &Document) -> Vec<(usize, String)> {
 fn deliver(
     path: &Path,
     arguments: &Arguments,
+    target: Option<&Path>,
     repair: &Repair,
     seen: Option<&Seen>,
     writing: Writing,
 ) -> Result<(), Failure> {
-    let target = &arguments.target;
-    if target.diff {
+    if arguments.target.diff {
         return print_diff(path, &repair.bytes_before, repair.bytes(), writing);
     }
     let bytes = writing.written(repair.bytes());
-    match &target.output {
+    match target {
         Some(path) => output::write(Some(path), &bytes, arguments.overwrite),
         None if repair.is_changed() => output::write_over(path, seen, &bytes),
         None => Ok(()),
+    }
+}
+
+/// What was repaired, for AutoLISP: the sentences, what becomes of each entity, and the findings that are left.
+fn add_to(answer: &mut Answer, path: &Path, before: &Document, repair: &Repair) {
+    let fixed = json!({
+        "path": path.display().to_string(),
+        "rounds": repair.rounds,
+        "repaired": repair.gone,
+        "made": repair.made,
+    });
+    answer.push("fixed", &fixed);
+    if let (Source::Dxf(before), Source::Dxf(after)) = (before.source(), repair.document.source()) {
+        answer.push_changes(&after.changes_since(before));
+    }
+    for (row, reason) in &repair.refused {
+        let refused =
+            json!({ "message": row.message, "reason": reason, "handle": row.data.handle });
+        answer.push("not-repaired", &refused);
+    }
+    for row in &repair.after {
+        row.add_to(answer);
     }
 }
 

@@ -1,16 +1,19 @@
 //! `wedm generate`: a program for the machine.
 
-use super::options::{Common, Program};
+use super::lisp::Answer;
+use super::options::{Common, LispEncoding, Program, targets};
 use super::output::{self, styled};
 use super::{Failure, Verdict, ending, files, report};
-use crate::document::Snapshot;
+use crate::document::{Document, Snapshot};
+use crate::dxf::{Group, GroupValue};
 use crate::finding::{Detail, Finding, Rule, sentence};
-use crate::job::{self, Wanted};
+use crate::job::{self, Generated, Refusal, Wanted};
 use crate::message::{duration, lengths, readable};
 use crate::program::{Format, ProvedProgram};
 use crate::protocol::{Milling, Work};
 use crate::toolpath;
 use clap::Args;
+use serde_json::json;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -28,9 +31,11 @@ pub(crate) struct Arguments {
     #[arg(long, value_parser = Format::of)]
     format: Option<Format>,
     #[arg(short, long, value_name = "OUT")]
-    output: Option<PathBuf>,
+    output: Vec<PathBuf>,
     #[arg(long, requires = "output")]
     overwrite: bool,
+    #[arg(long, value_enum, default_value_t, hide_default_value = true)]
+    encoding: LispEncoding,
     #[arg(long, value_name = "HANDLE")]
     handle: Vec<String>,
     #[arg(long, value_name = "LAYER")]
@@ -44,9 +49,26 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
+    let (target, is_for_lisp) = targets(&arguments.output)?;
+    if !is_for_lisp {
+        return generate(arguments, target, None);
+    }
+    let mut answer = Answer::new("generate", arguments.encoding);
+    let verdict = generate(arguments, target, Some(&mut answer));
+    if let Err(failure) = &verdict {
+        answer.push_failure(failure);
+    }
+    answer.print()?;
+    verdict
+}
+
+fn generate(
+    arguments: &Arguments,
+    target: Option<&Path>,
+    answer: Option<&mut Answer>,
+) -> Result<Verdict, Failure> {
     let path = files::shown(&arguments.path);
     let last = arguments.common.settings_with(&arguments.program);
-    let target = arguments.output.as_deref();
     if let Some(target) = target {
         output::refuse_input(target, path)?;
     }
@@ -70,9 +92,17 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     let findings = document.all_findings().to_vec();
     let made = match job::generate(&snapshot, findings, &wanted, &()) {
         Ok(made) => made,
-        Err(refusal) => return report::refuse_programs(path, &mut opened.document, &refusal),
+        Err(refusal) => {
+            if let Some(answer) = answer {
+                add_refusal(answer, path, document, &snapshot, &refusal);
+            }
+            return report::refuse_programs(path, &mut opened.document, &refusal);
+        }
     };
-    output::write(target, made.program.text.as_bytes(), arguments.overwrite)?;
+    // With `--output lisp` alone the program is in the answer.
+    if target.is_some() || answer.is_none() {
+        output::write(target, made.program.text.as_bytes(), arguments.overwrite)?;
+    }
     // `wedm check` reports the drawing's findings; these are the program's.
     let of_program = |finding: &&Finding| {
         !output::is_what_holds(finding)
@@ -88,6 +118,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     };
     let said: Vec<Finding> = made.warnings.iter().filter(of_program).cloned().collect();
     report::say(path, document, &said);
+    if let Some(answer) = answer {
+        add_to(answer, target, format, &made);
+        let rows = report::rows_of(path, document, &said);
+        rows.iter().for_each(|row| row.add_to(answer));
+    }
     summarise((target, format), &made.program, made.contours);
     for finding in made.left_out.iter().take(CUTS) {
         output::say(&say!(
@@ -118,6 +153,54 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     }
     output::say_against(document);
     Ok(Verdict::Clean)
+}
+
+/// The program, for AutoLISP, and the paths of the wire as vertices of polylines.
+fn add_to(answer: &mut Answer, target: Option<&Path>, format: Format, made: &Generated) {
+    let program = &made.program;
+    let about = json!({
+        "format": format.name(),
+        "path": target.map(|path| path.display().to_string()),
+        "text": target.is_none().then_some(&program.text),
+        "blocks": program.blocks,
+        "contours": made.contours,
+        "length": program.length,
+        "holes": made.holes.iter().map(|hole| [hole.at.x, hole.at.y]).collect::<Vec<_>>(),
+    });
+    answer.push("program", &about);
+    for path in &made.paths {
+        let ends = path.segments.last().map(|last| last.geometry.end());
+        let bends = path.segments.iter();
+        let bends = bends.map(|piece| (piece.geometry.start(), piece.geometry.bulge()));
+        let vertices = bends.chain(ends.map(|end| (end, 0.0)));
+        let groups: Vec<Group> = vertices
+            .flat_map(|(at, bulge)| {
+                let point = GroupValue::Point(vec![at.x, at.y]);
+                [(10, point), (42, GroupValue::Real(bulge))]
+            })
+            .collect();
+        let vertices = format!(" (vertices{})", answer.groups(&groups));
+        answer.push_with("wire", &json!({ "pass": path.pass }), &vertices);
+    }
+}
+
+/// Why there is no program; whether the side of some contour is all that has to be said is in it, too.
+fn add_refusal(
+    answer: &mut Answer,
+    path: &Path,
+    document: &Document,
+    snapshot: &Snapshot,
+    refusal: &Refusal,
+) {
+    let outlines = snapshot.outlines.iter();
+    let can_lack_side = matches!(refusal, Refusal::Sentence(_) | Refusal::Findings(_));
+    let lacks_side =
+        can_lack_side && { outlines }.any(|it| it.contour.closed && it.wire_side().is_none());
+    let message = refusal.sentence(document.telling());
+    let about = json!({ "message": message, "side-is-missing": lacks_side });
+    answer.push("refused", &about);
+    let rows = report::rows_of(path, document, refusal.findings());
+    rows.iter().for_each(|row| row.add_to(answer));
 }
 
 /// Up to this many cuts are listed one by one.

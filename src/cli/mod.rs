@@ -24,6 +24,7 @@ mod help;
 mod holes;
 mod init;
 mod inspect;
+mod lisp;
 mod man;
 mod options;
 mod output;

@@ -1,10 +1,11 @@
 //! Options that several commands share. Those for keys of the settings are declared in `settings`;
 //! here they are only listed.
 
+use super::{Failure, output};
 use crate::settings::{LARGEST, MissingForFit, Row, Settings, SideSetting, camel_case, rows};
 use clap::builder::{PossibleValuesParser, TypedValueParser, ValueParser};
 use clap::{Arg, ArgMatches, Args, Command, FromArgMatches, ValueEnum};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
 /// Groups of options: their heading, the table whose keys they set, and their names.
@@ -68,6 +69,31 @@ const PASSES: &str = "passes.corrections";
 pub(crate) enum Form {
     Text,
     Json,
+}
+
+/// How `--output lisp` writes what is not ASCII.
+#[derive(Clone, Copy, Debug, Default, PartialEq, ValueEnum)]
+pub(crate) enum LispEncoding {
+    #[default]
+    #[value(name = "utf-8")]
+    Utf8,
+    #[value(alias = "936")]
+    Gbk,
+    Ascii,
+}
+
+/// What `--output` names: files, or `lisp` for an answer in that form. A file of that name is `./lisp`.
+pub(crate) fn targets(outputs: &[PathBuf]) -> Result<(Option<&Path>, bool), Failure> {
+    let is_form = |path: &&PathBuf| path.as_os_str() == "lisp";
+    let (forms, files): (Vec<&PathBuf>, Vec<&PathBuf>) = outputs.iter().partition(is_form);
+    match files[..] {
+        [] => Ok((None, !forms.is_empty())),
+        [file] => Ok((Some(file), !forms.is_empty())),
+        [one, other, ..] => {
+            let [one, other] = [one, other].map(|file| output::word(file));
+            Err(Failure(say!(one_output_is_expected, one, other)))
+        }
+    }
 }
 
 // The options of every command that reads a drawing. No doc comment: `clap` would take it for help.

@@ -1,11 +1,14 @@
 //! Findings as rows: a file, a place in it, a rule, a sentence; each row as text with its excerpt, or as JSON.
 
 use super::excerpt::{Excerpt, excerpt, place};
+use super::lisp::Answer;
 use super::output::{complain, styled};
 use super::{Failure, Verdict, output};
-use crate::document::Document;
+use crate::document::{Document, Source};
+use crate::drawing::DrawingEdit;
+use crate::dxf::EntityChange;
 use crate::finding;
-use crate::finding::{Detail, Finding, Fix, Keep, Place, Rule, Severity};
+use crate::finding::{Detail, Edit, Finding, Fix, Keep, Place, Rule, Severity};
 use crate::job::{self, Refusal};
 use crate::message::readable;
 use crate::program::Whereabouts;
@@ -15,6 +18,7 @@ use crate::text::SourceText;
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use rayon::prelude::*;
 use serde::Serialize;
+use serde_json::{Value, json};
 use std::ops::Range;
 use std::path::Path;
 
@@ -75,6 +79,9 @@ pub(crate) struct Row {
     /// mm of the unit of `data`.
     #[serde(skip)]
     unit_mm: f64,
+    /// Repairs that may be chosen, where they were asked for: with their effect on the entities.
+    #[serde(skip)]
+    pub(crate) fixes: Vec<(Fix<()>, Vec<EntityChange>)>,
     /// Of a drawing: its text says nothing to those who draw. The layer and the number of the contour.
     #[serde(skip)]
     drawn: Option<String>,
@@ -136,6 +143,39 @@ pub(crate) fn suppressed(path: &Path, document: &Document) -> Vec<Row> {
 pub(crate) fn say(path: &Path, document: &Document, findings: &[Finding]) {
     for finding in findings.iter().take(MOST) {
         output::say(&row(path, document, finding).shown());
+    }
+}
+
+/// The most findings whose repairs are listed: each is tried on the text.
+const MOST_WITH_FIXES: usize = 200;
+
+/// Adds the repairs of the first findings of a drawing to their rows, which begin with those of `findings`.
+pub(crate) fn add_fixes(rows: &mut [Row], document: &Document, findings: &[Finding]) {
+    let Source::Dxf(before) = document.source() else {
+        return;
+    };
+    let may = |edit: &DrawingEdit| before.text_edits(edit).is_ok();
+    for (row, finding) in rows.iter_mut().zip(findings).take(MOST_WITH_FIXES) {
+        let safe = document.safe_fix(finding, &may).map(|fix| fix.edit);
+        for fix in document.fixes(finding) {
+            let Edit::Drawing(edit) = &fix.edit else {
+                continue;
+            };
+            let Ok(edits) = before.text_edits(edit) else {
+                continue;
+            };
+            let mut after = before.clone();
+            for edit in edits.iter().rev() {
+                after.edit(edit.range.clone(), &edit.text);
+            }
+            // Whether "fix all" makes it is tried there, too.
+            let in_fix_all = safe.as_ref() == Some(&fix.edit);
+            let fix = Fix {
+                in_fix_all,
+                ..fix.map(|_| ())
+            };
+            row.fixes.push((fix, after.changes_since(before)));
+        }
     }
 }
 
@@ -273,6 +313,7 @@ impl Row {
             keeps: Vec::new(),
             excerpt: text.and_then(|text| excerpt(text, &range)),
             unit_mm: 1.0,
+            fixes: Vec::new(),
             drawn: None,
         }
     }
@@ -378,6 +419,38 @@ impl Row {
         });
         let places: Vec<String> = entity.into_iter().chain(self.point()).collect();
         (!places.is_empty()).then(|| places.join(say!(comma)))
+    }
+
+    /// For a program: the fields of the JSON object in one level, the place in the drawing's unit, and the repairs.
+    pub(crate) fn add_to(&self, answer: &mut Answer) {
+        let mut row = serde_json::to_value(self).unwrap_or_default();
+        let fields = row.as_object_mut();
+        if let Some(fields) = fields {
+            let data = fields.remove("data");
+            fields.remove("related");
+            if let Some(Value::Object(data)) = data {
+                fields.extend(data);
+            }
+            let place = self.data.at.or(self.data.start).or(self.data.center);
+            fields.insert(
+                "place".into(),
+                serde_json::to_value(place).unwrap_or_default(),
+            );
+        }
+        let fix = |(fix, changes): &(Fix<()>, Vec<EntityChange>)| {
+            let changes: Vec<String> = changes.iter().map(|one| answer.change(one)).collect();
+            let title = fix.kind.title(self.unit_mm);
+            let about =
+                json!({ "title": title, "safe": fix.in_fix_all, "preferred": fix.preferred });
+            let about = answer.fields(&about);
+            format!(
+                "({}{})",
+                about.trim_start(),
+                Answer::list("changes", &changes)
+            )
+        };
+        let fixes: Vec<String> = self.fixes.iter().map(fix).collect();
+        answer.push_with("finding", &row, &Answer::list("fixes", &fixes));
     }
 
     /// Where it is, mm.

@@ -115,3 +115,6 @@ pub(crate) fn fix_all(document: &Document) -> Option<Repairs> {
         repaired: Box::new(repaired?),
     })
 }
+
+#[cfg(test)]
+mod tests;

@@ -415,3 +415,67 @@ fn fit_and_pair_ask_for_what_they_need_alike() {
         );
     }
 }
+
+#[test]
+fn an_answer_for_autolisp_stands_alone_or_beside_a_file() {
+    let desk = Desk::new();
+    let generate = "generate clean.dxf --side opening --output lisp";
+    check(&desk, generate, 0, &["(text . \"B", "\\nDD\\n\")"]);
+    let beside = format!("{generate} -o beside.3b");
+    let says = [
+        "(path . \"beside.3b\") (text . nil)",
+        "(wire (pass . 1) (vertices (10 ",
+    ];
+    check(&desk, &beside, 0, &says);
+    check(
+        &desk,
+        "generate clean.dxf --side opening -o alone.3b",
+        0,
+        &[],
+    );
+    assert_eq!(desk.read("beside.3b"), desk.read("alone.3b"));
+    let refused = "generate clean.dxf --output lisp";
+    check(&desk, refused, 1, &["(side-is-missing . T)", "!--side"]);
+    let fix = "fix tight.dxf --output lisp";
+    check(
+        &desk,
+        fix,
+        0,
+        &["\n(entmod \"2A\" (0 . \"LWPOLYLINE\")", "!1 arc repaired"],
+    );
+    assert!(!desk.path("lisp").exists());
+    check(&desk, &format!("{fix} -o fixed.dxf"), 0, &["(entmod "]);
+    check(
+        &desk,
+        "check fixed.dxf --output lisp",
+        0,
+        &["(\n(wedm (version . \"", "\n)\n"],
+    );
+    check(&desk, "fix tight.dxf -o ./lisp", 0, &[]);
+    assert_eq!(desk.read("lisp"), desk.read("fixed.dxf"));
+    check(
+        &desk,
+        "check none.dxf --output lisp",
+        2,
+        &["(failure (message . \"none.dxf: "],
+    );
+    check(
+        &desk,
+        "fix none.dxf --output lisp",
+        2,
+        &["(failure (message . \"none.dxf: "],
+    );
+    check(
+        &desk,
+        "generate none.dxf --output lisp",
+        2,
+        &["(failure (message . \"none.dxf: "],
+    );
+    let two = "generate clean.dxf --side opening -o one.3b -o other.3b";
+    check(
+        &desk,
+        two,
+        2,
+        &["!-o names one.3b and other.3b, expected one file"],
+    );
+}

@@ -14,7 +14,7 @@ from runner import ROOT, TARGET, Part, cargo, line, silent
 WEDM = TARGET / "debug" / "wedm"
 
 # Those whose tests install something.
-CLIENTS = ("vscode", "librecad", "editors", "python", "autocad")
+CLIENTS = ("vscode", "librecad", "editors", "python", "autocad", "autolisp")
 
 # What tests/nightly takes with all that it has.
 HOURS = 5
@@ -73,6 +73,7 @@ def day() -> list[Part]:
         script("librecad", "desktop", "clients/librecad/test", 500, 1800),
         script("editors", "desktop", "clients/editors/test", 60, 1800),
         script("python", "desktop", "clients/python/test", 120, 900),
+        script("autolisp", "desktop", "clients/autolisp/test", 60, 600),
         script("protocol", "desktop", "tests/protocol/test", 20, 900),
         script("cases", "desktop", "tests/cases/run", 210, 900),
     ]

@@ -8,7 +8,8 @@ mod watch;
 use super::beside::Folders;
 use super::explain::rule_name;
 use super::files::{self, Opened};
-use super::options::Common;
+use super::lisp::Answer;
+use super::options::{Common, LispEncoding};
 use super::report::{MOST, Row};
 use super::{Failure, Verdict, output, output::styled};
 use crate::disk::Fence;
@@ -24,6 +25,7 @@ use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 use rayon::prelude::*;
 use serde::Serialize;
+use serde_json::json;
 use std::path::{Path, PathBuf};
 
 #[derive(Args, Debug, Default)]
@@ -42,6 +44,8 @@ pub(crate) struct Arguments {
     paths: Vec<PathBuf>,
     #[arg(long, value_enum)]
     output: Option<Format>,
+    #[arg(long, value_enum, default_value_t, hide_default_value = true)]
+    encoding: LispEncoding,
     #[arg(long)]
     statistics: bool,
     #[arg(long, value_name = "RULE", value_delimiter = ',', value_parser = rule_name(), hide_possible_values = true)]
@@ -78,6 +82,11 @@ impl Arguments {
         !self.select.is_empty() || !self.ignore.is_empty()
     }
 
+    /// True where repairs are listed, too: they need the text.
+    fn is_for_lisp(&self) -> bool {
+        matches!(self.output, Some(Format::Lisp))
+    }
+
     /// True for a finding of a selected rule, and for the error of a file that could not be judged.
     fn wants(&self, row: &Row) -> bool {
         let is_unread = row.severity == Severity::Error
@@ -100,6 +109,8 @@ enum Format {
     Github,
     #[value(help = help("check output junit"))]
     Junit,
+    #[value(help = help("check output lisp"))]
+    Lisp,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -207,8 +218,29 @@ fn printed(arguments: &Arguments, format: Format, survey: &Survey) -> Result<(),
                 })
                 .collect(),
         }),
+        Format::Lisp => lisp(survey, arguments.encoding).print(),
         Format::Sarif => output::print_json_text(&format!("{:#}\n", sarif::log(survey))),
     }
+}
+
+/// For AutoLISP.
+fn lisp(survey: &Survey, encoding: LispEncoding) -> Answer {
+    let mut answer = Answer::new("check", encoding);
+    for failure in &survey.failures {
+        answer.push_failure(failure);
+    }
+    for (path, against) in &survey.against {
+        let path = path.display().to_string();
+        answer.push("file", &PrintedAgainst { path, against });
+    }
+    for (path, holds) in &survey.empty {
+        let empty = json!({ "path": path.display().to_string(), "holds": holds });
+        answer.push("empty", &empty);
+    }
+    for row in &survey.rows {
+        row.add_to(&mut answer);
+    }
+    answer
 }
 
 /// The slightest severity that the command ends with 1 for.
@@ -314,7 +346,11 @@ fn check(
         let (mut document, mut rows) = (opened.document, opened.settings_rows);
         document.set_beside(folders.beside(name, &document, common, settings));
         let (findings, count) = job::check(&mut document, MOST);
-        rows.extend(super::report::rows_of(name, &document, &findings));
+        let mut found = super::report::rows_of(name, &document, &findings);
+        if arguments.is_for_lisp() {
+            super::report::add_fixes(&mut found, &document, &findings);
+        }
+        rows.extend(found);
         let all = (count <= MOST).then_some(&*findings);
         let checked = Checked {
             rows,
@@ -336,6 +372,8 @@ fn check(
     let once = || {
         let opened = if stdin {
             files::open_stdin(given, name, common, settings)?
+        } else if arguments.is_for_lisp() {
+            files::open(name, common, settings)?
         } else {
             files::open_to_check(name, common, settings)?
         };

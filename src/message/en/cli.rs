@@ -218,6 +218,7 @@ declare! {
     version_with(version, count) => "version {version}: {count}";
     in_rounds(rounds) => " in {rounds} rounds";
     a_file_is_no_command(file) => "{file} is no command: wedm check {file}";
+    one_output_is_expected(one, other) => "-o names {one} and {other}, expected one file, and lisp beside it or alone";
     several_files_for_one_output(files) => "{files} found, expected one, or --in-place or --diff";
     an_arc_becomes_larger(from, to, moved) => "R {from:.3} → {to:.3}, contour moves {moved:.3} mm";
     line_of_a_repair(line) => "line {line}";

@@ -218,6 +218,7 @@ translate! {
     version_with(version, count) => "版本 {version}：{count}";
     in_rounds(rounds) => "，共 {rounds} 轮";
     a_file_is_no_command(file) => "{file} 不是命令：请用 wedm check {file}";
+    one_output_is_expected(one, other) => "-o 写了 {one} 和 {other}，应为一个文件，可另加或单用 lisp";
     several_files_for_one_output(files) => "找到 {files}，应为一个，或加 --in-place 或 --diff";
     an_arc_becomes_larger(from, to, moved) => "R {from:.3} → {to:.3}，轮廓移动 {moved:.3} mm";
     line_of_a_repair(line) => "第 {line} 行";

@@ -40,6 +40,10 @@ pub(in crate::message) const HELP: &[(&str, &str)] = &[
     ("check output grouped", "同上，每个文件有标题"),
     ("check output github", "GitHub 工作流的注释"),
     ("check output junit", "JUnit 的 XML"),
+    (
+        "check output lisp",
+        "给 AutoLISP 的一个 S 表达式，修复写成组码",
+    ),
     ("check statistics", "不列出问题，只列出每条规则的次数"),
     ("check select", "只查这些规则，以及无法检查的文件"),
     ("check ignore", "不查这些规则"),
@@ -62,7 +66,10 @@ pub(in crate::message) const HELP: &[(&str, &str)] = &[
     ),
     ("fix paths", "图形和程序，或放它们的文件夹"),
     ("fix quiet", "不说修复了什么"),
-    ("fix output", "修复后的图形写到这里（`-` 是标准输出）"),
+    (
+        "fix output",
+        "修复后的图形写到这里（`-` 是标准输出）；`lisp`：把修复内容写给 AutoLISP（标准输出），可单用或与文件同用",
+    ),
     ("fix in_place", "修复后的图形写回原文件"),
     ("fix diff", "显示会改什么，不写出"),
     ("format", "把程序整理成一种排版"),
@@ -91,7 +98,10 @@ pub(in crate::message) const HELP: &[(&str, &str)] = &[
         "generate format",
         "程序的语言：3b、4b、iso；milling 为电极铣削 [默认：按 OUT 的扩展名，否则 `program.format`，否则 3b]",
     ),
-    ("generate output", "程序写到这里 [默认：标准输出]"),
+    (
+        "generate output",
+        "程序写到这里 [默认：标准输出]；`lisp`：把结果写给 AutoLISP（标准输出），可单用或与文件同用",
+    ),
     (
         "generate handle",
         "只切含有此图元的轮廓；可多次给出，按切割次序",
@@ -243,6 +253,7 @@ pub(in crate::message) const HELP: &[(&str, &str)] = &[
     ("version", "显示版本"),
     ("subcommand", "命令"),
     ("output", "输出的形式"),
+    ("encoding", "`--output lisp` 的编码；没有的字写成 \\U+XXXX"),
     ("overwrite", "覆盖内容不同的已有文件"),
     ("path", "图形"),
     (
