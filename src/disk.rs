@@ -1,6 +1,9 @@
 //! Reads and writes files: never more than fits in memory, and never over a file that has changed since it was read.
 
+mod fence;
 mod temporary;
+
+pub(crate) use fence::{Barred, Fence};
 
 use rustc_hash::FxHasher;
 use std::fs::{File, Metadata};
@@ -131,14 +134,23 @@ impl Seen {
     /// The identity of `file`, which has these bytes.
     pub(crate) fn of(file: &File, bytes: &[u8]) -> Result<Seen, String> {
         let metadata = file.metadata().map_err(|error| plain(&error))?;
-        let mut hasher = FxHasher::default();
-        hasher.write(bytes);
         Ok(Seen {
             identity: identity(&metadata),
             length: bytes.len(),
-            digest: hasher.finish(),
+            digest: digest(bytes),
         })
     }
+}
+
+fn digest(bytes: &[u8]) -> u64 {
+    let mut hasher = FxHasher::default();
+    hasher.write(bytes);
+    hasher.finish()
+}
+
+/// A word for what a file holds: other bytes have another.
+pub(crate) fn revision(bytes: &[u8]) -> String {
+    format!("{:x}-{:016x}", bytes.len(), digest(bytes))
 }
 
 /// Device and number of a file, where a system has them.
@@ -224,6 +236,21 @@ fn replaced(path: &Path, read: Option<&Seen>, bytes: &[u8]) -> io::Result<u64> {
     beside.persist(&path)?;
     sync(folder);
     Ok(old.as_ref().map_or(0, other_names))
+}
+
+/// Writes a file where there is none, beside and renamed as [`replace`] does. The error is `AlreadyExists` where there is
+/// one by now.
+pub(crate) fn create(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    if std::fs::symlink_metadata(path).is_ok() {
+        return Err(ErrorKind::AlreadyExists.into());
+    }
+    let folder = path.parent().unwrap_or(Path::new("."));
+    let mut beside = Temporary::in_folder(folder, false)?;
+    beside.file().write_all(bytes)?;
+    beside.file().sync_all()?;
+    beside.persist_new(path)?;
+    sync(folder);
+    Ok(())
 }
 
 /// True for a regular file with other bytes than these.

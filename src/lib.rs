@@ -1,6 +1,6 @@
 //! wedm: a language server for wire EDM.
 //!
-//! The floors, from the top, each of which imports only floors below it: [`cli`]; [`server`]; [`ide`], [`job`],
+//! The floors, from the top, each of which imports only floors below it: [`cli`]; `view`; [`server`]; [`ide`], [`job`],
 //! [`protocol`]; [`document`], [`picture`]; [`compare`]; [`analysis`], [`program`]; [`fit`]; `rules`, [`toolpath`];
 //! [`dxf`], [`settings`]; [`finding`]; [`drawing`]; [`rule`]; [`geometry`], [`text`], [`message`], `disk`.
 //! `docs/architecture.md` is the map and describes each.
@@ -53,3 +53,4 @@ pub mod settings;
 pub mod text;
 #[allow(clippy::indexing_slicing)]
 pub mod toolpath;
+mod view;

@@ -44,5 +44,7 @@ mod testing;
 mod texts;
 #[path = "server/token_deltas.rs"]
 mod token_deltas;
+#[path = "server/view/mod.rs"]
+mod view;
 #[path = "server/wire.rs"]
 mod wire;

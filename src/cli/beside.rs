@@ -4,7 +4,7 @@ use super::Failure;
 use super::files;
 use super::options::Common;
 use crate::compare::{self, Beside, name_of};
-use crate::disk;
+use crate::disk::Fence;
 use crate::document::Document;
 use crate::finding::Rule;
 use crate::settings::Settings;
@@ -12,9 +12,20 @@ use std::path::Path;
 
 /// The folders searched so far: each is searched once.
 #[derive(Default)]
-pub(crate) struct Folders(compare::Folders);
+pub(crate) struct Folders {
+    searched: compare::Folders,
+    fence: Fence,
+}
 
 impl Folders {
+    /// The same, where nothing beyond a fence is read.
+    pub(super) fn within(fence: &Fence) -> Folders {
+        Folders {
+            searched: compare::Folders::new(fence.clone(), |_| false),
+            fence: fence.clone(),
+        }
+    }
+
     /// The partners of a document that was read from `path`.
     pub(super) fn beside(
         &self,
@@ -28,7 +39,8 @@ impl Folders {
             return Beside::Nothing;
         }
         let other = |path: &Path| {
-            let form = disk::open_regular(path).and_then(|_| {
+            let barred = |barred: crate::disk::Barred| barred.to_string();
+            let form = self.fence.open(path).map_err(barred).and_then(|_| {
                 let opened = files::open(path, common, last);
                 let opened = opened.map_err(|Failure(sentence)| sentence)?;
                 let form = opened.document.form();
@@ -39,13 +51,13 @@ impl Folders {
         let setting = settings.drawing.as_deref();
         if let Some(program) = document.program() {
             let head = program.text().bytes();
-            let Some(named) = self.0.drawing_of(path, head, setting) else {
+            let Some(named) = self.searched.drawing_of(path, head, setting) else {
                 return Beside::Nothing;
             };
             let others = named.others.iter().map(|path| name_of(path));
             return Beside::of_program(other(&named.path), others.collect());
         }
-        let programs = self.0.programs_of(path, setting);
+        let programs = self.searched.programs_of(path, setting);
         Beside::of_drawing(programs.iter().map(|program| other(program)))
     }
 }

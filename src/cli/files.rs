@@ -284,7 +284,7 @@ fn say_encoding(writing: Writing) {
 }
 
 /// The settings for an input, and the faults found in settings files.
-fn settings_for(
+pub(crate) fn settings_for(
     path: &Path,
     common: &Common,
     last: &Settings,
@@ -410,6 +410,8 @@ pub(crate) struct Search<'a> {
     pub(crate) exclude: &'a [String],
     /// Hidden files, too, and what .gitignore and its like name.
     pub(crate) all: bool,
+    /// How many folders deep; all where nothing is said.
+    pub(crate) depth: Option<usize>,
 }
 
 /// The files that `paths` name: files as they are, folders searched, sorted by name, without duplicates. `-` is kept.
@@ -464,6 +466,7 @@ fn walk(path: &Path, search: &Search) -> Result<ignore::Walk, ignore::Error> {
     Ok(walk
         .standard_filters(!search.all)
         .require_git(false)
+        .max_depth(search.depth)
         .overrides(excluded.build()?)
         .sort_by_file_name(std::ffi::OsStr::cmp)
         .build())

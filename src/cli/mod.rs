@@ -32,6 +32,7 @@ mod pair;
 mod report;
 mod serve;
 mod simulate;
+mod view;
 
 use crate::disk::ending_of;
 use crate::document::FileKind;
@@ -83,6 +84,7 @@ enum Command {
     Explain(explain::Arguments),
     Init(init::Arguments),
     Config(config::Arguments),
+    View(view::Arguments),
     Demo(demo::Arguments),
     Serve(serve::Arguments),
     Completions(completions::Arguments),
@@ -230,6 +232,7 @@ pub fn run() -> ExitCode {
         Some(Command::Explain(arguments)) => explain::run(&arguments),
         Some(Command::Init(arguments)) => init::run(&arguments),
         Some(Command::Config(arguments)) => config::run(&arguments),
+        Some(Command::View(arguments)) => view::run(&arguments),
         Some(Command::Demo(arguments)) => demo::run(&arguments),
         Some(Command::Completions(arguments)) => completions::run(&arguments, &mut command()),
         Some(Command::Man(arguments)) => man::run(&arguments, command()),

@@ -1,7 +1,7 @@
 //! Finds the drawing of a program: the one that a comment of it names, the one in the settings, else the one of its own
 //! name. A comment never leads out of the program's folder: programs come from strangers.
 
-use crate::disk::{self, ending_of};
+use crate::disk::{Fence, ending_of};
 use crate::dxf;
 use crate::program::Language;
 use crate::text::Writing;
@@ -29,6 +29,7 @@ const MOST: usize = 200;
 pub(crate) struct Folders {
     /// Whether an editor holds a file open: that one is there, on disk or not.
     is_open: Box<dyn Fn(&Path) -> bool + Send + Sync>,
+    fence: Fence,
     listed: Mutex<FxHashMap<PathBuf, Arc<Listing>>>,
     /// Programs and the drawing of each, where it has one.
     drawings: Mutex<FxHashMap<PathBuf, Option<PathBuf>>>,
@@ -44,14 +45,19 @@ struct Listing {
 
 impl Default for Folders {
     fn default() -> Folders {
-        Folders::new(|_| false)
+        Folders::new(Fence::default(), |_| false)
     }
 }
 
 impl Folders {
-    pub(crate) fn new(is_open: impl Fn(&Path) -> bool + Send + Sync + 'static) -> Folders {
+    /// Nothing is read beyond the fence.
+    pub(crate) fn new(
+        fence: Fence,
+        is_open: impl Fn(&Path) -> bool + Send + Sync + 'static,
+    ) -> Folders {
         Folders {
             is_open: Box::new(is_open),
+            fence,
             listed: Mutex::default(),
             drawings: Mutex::default(),
         }
@@ -174,7 +180,7 @@ impl Folders {
         if let Some(known) = lock().get(program) {
             return known.clone();
         }
-        let named = self.drawing_of(program, &head_of(program), setting);
+        let named = self.drawing_of(program, &head_of(program, &self.fence), setting);
         let drawing = named.map(|named| real(&named.path));
         lock().insert(program.to_path_buf(), drawing.clone());
         drawing
@@ -202,9 +208,9 @@ fn places(folder: &Path, name: &str) -> Vec<PathBuf> {
 }
 
 /// The first lines of a program's file, in UTF-8 where it is in GB 18030; empty where it cannot be read.
-pub(crate) fn head_of(path: &Path) -> Vec<u8> {
+fn head_of(path: &Path, fence: &Fence) -> Vec<u8> {
     let mut head = Vec::new();
-    if let Ok(file) = disk::open_regular(path) {
+    if let Ok(file) = fence.open(path) {
         let _ = file.take(HEAD as u64).read_to_end(&mut head);
     }
     // A letter that is cut in two would hide the encoding.
@@ -293,7 +299,9 @@ mod tests {
     #[track_caller]
     fn check(head: &str, setting: Option<&str>, files: &[&str], expected: Option<&str>) {
         let files: Vec<PathBuf> = files.iter().map(PathBuf::from).collect();
-        let folders = Folders::new(move |path| files.iter().any(|file| path == file));
+        let folders = Folders::new(Fence::default(), move |path| {
+            files.iter().any(|file| path == file)
+        });
         let named = folders.drawing_of(Path::new("/job/plate.3b"), head.as_bytes(), setting);
         let path = named.map(|named| named.path);
         assert_eq!(path.as_deref(), expected.map(Path::new), "{head}");
@@ -350,7 +358,8 @@ mod tests {
         let head = b"; \xcd\xb9\xc4\xa3.dxf\n; \xcd\xb9\xc4\xa3\n";
         std::fs::write(&program, [head, blocks.as_bytes()].concat()).unwrap();
         std::fs::write(&drawing, "").unwrap();
-        let named = Folders::default().drawing_of(&program, &head_of(&program), None);
+        let named =
+            Folders::default().drawing_of(&program, &head_of(&program, &Fence::default()), None);
         assert_eq!(named.map(|named| named.path), Some(drawing));
     }
 
@@ -374,7 +383,9 @@ mod tests {
 
     #[test]
     fn two_drawings_of_one_name_are_told() {
-        let folders = Folders::new(|path| path.extension().is_some_and(|ending| ending != "DXF"));
+        let folders = Folders::new(Fence::default(), |path| {
+            path.extension().is_some_and(|ending| ending != "DXF")
+        });
         let named = folders
             .drawing_of(Path::new("/job/plate.3b"), b"", None)
             .unwrap();

@@ -49,6 +49,12 @@ impl Temporary {
         self.file.persist(path)?;
         Ok(())
     }
+
+    /// Gives it its name where no file has it.
+    pub(super) fn persist_new(self, path: &Path) -> io::Result<()> {
+        self.file.persist_noclobber(path)?;
+        Ok(())
+    }
 }
 
 /// What a signal removes before it ends the process.

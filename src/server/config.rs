@@ -1,5 +1,6 @@
 //! The levels of settings, and which `wedm.toml` holds for which document.
 
+use crate::disk::Fence;
 use crate::finding::Severity;
 use crate::settings::{
     Effective, FILE_NAME, Origin, Origins, Settings, SettingsError, from_json, from_toml, is_there,
@@ -26,6 +27,8 @@ const PAGE_OF_CLIENT: &str = "wedm-rule:/{rule}.md";
 
 #[derive(Clone, Default)]
 pub(super) struct Config {
+    /// Nothing beyond it is read but settings above it.
+    fence: Fence,
     /// The client opens pages of rules itself.
     pub(crate) rule_pages: bool,
     initialization: Settings,
@@ -57,13 +60,33 @@ impl Level {
 }
 
 impl Config {
+    pub(crate) fn within(fence: Fence) -> Config {
+        Config {
+            fence,
+            ..Config::default()
+        }
+    }
+
+    pub(crate) fn fence(&self) -> &Fence {
+        &self.fence
+    }
+
     pub(crate) fn set_folders(&mut self, folders: Vec<PathBuf>) {
-        self.folders = folders;
+        self.folders.clear();
+        self.change_folders(&[], folders);
+    }
+
+    /// True for a document that may not be opened: its name is that of a file beyond the fence.
+    pub(crate) fn bars(&self, uri: &str) -> bool {
+        path_of(uri).is_some_and(|path| !self.fence.encloses(&path))
     }
 
     pub(crate) fn change_folders(&mut self, removed: &[PathBuf], added: Vec<PathBuf>) {
         self.folders.retain(|folder| !removed.contains(folder));
-        self.folders.extend(added);
+        let within = added
+            .into_iter()
+            .filter(|folder| self.fence.encloses(folder));
+        self.folders.extend(within);
     }
 
     /// Replaces one level. Returns, as sentences with their severities, the values at fault that the user has not been
@@ -135,6 +158,7 @@ impl Config {
     /// is no file.
     pub(crate) fn folder_of(&self, uri: &str) -> Option<PathBuf> {
         match path_of(uri) {
+            Some(path) if !self.fence.encloses(&path) => None,
             Some(path) => path.parent().map(Path::to_path_buf),
             None => self.folders.first().cloned(),
         }
@@ -234,7 +258,7 @@ fn read_file(path: &Path) -> ProjectFile {
 }
 
 /// The file that a URI names; `None` for anything but a `file:` URI.
-pub(super) fn path_of(uri: &str) -> Option<PathBuf> {
+pub(crate) fn path_of(uri: &str) -> Option<PathBuf> {
     let parsed = Uri::from_str(uri).ok()?;
     let is_file = parsed.scheme().as_str().eq_ignore_ascii_case("file");
     is_file
@@ -249,7 +273,7 @@ pub(super) fn name_of(uri: &str) -> Option<String> {
 }
 
 /// The URI of a file.
-pub(super) fn uri_of(path: &Path) -> Option<String> {
+pub(crate) fn uri_of(path: &Path) -> Option<String> {
     Uri::from_file_path(path).map(|uri| uri.as_str().to_owned())
 }
 

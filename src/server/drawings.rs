@@ -47,6 +47,11 @@ pub(super) fn open(state: &mut State, sent: Sent) {
 }
 
 fn insert(state: &mut State, uri: Arc<str>, version: i64, drawing: Drawing) {
+    if state.config.bars(&uri) {
+        return state
+            .client
+            .show(Weight::Error, say!(says, uri, say!(it_lies_outside)));
+    }
     let name = messages::DidOpenDrawing::NAME;
     state.with_file(name, uri.clone(), move |state, file| {
         let settings = state.config.effective_for(&uri, file.as_deref());

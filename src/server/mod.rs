@@ -33,17 +33,20 @@ mod transport;
 #[cfg(feature = "testing")]
 pub use transport::{Frame, Frames};
 
+pub(crate) use config::{path_of, uri_of};
+
+use crate::disk::Fence;
 use serde_json::Value;
 use state::Mailbox;
-use std::io::Read;
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
+use tokio::sync::mpsc::{Receiver, Sender};
 use tracing_subscriber::filter::{LevelFilter, Targets};
 use tracing_subscriber::layer::SubscriberExt;
 use tracing_subscriber::util::SubscriberInitExt;
-use transport::{Inbox, LostChange, Transport, Writer};
+use transport::{FromClient, Inbox, LostChange, Messages, ToClient, Transport, Writer};
 
 /// How the server is run.
 #[derive(Clone, Copy, Debug)]
@@ -87,10 +90,11 @@ fn serve(options: Options) -> std::io::Result<u8> {
     let orphaned: Option<fn()> = options.watch_parent.then_some(|| end_of_process(BAD_END));
     // Held to the end: threads that still work are not waited for.
     let _transport = serve_between(
-        input,
+        &mut transport::Frames::new(input),
         &writer,
         &flags,
         orphaned,
+        Fence::default(),
         [LAST_ANSWERS, LAST_WRITES],
     )?;
     end_of_process(if flags.shut_down.load(Ordering::Acquire) {
@@ -100,22 +104,47 @@ fn serve(options: Options) -> std::io::Result<u8> {
     })
 }
 
-/// Serves `input` to its end, then waits for the last answers and for the client to read them.
+/// Serves a client whose messages come whole, until it says `exit` or no more come; nothing beyond the fence is read but
+/// settings above it. The process goes on. Both queues should be short: what waits for the client waits before them.
+///
+/// # Errors
+/// Where a thread cannot be started.
+pub(crate) fn serve_messages(
+    from_client: Receiver<Vec<u8>>,
+    to_client: Sender<Vec<u8>>,
+    fence: Fence,
+) -> std::io::Result<()> {
+    let writer = Writer::start(ToClient(to_client), || {})?;
+    let mut messages = FromClient::new(from_client);
+    let patience = [LAST_ANSWERS, LAST_WRITES];
+    serve_between(
+        &mut messages,
+        &writer,
+        &Arc::default(),
+        None,
+        fence,
+        patience,
+    )
+    .map(drop)
+}
+
+/// Serves a client to the end of its messages, then waits for the last answers and for the client to read them.
 fn serve_between(
-    input: impl Read,
+    messages: &mut impl Messages,
     writer: &Writer,
     flags: &Arc<methods::Flags>,
     orphaned: Option<fn()>,
+    fence: Fence,
     [last_answers, last_writes]: [Duration; 2],
 ) -> std::io::Result<Transport<methods::Backend, ToState>> {
-    let mailbox = state::start(writer.clone(), drawings::does_not_apply)?;
+    let mailbox = state::start(writer.clone(), fence, drawings::does_not_apply)?;
     let service = methods::service(mailbox.clone(), flags.clone(), orphaned);
     let inbox = ToState {
         mailbox: mailbox.clone(),
         flags: flags.clone(),
     };
     let mut transport = Transport::new(service, inbox, writer.clone())?;
-    transport.serve(input);
+    transport.serve(messages);
     transport.drain(last_answers);
     let (done, all_told) = std::sync::mpsc::channel();
     // The queue may be full and its thread busy: the thread that ends the process must not wait for it.
@@ -131,13 +160,23 @@ fn serve_between(
 /// Where a thread cannot be started.
 #[cfg(feature = "testing")]
 pub fn serve_here(
-    input: impl Read,
+    input: impl std::io::Read,
     output: impl std::io::Write + Send + 'static,
 ) -> std::io::Result<()> {
     let writer = Writer::start(output, || {})?;
     // Longer than anything in a test takes: an answer that has not come by then will never come.
     let patience = Duration::from_secs(20);
-    serve_between(input, &writer, &Arc::default(), None, [patience; 2]).map(drop)
+    let mut messages = transport::Frames::new(input);
+    let fence = Fence::default();
+    serve_between(
+        &mut messages,
+        &writer,
+        &Arc::default(),
+        None,
+        fence,
+        [patience; 2],
+    )
+    .map(drop)
 }
 
 fn end_of_process(code: u8) -> ! {
@@ -177,7 +216,7 @@ impl Inbox for ToState {
 }
 
 /// Logs to stderr by `WEDM_LOG`, warnings and worse by default. Standard output belongs to the protocol.
-fn log_to_stderr() {
+pub(crate) fn log_to_stderr() {
     let said = std::env::var("WEDM_LOG").ok();
     let filter: Targets = said
         .and_then(|said| said.parse().ok())

@@ -7,7 +7,7 @@
 use super::config::{self, Config, Search};
 use super::links::{Files, Kept, Link, Paths, Stamp};
 use crate::compare::{Folders, Form};
-use crate::disk;
+use crate::disk::{self, Fence};
 use crate::document::{Document, FileKind};
 use crate::settings::Effective;
 use crate::text::SourceText;
@@ -51,7 +51,7 @@ impl Look {
             let paths = paths.read().unwrap_or_else(PoisonError::into_inner);
             paths.contains_key(path)
         };
-        let folders = Folders::new(is_open);
+        let folders = Folders::new(self.config.fence().clone(), is_open);
         let mut search = Search::default();
         let mut answers = Vec::with_capacity(self.questions.len());
         for question in &self.questions {
@@ -98,7 +98,7 @@ impl Look {
         let opened = |file: &Path| self.settings_texts.get(file).cloned();
         let project = self.config.file_for(&uri, search, &opened);
         let settings = self.config.effective_for(&uri, project.as_deref());
-        let form = form_of_file(path, &settings);
+        let form = form_of_file(path, self.config.fence(), &settings);
         if let Some(known) = known.filter(|known| stamp.is_none() && known.form == form) {
             return known;
         }
@@ -109,8 +109,9 @@ impl Look {
 }
 
 /// Reads a file that is not open.
-fn form_of_file(path: &Path, settings: &Arc<Effective>) -> Result<Form, String> {
-    let bytes = disk::read_path_at_most(path, LARGEST)?;
+fn form_of_file(path: &Path, fence: &Fence, settings: &Arc<Effective>) -> Result<Form, String> {
+    let file = fence.open(path).map_err(|barred| barred.to_string())?;
+    let bytes = disk::read_at_most(&file, LARGEST)?;
     let kind = FileKind::of_ending(&disk::ending_of(path)).unwrap_or(FileKind::Drawing);
     let form = catch_unwind(AssertUnwindSafe(|| {
         let (source, _) = kind.read(bytes, settings);

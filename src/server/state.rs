@@ -13,6 +13,7 @@ use super::links::Links;
 use super::looks::Looks;
 use super::open::Open;
 use super::transport::{Publish, Writer, give_back, panic_text};
+use crate::disk::Fence;
 use crate::text::Encoding;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::VecDeque;
@@ -116,13 +117,17 @@ pub(super) struct State {
 type RefuseChange = fn(&mut State, &Arc<str>, &str);
 
 /// Starts the state thread.
-pub(super) fn start(writer: Writer, refuse_change: RefuseChange) -> std::io::Result<Mailbox> {
+pub(super) fn start(
+    writer: Writer,
+    fence: Fence,
+    refuse_change: RefuseChange,
+) -> std::io::Result<Mailbox> {
     let (sender, receiver) = sync_channel(QUEUE);
     let mailbox = Mailbox { sender };
     let workers = Workers::new(writer.clone());
     let state = State {
         client: Client::new(writer),
-        config: Arc::default(),
+        config: Arc::new(Config::within(fence)),
         encoding: Encoding::default(),
         workers,
         mailbox: mailbox.clone(),

@@ -14,6 +14,11 @@ use ls_types::TextDocumentContentChangeEvent;
 use std::sync::Arc;
 
 pub(super) fn open(state: &mut State, uri: Arc<str>, language: &str, version: i64, text: String) {
+    if state.config.bars(&uri) {
+        return state
+            .client
+            .show(Weight::Error, say!(says, uri, say!(it_lies_outside)));
+    }
     let kind = Kind::of(language, &uri);
     state.log_if_open(&uri);
     state.with_file("textDocument/didOpen", uri.clone(), move |state, file| {

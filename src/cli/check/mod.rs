@@ -11,20 +11,22 @@ use super::files::{self, Opened};
 use super::options::Common;
 use super::report::{MOST, Row};
 use super::{Failure, Verdict, output, output::styled};
+use crate::disk::Fence;
 use crate::document::FileKind;
 use crate::finding::{Rule, Severity};
 use crate::job;
 use crate::message::help;
 use crate::protocol::Against;
-use crate::settings::Settings;
+use crate::settings::{self, Settings};
 use crate::text::SourceText;
+use crate::view::Counts;
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 use rayon::prelude::*;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
-#[derive(Args, Debug)]
+#[derive(Args, Debug, Default)]
 #[command(after_help = "\
 Examples:
   wedm check plate.dxf
@@ -67,6 +69,7 @@ impl Arguments {
         files::Search {
             exclude: &self.exclude,
             all: self.no_ignore,
+            depth: None,
         }
     }
 
@@ -346,6 +349,32 @@ fn check(
         failure: Some(failure),
         ..Checked::default()
     })
+}
+
+/// Errors and warnings of a file, as the command finds them; the drawings and programs beside it are read within the fence.
+pub(crate) fn count(path: &Path, fence: &Fence) -> Result<Counts, String> {
+    let arguments = Arguments::default();
+    let rows = match path.file_name() == Some(settings::FILE_NAME.as_ref()) {
+        true => {
+            // It holds for itself, too.
+            let read = files::settings_for(path, &arguments.common, &Settings::default());
+            read.map_err(|Failure(sentence)| sentence)?.1
+        }
+        false => {
+            let folders = Folders::within(fence);
+            let checked = check(path, &arguments, &Settings::default(), &folders, false);
+            if let Some(Failure(sentence)) = checked.failure {
+                return Err(sentence);
+            }
+            checked.rows
+        }
+    };
+    let mut counts = Counts::default();
+    for row in rows.iter().filter(|row| arguments.wants(row)) {
+        counts.errors += usize::from(row.severity == Severity::Error);
+        counts.warnings += usize::from(row.severity == Severity::Warning);
+    }
+    Ok(counts)
 }
 
 /// Shown on a terminal only, and only where there is something to wait for.

@@ -7,6 +7,7 @@ declare! {
     a_folder_is_no_file => "it is a folder, expected one file";
     it_is_a_folder => "it is a folder";
     it_is_no_regular_file => "it is not a regular file";
+    it_lies_outside => "it lies outside of the folders that are shown";
     it_is_read_only => "it is read-only";
     it_is_not_the_file_any_more_that_was_read => "it is no longer the file that was read, nothing is changed";
     its_owner_user_group_cannot_be_kept(uid, gid, error) => "its owner (user {uid}, group {gid}) cannot be kept: {error}";

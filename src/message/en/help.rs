@@ -106,6 +106,11 @@ Exit codes: 0 no error found, 1 errors in the drawing, 2 could not read, or wron
   wedm config schema > wedm.schema.json    completion and checks in editors that take a schema for TOML:
                                            `#:schema ./wedm.schema.json` in the first line of wedm.toml"),
     ("schema", "The JSON Schema of wedm.toml"),
+    ("view", "Show drawings and programs in the browser, beside any CAD program"),
+    ("view/", "Serves a page to this computer alone, prints its address and opens the browser. The page follows every save: faults, radii, wire path, repairs, programs. Nothing outside of the named folders is read but each wedm.toml above them, and nothing is written but what is saved in the page. Ends with Ctrl-C, or a minute after the last page was closed."),
+    ("view paths", "Folders to show, or files, each with the folder it is in"),
+    ("view port", "Port of the page [default: a free one]"),
+    ("view no_open", "Print the address, and open no browser"),
     ("demo", "Play a whole session with a real server, on a drawing that ships inside"),
     ("demo/", "Opens the drawing of a cutting plate, edits it as a designer would, shows each diagnostic as it arrives, applies the fixes, asks for the 3B program, decodes it again, and writes demo.dxf, demo.3b, demo.svg and wedm.toml. Ends with 0 only when all of its claims were found to be true. Files of these names that no demonstration has written are only overwritten with --overwrite."),
     ("demo folder", "Folder for the files"),

@@ -14,10 +14,11 @@ mod program;
 mod server;
 mod settings;
 mod toolpath;
+mod view;
 
 pub(super) use {
     amounts::*, cli::*, codes::*, drawing::*, files::*, findings::*, help::*, ide::*, job::*,
-    pages::*, program::*, server::*, settings::*, toolpath::*,
+    pages::*, program::*, server::*, settings::*, toolpath::*, view::*,
 };
 
 /// Every sentence, in the language that is spoken.
@@ -25,6 +26,6 @@ pub(crate) mod said {
     pub(crate) use super::{
         amounts::said::*, cli::said::*, codes::said::*, drawing::said::*, files::said::*,
         findings::said::*, ide::said::*, job::said::*, pages::said::*, program::said::*,
-        server::said::*, settings::said::*, toolpath::said::*,
+        server::said::*, settings::said::*, toolpath::said::*, view::said::*,
     };
 }

@@ -7,6 +7,7 @@ translate! {
     a_folder_is_no_file => "是文件夹，应为一个文件";
     it_is_a_folder => "是文件夹";
     it_is_no_regular_file => "不是普通文件";
+    it_lies_outside => "在所显示的文件夹之外";
     it_is_read_only => "是只读的";
     it_is_not_the_file_any_more_that_was_read => "已不是当初读入的文件，未作任何修改";
     its_owner_user_group_cannot_be_kept(uid, gid, error) => "文件的所有者（用户 {uid}，组 {gid}）无法保留：{error}";

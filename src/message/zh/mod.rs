@@ -14,8 +14,9 @@ mod program;
 mod server;
 mod settings;
 mod toolpath;
+mod view;
 
 pub(super) use {
     amounts::*, cli::*, codes::*, drawing::*, files::*, findings::*, help::*, ide::*, job::*,
-    pages::*, program::*, server::*, settings::*, toolpath::*,
+    pages::*, program::*, server::*, settings::*, toolpath::*, view::*,
 };

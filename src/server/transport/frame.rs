@@ -4,6 +4,7 @@
 //! consumes bytes: there are fewer steps than bytes.
 
 use super::lost::{LostChange, lost_change};
+use super::{Messages, stdio};
 use crate::text::head;
 use memchr::memmem;
 use std::io::Read;
@@ -42,6 +43,28 @@ pub struct Frames<R> {
     looked_through: usize,
 }
 
+impl<R: Read> Messages for Frames<R> {
+    fn step(&mut self) -> Frame {
+        Frames::step(self)
+    }
+
+    fn take_lost(&mut self) -> Option<LostChange> {
+        self.lost.take()
+    }
+
+    fn was_broken(&mut self, body: &[u8]) {
+        Frames::was_broken(self, body);
+    }
+
+    fn position(&self) -> i64 {
+        Frames::position(self)
+    }
+
+    fn is_hung_up(&self) -> bool {
+        stdio::is_hung_up()
+    }
+}
+
 impl<R: Read> Frames<R> {
     pub fn new(input: R) -> Frames<R> {
         Frames {
@@ -54,11 +77,6 @@ impl<R: Read> Frames<R> {
             lost: None,
             looked_through: 0,
         }
-    }
-
-    /// The change of a document in what was passed over since this was asked last.
-    pub(crate) fn take_lost(&mut self) -> Option<LostChange> {
-        self.lost.take()
     }
 
     /// Passes over bytes that are no part of a sound message.

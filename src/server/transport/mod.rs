@@ -12,11 +12,13 @@ mod memory;
 mod message;
 mod stdio;
 mod weight;
+mod whole;
 mod writer;
 mod written;
 
 pub(crate) use lost::LostChange;
 pub(crate) use memory::give_back;
+pub(crate) use whole::{FromClient, ToClient};
 pub(crate) use writer::{Publish, Writer};
 pub(crate) use written::{AsWritten, Written};
 
@@ -28,7 +30,6 @@ use message::Incoming;
 use serde_json::Value;
 use std::any::Any;
 use std::future::Future;
-use std::io::Read;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::pin::Pin;
 use std::sync::Arc;
@@ -52,6 +53,24 @@ pub(crate) trait Inbox {
     fn lost(&self, change: LostChange);
     /// Number of notifications that a handler has taken so far.
     fn taken(&self) -> usize;
+}
+
+/// What a client sends, one message after another.
+pub(crate) trait Messages {
+    /// Waits for the next one.
+    fn step(&mut self) -> Frame;
+
+    /// The change of a document in what was passed over since this was asked last.
+    fn take_lost(&mut self) -> Option<LostChange>;
+
+    /// Marks the last message as invalid.
+    fn was_broken(&mut self, body: &[u8]);
+
+    /// Bytes that are used up.
+    fn position(&self) -> i64;
+
+    /// True where the client has gone, although messages of it may still wait.
+    fn is_hung_up(&self) -> bool;
 }
 
 type Answer = Pin<Box<dyn Future<Output = Result<Option<Response>, ExitedError>> + Send>>;
@@ -84,14 +103,13 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
     }
 
     /// Serves until `exit` or the end of the input; true when the client said `exit`.
-    pub(crate) fn serve(&mut self, input: impl Read) -> bool {
-        let mut frames = Frames::new(input);
+    pub(crate) fn serve(&mut self, messages: &mut impl Messages) -> bool {
         loop {
-            if !self.wait_for_reader() {
+            if !self.wait_for_reader(messages) {
                 return false;
             }
-            let frame = frames.step();
-            self.lose(frames.take_lost());
+            let frame = messages.step();
+            self.lose(messages.take_lost());
             match frame {
                 Frame::End => return false,
                 Frame::Broken(reason) => {
@@ -100,12 +118,12 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
                         message: reason.into(),
                         data: None,
                     };
-                    self.answer_broken(error, frames.position());
+                    self.answer_broken(error, messages.position());
                 }
                 Frame::Body(body) => match message::parse(&body) {
                     Err(error) => {
-                        frames.was_broken(&body);
-                        self.answer_broken(error, frames.position());
+                        messages.was_broken(&body);
+                        self.answer_broken(error, messages.position());
                         self.lose(lost_change(&body));
                     }
                     Ok(Incoming::Invalid { id, error }) => {
@@ -137,12 +155,12 @@ impl<S: LanguageServer, I: Inbox> Transport<S, I> {
     }
 
     /// Takes no more messages while the client does not read; false when it has gone.
-    fn wait_for_reader(&self) -> bool {
+    fn wait_for_reader(&self, messages: &impl Messages) -> bool {
         while self.writer.is_congested() {
             if self.writer.wait_for_room(Duration::from_millis(200)) {
                 break;
             }
-            if stdio::is_hung_up() {
+            if messages.is_hung_up() {
                 return false;
             }
         }

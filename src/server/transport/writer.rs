@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 /// While more bytes than this wait, no more messages are taken from the client.
 const BACKLOG: usize = 32 * 1024 * 1024;
 
-/// Bodies up to this length, and diagnostics, are copied after their header; longer ones are not held twice.
+/// Bodies up to this length are copied after their header; longer ones are not held twice.
 const ONE_WRITE: usize = 1024 * 1024;
 
 /// Params of `textDocument/publishDiagnostics`. The URI is the client's own spelling.
@@ -26,6 +26,27 @@ pub(crate) struct Publish {
     pub(crate) diagnostics: Written,
     /// Must not be superseded: the one publish that has to follow an opening or a closing.
     pub(crate) owed: bool,
+}
+
+/// Where messages go.
+pub(crate) trait Output: Send + 'static {
+    /// Hands a whole JSON body over, and waits while the client takes no more.
+    fn message(&mut self, body: Vec<u8>) -> std::io::Result<()>;
+}
+
+/// A stream, in which each body has its header.
+impl<W: Write + Send + 'static> Output for W {
+    fn message(&mut self, body: Vec<u8>) -> std::io::Result<()> {
+        let header = format!("Content-Length: {}\r\n\r\n", body.len());
+        // One write for header and body: readers then wake once.
+        if body.len() <= ONE_WRITE {
+            self.write_all(&[header.as_bytes(), &body].concat())?;
+        } else {
+            self.write_all(header.as_bytes())?;
+            self.write_all(&body)?;
+        }
+        self.flush()
+    }
 }
 
 /// Handle to the writing thread.
@@ -73,8 +94,8 @@ impl Publish {
         self.diagnostics.json().len()
     }
 
-    /// The whole message, with its header.
-    fn framed(&self) -> serde_json::Result<Vec<u8>> {
+    /// The whole message.
+    fn body(&self) -> serde_json::Result<Vec<u8>> {
         let method = "textDocument/publishDiagnostics";
         let uri = serde_json::to_string(&self.uri)?;
         let version = self
@@ -84,14 +105,14 @@ impl Publish {
             r#"{{"jsonrpc":"2.0","method":"{method}","params":{{"uri":{uri},{}"diagnostics":"#,
             version.unwrap_or_default()
         );
-        Ok(framed(&[head.as_bytes(), self.diagnostics.json(), b"}}"]))
+        Ok([head.as_bytes(), self.diagnostics.json(), b"}}"].concat())
     }
 }
 
 impl Writer {
     /// Starts the thread. `failed` is called when the client cannot be written to any more.
     pub(crate) fn start(
-        output: impl Write + Send + 'static,
+        output: impl Output,
         failed: impl FnOnce() + Send + 'static,
     ) -> std::io::Result<Writer> {
         let shared = Arc::new(Shared::default());
@@ -199,7 +220,7 @@ struct Notification<'a, P> {
 }
 
 /// Writes until the client's end is gone.
-fn write_all(shared: &Shared, mut output: impl Write) -> std::io::Result<()> {
+fn write_all(shared: &Shared, mut output: impl Output) -> std::io::Result<()> {
     loop {
         let mut queue = shared.queue();
         queue.writing = false;
@@ -235,34 +256,18 @@ fn write_all(shared: &Shared, mut output: impl Write) -> std::io::Result<()> {
         queue.writing = true;
         drop(queue);
         match next {
-            // One write for header and body: readers then wake once.
-            Next::Body(body) if body.len() <= ONE_WRITE => output.write_all(&framed(&[&body]))?,
             Next::Body(body) => {
-                output.write_all(header(body.len()).as_bytes())?;
-                output.write_all(&body)?;
-                drop(body);
-                super::memory::give_back();
+                let is_long = body.len() > ONE_WRITE;
+                output.message(body)?;
+                if is_long {
+                    super::memory::give_back();
+                }
             }
             Next::Publish(publish) => {
-                output.write_all(&publish.framed().map_err(std::io::Error::other)?)?
+                output.message(publish.body().map_err(std::io::Error::other)?)?;
             }
         }
-        output.flush()?;
     }
-}
-
-fn header(length: usize) -> String {
-    format!("Content-Length: {length}\r\n\r\n")
-}
-
-/// The parts of a body after their header.
-fn framed(parts: &[&[u8]]) -> Vec<u8> {
-    let length = parts.iter().map(|part| part.len()).sum();
-    let header = header(length);
-    let mut frame = Vec::with_capacity(header.len() + length);
-    frame.extend_from_slice(header.as_bytes());
-    parts.iter().for_each(|part| frame.extend_from_slice(part));
-    frame
 }
 
 enum Next {

@@ -1,0 +1,147 @@
+//! The requests of the page, and what each is answered.
+
+use super::guard::Pass;
+use super::places::Place;
+use super::reply::{Answer, Body, json_of, refusal, too_much, with};
+use super::shelf::Change;
+use super::{Page, View, files, socket};
+use crate::message::{Asker, Language, speak, spoken};
+use futures_util::stream;
+use http_body_util::{BodyExt, StreamBody};
+use hyper::body::{Bytes, Frame, Incoming};
+use hyper::header::{self, HeaderValue};
+use hyper::{Method, Request, Response, StatusCode};
+use serde_json::json;
+use std::convert::Infallible;
+use std::sync::Arc;
+use std::time::Duration;
+use tokio::sync::broadcast::error::RecvError;
+use tokio_tungstenite::tungstenite::handshake::server::create_response_with_body;
+
+/// The page, as the repository holds it.
+const PAGE: [(&str, &str, &[u8]); 4] = [
+    (
+        "/",
+        "text/html; charset=utf-8",
+        include_bytes!("page/index.html"),
+    ),
+    (
+        "/page.js",
+        "text/javascript; charset=utf-8",
+        include_bytes!("page/page.js"),
+    ),
+    (
+        "/page.css",
+        "text/css; charset=utf-8",
+        include_bytes!("page/page.css"),
+    ),
+    (
+        "/icon.svg",
+        "image/svg+xml",
+        include_bytes!("page/icon.svg"),
+    ),
+];
+
+/// A stream of changes says at least this often that it is still there.
+const PULSE: Duration = Duration::from_secs(15);
+
+pub(super) async fn answer(
+    view: Arc<View>,
+    place: Arc<Place>,
+    request: Request<Incoming>,
+) -> Result<Answer, Infallible> {
+    let mut answer = match view.guard.check(&request) {
+        Err(refused) => refused,
+        Ok(_) if !place.is_known() => too_much(),
+        Ok(Pass::New(welcome)) => welcome,
+        Ok(Pass::Known) => answer_known(&view, request).await,
+    };
+    // What was sent with a request that was not taken is not read, and no stranger keeps a connection.
+    if matches!(
+        answer.status(),
+        StatusCode::FORBIDDEN | StatusCode::PAYLOAD_TOO_LARGE | StatusCode::SERVICE_UNAVAILABLE
+    ) {
+        let close = HeaderValue::from_static("close");
+        answer.headers_mut().insert(header::CONNECTION, close);
+    }
+    view.guard.seal(&mut answer);
+    Ok(answer)
+}
+
+async fn answer_known(view: &Arc<View>, request: Request<Incoming>) -> Answer {
+    let path = request.uri().path();
+    let of_page = PAGE.iter().find(|(name, ..)| *name == path);
+    match (request.method(), path) {
+        (&Method::GET, "/api/start") => start(view, &request).await,
+        (&Method::GET, "/api/files") => json_of(&view.shelf.listed()),
+        (&Method::GET, "/api/changes") => changes(view),
+        (&Method::GET, "/api/file") => files::read(view, &request).await,
+        (&Method::PUT, "/api/file") => files::write(view, request).await,
+        (&Method::GET, "/lsp") => lsp(view, request),
+        (&Method::GET, _) if let Some((_, kind, bytes)) = of_page => {
+            with(StatusCode::OK, kind, Bytes::from_static(bytes))
+        }
+        (_, "/api/start" | "/api/files" | "/api/changes" | "/api/file" | "/lsp") => {
+            refusal(StatusCode::METHOD_NOT_ALLOWED, say!(another_method))
+        }
+        _ => refusal(StatusCode::NOT_FOUND, say!(nothing_is_there)),
+    }
+}
+
+async fn start(view: &Arc<View>, request: &Request<Incoming>) -> Answer {
+    // On Windows no environment says a language; the browser does.
+    let accepted = request.headers().get(header::ACCEPT_LANGUAGE);
+    let first = accepted.and_then(|accepted| accepted.to_str().ok()?.split([',', ';']).next());
+    if let Some(language) = first.and_then(Language::of) {
+        speak(language, Asker::Client);
+    }
+    let shared = view.clone();
+    let has_settings = tokio::task::spawn_blocking(move || shared.shelf.has_settings());
+    json_of(&json!({
+        "version": env!("CARGO_PKG_VERSION"),
+        "language": spoken().tag(),
+        "roots": view.shelf.roots(),
+        "opened": view.shelf.opened(),
+        "hasSettings": has_settings.await.unwrap_or_default(),
+    }))
+}
+
+/// Server-sent events. A page that does not read them in time is told to ask for all files again.
+fn changes(view: &View) -> Answer {
+    let Some(page) = Page::open(&view.pages) else {
+        return too_much();
+    };
+    let events = stream::unfold(
+        (view.shelf.subscribe(), page, true),
+        |(mut changes, page, is_first)| async move {
+            let text = if is_first {
+                ": wedm\n\n".to_owned()
+            } else {
+                match tokio::time::timeout(PULSE, changes.recv()).await {
+                    Ok(Ok(change)) => change.as_event(),
+                    Ok(Err(RecvError::Lagged(_))) => Change::Files.as_event(),
+                    Ok(Err(RecvError::Closed)) => return None,
+                    Err(_) => ": wedm\n\n".to_owned(),
+                }
+            };
+            let frame = Ok::<_, Infallible>(Frame::data(Bytes::from(text)));
+            Some((frame, (changes, page, false)))
+        },
+    );
+    let mut answer = Response::new(StreamBody::new(events).boxed_unsync());
+    let kind = HeaderValue::from_static("text/event-stream");
+    answer.headers_mut().insert(header::CONTENT_TYPE, kind);
+    answer
+}
+
+fn lsp(view: &Arc<View>, mut request: Request<Incoming>) -> Answer {
+    let Ok(answer) = create_response_with_body(&request, Body::default) else {
+        return refusal(StatusCode::BAD_REQUEST, say!(a_websocket_is_expected));
+    };
+    let Some(page) = Page::open(&view.pages) else {
+        return too_much();
+    };
+    let upgrade = hyper::upgrade::on(&mut request);
+    tokio::spawn(socket::converse(view.clone(), page, upgrade));
+    answer
+}
