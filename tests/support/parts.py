@@ -14,7 +14,7 @@ from runner import ROOT, TARGET, Part, cargo, line, silent
 WEDM = TARGET / "debug" / "wedm"
 
 # Those whose tests install something.
-CLIENTS = ("vscode", "librecad", "editors", "python", "autocad")
+CLIENTS = ("vscode", "view", "librecad", "editors", "python", "autocad")
 
 # What tests/nightly takes with all that it has.
 HOURS = 5
@@ -71,6 +71,7 @@ def day() -> list[Part]:
         # These mostly wait for the server.
         Part("server", "clients", f"{test} --test server", 120, 1800, ("build",), counts=cargo),
         script("librecad", "desktop", "clients/librecad/test", 500, 1800),
+        script("view", "desktop", "clients/view/test", 40, 900),
         script("editors", "desktop", "clients/editors/test", 60, 1800),
         script("python", "desktop", "clients/python/test", 120, 900),
         script("protocol", "desktop", "tests/protocol/test", 20, 900),

@@ -7,7 +7,7 @@ import type { Contours, Diagnostic, Repair, SettingsInForce } from "../../pictur
 import { contoursOf, faultOf, faultsOfFit } from "../../picture/shown";
 import { t } from "../../picture/words";
 import { whyOf } from "../../picture/why";
-import { read } from "./api";
+import { type FileEntry, read } from "./api";
 import { complain, say } from "./ask";
 import { difference, type Doc, inMemory, isDrawing, languageOfFile, ofFile } from "./doc";
 import { nameOf } from "./dom";
@@ -46,6 +46,8 @@ export class Bench implements Host {
   #isStale = false;
   #isFit = false;
   #madeOf: string | undefined;
+  /** Counts what is opened: of two that are asked for, the later one is shown. */
+  #opening = 0;
 
   constructor(
     private readonly server: Server,
@@ -89,7 +91,12 @@ export class Bench implements Host {
       await this.turnTo(kept, madeOf);
       return;
     }
+    this.#opening += 1;
+    const opening = this.#opening;
     const { bytes, revision } = await read(uri);
+    if (opening !== this.#opening) {
+      return;
+    }
     const language = languageOfFile(nameOf(uri), new TextDecoder().decode(bytes.subarray(0, 65_536))) ?? "dxf";
     await this.turnTo(ofFile(uri, language, bytes, revision), madeOf);
   }
@@ -158,6 +165,15 @@ export class Bench implements Host {
   writing(uri: string): void {
     if (this.#doc?.uri === uri) {
       document.body.classList.add("writing");
+    }
+  }
+
+  /** The files that there are: what is shown may be gone. */
+  listed(files: readonly FileEntry[]): void {
+    const doc = this.#doc;
+    if (document.body.classList.contains("writing") && doc !== null && files.every(({ uri }) => uri !== doc.uri)) {
+      document.body.classList.remove("writing");
+      say(t("{0} is no longer there.", doc.name), "warning");
     }
   }
 
@@ -288,7 +304,10 @@ export class Bench implements Host {
         right.markLine(message.line);
         break;
       case "playing":
-        right.markLine(message.line);
+        // The line stays marked where the wire has stopped.
+        if (message.line !== null) {
+          right.markLine(message.line);
+        }
         break;
       case "fault":
         right.markFault(message.fault);

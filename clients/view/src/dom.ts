@@ -31,9 +31,10 @@ export function nameOf(uri: string): string {
   return decodeURIComponent(uri.split("/").pop() ?? uri).replace(/^untitled:/, "");
 }
 
-/** The address of a file beside another one. */
+/** The address of a file beside another one, as the server writes it: only letters, digits and `-._~` stay. */
 export function beside(uri: string, name: string): string {
-  return uri.replace(/[^/]*$/, encodeURIComponent(name).replaceAll("%2B", "+"));
+  const written = encodeURIComponent(name).replace(/[!'()*]/g, (letter) => `%${letter.charCodeAt(0).toString(16).toUpperCase()}`);
+  return uri.slice(0, uri.lastIndexOf("/") + 1) + written;
 }
 
 /** The name without its ending. */

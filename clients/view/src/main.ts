@@ -35,7 +35,11 @@ async function begin(): Promise<void> {
   const language = chooseLanguage(started.language);
   const server = new Server(`ws://${location.host}/lsp`, language, started.roots, {
     diagnosed: (uri, version, found) => {
-      bench?.diagnosed(uri, version, found);
+      if (uri.endsWith("/wedm.toml")) {
+        form.diagnosed(uri, found);
+      } else {
+        bench?.diagnosed(uri, version, found);
+      }
     },
     connected: () => {
       connection("");
@@ -64,6 +68,7 @@ async function begin(): Promise<void> {
       server.settingsChanged([...new Set([...now, ...settingsFiles.split(",")])]);
     }
     settingsFiles = now.join() || "none";
+    bench?.listed(all);
     if (bench !== null && bench.doc === null) {
       openFirst(files, started.opened, open);
     }
@@ -133,8 +138,9 @@ async function begin(): Promise<void> {
     saved: (uri) => {
       if (uri.endsWith("/wedm.toml")) {
         server.settingsChanged([uri]);
+      } else {
+        bench?.saved(uri).catch(complain);
       }
-      bench?.saved(uri).catch(complain);
     },
     writing: (uri) => {
       bench?.writing(uri);

@@ -55,7 +55,9 @@ interface Told {
 
 export class Server {
   #connection: Connection | null = null;
-  #ready: Promise<void> = Promise.resolve();
+  #isReady = false;
+  /** What waits for the connection. */
+  #waiting: (() => void)[] = [];
   readonly #open = new Map<string, Opened>();
   #attempt = 0;
 
@@ -69,23 +71,27 @@ export class Server {
   }
 
   #connect(): void {
-    this.#ready = new Promise((resolve) => {
-      const connection: Connection = new Connection(
-        this.address,
-        (method, params) => {
-          this.#heard(method, params);
-        },
-        () => void this.#greet(connection).then(resolve, () => undefined),
-        () => {
-          this.told.lost(this.#attempt);
-          setTimeout(() => {
-            this.#connect();
-          }, PAUSES[Math.min(this.#attempt, PAUSES.length - 1)]);
-          this.#attempt += 1;
-        },
-      );
-      this.#connection = connection;
-    });
+    const connection: Connection = new Connection(
+      this.address,
+      (method, params) => {
+        this.#heard(method, params);
+      },
+      // What is refused here is lost with the connection.
+      () => void this.#greet(connection).catch(() => undefined),
+      () => {
+        this.#isReady = false;
+        this.told.lost(this.#attempt);
+        setTimeout(() => {
+          this.#connect();
+        }, PAUSES[Math.min(this.#attempt, PAUSES.length - 1)]);
+        this.#attempt += 1;
+      },
+    );
+    this.#connection = connection;
+  }
+
+  #ready(): Promise<void> {
+    return this.#isReady ? Promise.resolve() : new Promise((resolve) => this.#waiting.push(resolve));
   }
 
   async #greet(connection: Connection): Promise<void> {
@@ -103,6 +109,10 @@ export class Server {
     for (const opened of this.#open.values()) {
       connection.notify("textDocument/didOpen", { textDocument: opened });
     }
+    this.#isReady = true;
+    this.#waiting.splice(0).forEach((resolve) => {
+      resolve();
+    });
     this.told.connected();
   }
 
@@ -115,7 +125,7 @@ export class Server {
 
   /** Opens a document, or gives an open one its new text. */
   async put(uri: string, languageId: string, text: string): Promise<number> {
-    await this.#ready;
+    await this.#ready();
     const version = (this.#open.get(uri)?.version ?? 0) + 1;
     if (version === 1) {
       this.#connection?.notify("textDocument/didOpen", { textDocument: { uri, languageId, version, text } });
@@ -139,7 +149,7 @@ export class Server {
   }
 
   async request<M extends keyof Requests>(method: M, params: Requests[M]["params"]): Promise<Requests[M]["result"]> {
-    await this.#ready;
+    await this.#ready();
     return (await this.#connection?.request(method, params)) as Requests[M]["result"];
   }
 }
