@@ -31,6 +31,9 @@ function showPane(pane: Pane): void {
 }
 
 async function begin(): Promise<void> {
+  wearTheme(() => {
+    bench?.picture.recolour();
+  });
   const started = await start();
   const language = chooseLanguage(started.language);
   const server = new Server(`ws://${location.host}/lsp`, language, started.roots, {
@@ -124,9 +127,6 @@ async function begin(): Promise<void> {
     exportPicture: () => {
       programs.picture("svg").catch(complain);
     },
-  });
-  wearTheme(() => {
-    bench?.picture.recolour();
   });
   dropped(there());
   const keys = keysOf({ files, right, repairs, form, bar, there });

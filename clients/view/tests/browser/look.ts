@@ -43,6 +43,10 @@ export async function look(checks: Checks): Promise<void> {
     await expectSoon("the picture alone", async () => (await page.locator("#middle").isVisible()) && !(await page.locator("#left").isVisible()));
     await bench.shot("narrow");
     await fits();
+    await page.locator("#exports > button").click();
+    await bench.shot("narrow-menu");
+    await fits();
+    await page.keyboard.press("Escape");
     await page.locator("#panes [data-pane=right]").click();
     await page.locator("#right").waitFor();
     await bench.shot("narrow-lists");
