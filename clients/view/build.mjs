@@ -6,6 +6,8 @@ import { readdir, readFile, writeFile } from "node:fs/promises";
 
 const PAGE = new URL("../../src/view/page/", import.meta.url);
 const asked = process.argv[2];
+const HERE = new URL(".", import.meta.url).pathname;
+process.chdir(HERE);
 
 /**
  * The sentences of a source: first arguments of `t` and `text`, and the words of profiles, which are handed to it.
@@ -46,7 +48,7 @@ const words = {
 };
 
 async function page() {
-  const common = { bundle: true, minify: true, write: false, target: "es2022", logLevel: "warning", charset: "utf8", legalComments: "none" };
+  const common = { absWorkingDir: HERE, bundle: true, minify: true, write: false, target: "es2022", logLevel: "warning", charset: "utf8", legalComments: "none" };
   const [script, style] = await Promise.all([
     build({ ...common, entryPoints: ["src/main.ts"], format: "iife", platform: "browser", plugins: [words] }),
     build({ ...common, entryPoints: ["src/page.css"] }),
@@ -59,8 +61,7 @@ async function page() {
   };
 }
 
-const tests = { bundle: true, platform: "node", target: "node20", format: "esm", logLevel: "warning", external: ["playwright-core"] };
-process.chdir(new URL(".", import.meta.url).pathname);
+const tests = { absWorkingDir: HERE, bundle: true, platform: "node", target: "node20", format: "esm", logLevel: "warning", external: ["playwright-core"] };
 if (asked === "--unit" || asked === "--browser") {
   const folder = asked.slice(2);
   const names = folder === "unit" ? await readdir("tests/unit") : ["run.ts"];

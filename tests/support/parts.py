@@ -14,7 +14,7 @@ from runner import ROOT, TARGET, Part, cargo, line, silent
 WEDM = TARGET / "debug" / "wedm"
 
 # Those whose tests install something.
-CLIENTS = ("vscode", "librecad", "editors", "python", "autocad", "autolisp")
+CLIENTS = ("vscode", "view", "librecad", "editors", "python", "autocad", "autolisp")
 
 # What tests/nightly takes with all that it has.
 HOURS = 5
@@ -62,15 +62,15 @@ def day() -> list[Part]:
         Part("lint", "rust", "cargo clippy --locked --all-targets --features testing --quiet -- -D warnings", 300, 2400, ("compilers",)),
         Part("documentation", "rust", "cargo doc --locked --no-deps --quiet", 65, 1800, ("compilers",), environment={"RUSTDOCFLAGS": "-D warnings"}),
         Part("tests", "rust", setup + ezdxf + rust_tests(test), 450, 2400, ("build",), ("install",), cargo),
+        Part("server", "rust", f"{test} --test server", 120, 1800, ("build",), counts=cargo),
         Part("package", "rust", "dist/contents", 5, 300),
         # Everything from Debian, PyPI and npm, while the compiler is busy.
         Part("install", "clients", setup + " && ".join(installs), 200, 2400, ("compilers",), counts=silent),
         script("site", "clients", "docs/site/test", 20, 600, ()),
         script("vscode", "clients", "clients/vscode/test", 400, 1800),
-        script("autocad", "clients", "clients/autocad/test", 100, 900),
-        # These mostly wait for the server.
-        Part("server", "clients", f"{test} --test server", 120, 1800, ("build",), counts=cargo),
-        script("librecad", "desktop", "clients/librecad/test", 500, 1800),
+        script("autocad", "clients", "clients/autocad/test", 30, 900),
+        script("view", "clients", "clients/view/test", 60, 900),
+        script("librecad", "desktop", "clients/librecad/test", 400, 1800),
         script("editors", "desktop", "clients/editors/test", 60, 1800),
         script("python", "desktop", "clients/python/test", 120, 900),
         script("autolisp", "desktop", "clients/autolisp/test", 60, 600),

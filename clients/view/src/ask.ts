@@ -47,7 +47,12 @@ export function say(sentence: string, severity: "information" | "warning" | "err
     }));
   }
   notice.append(button("×", () => { notice.remove(); }, { class: "close", "aria-label": t("Close") }));
-  // The newest three are read.
+  // What is said again is said once; the newest three are read.
+  for (const other of [...(place?.children ?? [])]) {
+    if (other.firstChild?.textContent === sentence) {
+      other.remove();
+    }
+  }
   while ((place?.childElementCount ?? 0) > 2) {
     place?.firstElementChild?.remove();
   }

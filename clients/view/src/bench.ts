@@ -7,7 +7,7 @@ import type { Contours, Diagnostic, Repair, SettingsInForce } from "../../pictur
 import { contoursOf, faultOf, faultsOfFit } from "../../picture/shown";
 import { t } from "../../picture/words";
 import { whyOf } from "../../picture/why";
-import { read } from "./api";
+import { type FileEntry, read } from "./api";
 import { complain, say } from "./ask";
 import { difference, type Doc, inMemory, isDrawing, languageOfFile, ofFile } from "./doc";
 import { nameOf } from "./dom";
@@ -168,6 +168,15 @@ export class Bench implements Host {
     }
   }
 
+  /** The files that there are: what is shown may be gone. */
+  listed(files: readonly FileEntry[]): void {
+    const doc = this.#doc;
+    if (document.body.classList.contains("writing") && doc !== null && files.every(({ uri }) => uri !== doc.uri)) {
+      document.body.classList.remove("writing");
+      say(t("{0} is no longer there.", doc.name), "warning");
+    }
+  }
+
   diagnosed(uri: string, version: number | null, found: readonly Diagnostic[]): void {
     if (uri === this.#doc?.uri && version === this.#version) {
       this.#found = found;
@@ -295,7 +304,10 @@ export class Bench implements Host {
         right.markLine(message.line);
         break;
       case "playing":
-        right.markLine(message.line);
+        // The line stays marked where the wire has stopped.
+        if (message.line !== null) {
+          right.markLine(message.line);
+        }
         break;
       case "fault":
         right.markFault(message.fault);

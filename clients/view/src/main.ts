@@ -31,11 +31,18 @@ function showPane(pane: Pane): void {
 }
 
 async function begin(): Promise<void> {
+  wearTheme(() => {
+    bench?.picture.recolour();
+  });
   const started = await start();
   const language = chooseLanguage(started.language);
   const server = new Server(`ws://${location.host}/lsp`, language, started.roots, {
     diagnosed: (uri, version, found) => {
-      bench?.diagnosed(uri, version, found);
+      if (uri.endsWith("/wedm.toml")) {
+        form.diagnosed(uri, found);
+      } else {
+        bench?.diagnosed(uri, version, found);
+      }
     },
     connected: () => {
       connection("");
@@ -64,6 +71,7 @@ async function begin(): Promise<void> {
       server.settingsChanged([...new Set([...now, ...settingsFiles.split(",")])]);
     }
     settingsFiles = now.join() || "none";
+    bench?.listed(all);
     if (bench !== null && bench.doc === null) {
       openFirst(files, started.opened, open);
     }
@@ -120,9 +128,6 @@ async function begin(): Promise<void> {
       programs.picture("svg").catch(complain);
     },
   });
-  wearTheme(() => {
-    bench?.picture.recolour();
-  });
   dropped(there());
   const keys = keysOf({ files, right, repairs, form, bar, there });
   listen(keys);
@@ -133,8 +138,9 @@ async function begin(): Promise<void> {
     saved: (uri) => {
       if (uri.endsWith("/wedm.toml")) {
         server.settingsChanged([uri]);
+      } else {
+        bench?.saved(uri).catch(complain);
       }
-      bench?.saved(uri).catch(complain);
     },
     writing: (uri) => {
       bench?.writing(uri);

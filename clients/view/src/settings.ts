@@ -1,10 +1,9 @@
 // The settings of the folder as a form: wire, gap, passes, machine, side, pair. What the form does not know stays as it is written.
 
-import { valueOf, withKey } from "../../picture/keep";
+import { keepContour, valueOf, withKey } from "../../picture/keep";
 import type { Said } from "../../picture/messages";
-import { keepContour } from "../../picture/keep";
 import { machines } from "../../picture/profiles";
-import type { SettingsInForce } from "../../picture/protocol";
+import type { Diagnostic, SettingsInForce } from "../../picture/protocol";
 import { t } from "../../picture/words";
 import { readIfThere } from "./api";
 import { ask, say } from "./ask";
@@ -102,6 +101,13 @@ export class SettingsForm {
     this.server.settingsChanged([file]);
   }
 
+  /** What was found in a wedm.toml, of which the server tells without being asked. */
+  diagnosed(file: string, found: readonly Diagnostic[]): void {
+    for (const { message } of found.filter(({ severity }) => severity === 1).slice(0, 2)) {
+      say(`${nameOf(file)}: ${message}`, "error");
+    }
+  }
+
   /** Keeps the settings of one contour of the drawing, under its name. */
   async keepContour(handles: readonly string[], said: Said): Promise<void> {
     const doc = this.shown();
@@ -145,7 +151,13 @@ export class SettingsForm {
     ];
     const form = make("div", { class: "form" }, ...main, ...others);
     const told = (): void => {
-      const { wire, gap, passes } = readForm(form);
+      const { wire, gap, passes, drawnAs } = readForm(form);
+      // The parts of a pair have their sides by what they are.
+      const side = form.querySelector<HTMLSelectElement>("[name=side]");
+      if (side !== null) {
+        side.disabled = drawnAs !== "";
+        side.value = side.disabled ? "" : side.value;
+      }
       const corrections = correctionsOf(Number(wire), Number(gap), passes);
       const isGood = Number(wire) > 0 && Number(gap) > 0;
       follows.textContent = isGood ? t("Correction: {0} mm", corrections.map((mm) => mm.toFixed(4)).join(" / ")) : t("expected a number above 0, in mm");

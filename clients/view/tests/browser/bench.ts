@@ -10,7 +10,7 @@ import { ARTIFACTS, CHROMIUM, WEDM } from "./paths";
 
 const FLAGS = ["--no-sandbox", "--disable-gpu", "--no-first-run", "--disable-background-networking", "--disable-component-update"];
 /** Longer than anything here takes on a busy machine, ms. */
-export const PATIENCE = 60_000;
+export const PATIENCE = 40_000;
 
 const run = promisify(execFile);
 
@@ -26,10 +26,10 @@ export class Bench {
   ) {}
 
   /** Starts it with these files, by their names. */
-  static async start(files: Record<string, string | Buffer>, options: BrowserContextOptions = {}, ...words: string[]): Promise<Bench> {
+  static async start(files: Record<string, string | Buffer>, options: BrowserContextOptions = {}): Promise<Bench> {
     const folder = await mkdtemp(join(tmpdir(), "view-"));
     await Promise.all(Object.entries(files).map(([name, content]) => writeFile(join(folder, name), content)));
-    const server = spawn(WEDM, ["view", folder, "--no-open", ...words]);
+    const server = spawn(WEDM, ["view", folder, "--no-open"], { env: { ...process.env, LC_ALL: "C" } });
     const address = await addressOf(server);
     const browser = await chromium.launch({ executablePath: CHROMIUM, args: FLAGS });
     const page = await (await browser.newContext({ viewport: { width: 1280, height: 800 }, ...options })).newPage();
@@ -102,6 +102,13 @@ export class Bench {
 
   notice(text: string | RegExp): Locator {
     return this.page.locator("#notices .notice", { hasText: text });
+  }
+
+  /** Takes away what was said before. */
+  async hush(): Promise<void> {
+    await this.page.locator("#notices").evaluate((notices) => {
+      notices.replaceChildren();
+    });
   }
 
   async turnTo(tab: "findings" | "radii" | "contours" | "text"): Promise<void> {

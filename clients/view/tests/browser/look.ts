@@ -12,7 +12,7 @@ const FILES = { "plate.dxf": PLATE, "die.dxf": await picture("die.dxf"), "slot.d
 const NARROW = { width: 400, height: 760 };
 
 export async function look(checks: Checks): Promise<void> {
-  const bench = await Bench.start(FILES, { colorScheme: "light" }, "--lang", "en");
+  const bench = await Bench.start(FILES, { colorScheme: "light" });
   checks.bench = bench;
   const { page } = bench;
   const fits = async (): Promise<void> => {
@@ -43,6 +43,10 @@ export async function look(checks: Checks): Promise<void> {
     await expectSoon("the picture alone", async () => (await page.locator("#middle").isVisible()) && !(await page.locator("#left").isVisible()));
     await bench.shot("narrow");
     await fits();
+    await page.locator("#exports > button").click();
+    await bench.shot("narrow-menu");
+    await fits();
+    await page.keyboard.press("Escape");
     await page.locator("#panes [data-pane=right]").click();
     await page.locator("#right").waitFor();
     await bench.shot("narrow-lists");
@@ -64,7 +68,7 @@ export async function look(checks: Checks): Promise<void> {
     await page.locator("dialog h2", { hasText: "设置" }).waitFor();
     await bench.shot("chinese-settings");
     const texts = await page.locator("button, label, h2").allInnerTexts();
-    const english = texts.filter((text) => /[a-z]{4,}/.test(text.replace(/wedm|generic|robofil|small-radius|English/gi, "")));
+    const english = texts.filter((text) => /[a-z]{4,}/.test(text.replace(/wedm\.toml|wedm|generic|fast-wire|robofil|small-radius|English/gi, "")));
     expectEqual("English", english, []);
     await page.keyboard.press("Escape");
   });

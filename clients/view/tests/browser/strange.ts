@@ -1,6 +1,6 @@
 // What is broken, half written, dropped or lost.
 
-import { readFile } from "node:fs/promises";
+import { readFile, unlink } from "node:fs/promises";
 import { join } from "node:path";
 import { Bench } from "./bench";
 import { type Checks, expectBytes, expectEqual, expectSoon } from "./checks";
@@ -27,7 +27,7 @@ export async function strange(checks: Checks): Promise<void> {
 
   await checks.check("while a file is half written the last picture stays, dimmed", async () => {
     await bench.open("die.dxf");
-    await page.locator("#stage > svg .contour").first().waitFor();
+    await page.locator("#stage > svg .contour").first().waitFor({ state: "attached" });
     const opacity = (): Promise<number> => page.locator("#stage > svg").evaluate((svg) => Number(getComputedStyle(svg).opacity));
     await bench.writeOver("die.dxf", DIE.slice(0, DIE.length / 2));
     await expectSoon("dimmed", async () => (await opacity()) < 0.5);
@@ -76,6 +76,21 @@ export async function strange(checks: Checks): Promise<void> {
     await page.locator("dialog", { hasText: "The next finding" }).waitFor();
     await page.keyboard.press("Escape");
     await page.locator("dialog").waitFor({ state: "detached" });
+    await page.locator("#left input").fill("");
+  });
+
+  await checks.check("what is wrong in wedm.toml is said when it is saved", async () => {
+    await bench.writeOver("wedm.toml", `${SETTINGS}gapp = 1\n`);
+    await bench.notice("wedm.toml: ").waitFor();
+    await bench.writeOver("wedm.toml", SETTINGS);
+  });
+
+  await checks.check("a file that goes away is said, and its picture stays", async () => {
+    await bench.open("torn.dxf");
+    await bench.open("gbk.dxf");
+    await unlink(bench.path("gbk.dxf"));
+    await bench.notice("gbk.dxf is no longer there").waitFor();
+    expectEqual("the picture", (await page.locator("#stage > svg .contour").count()) > 0, true);
   });
 
   await checks.check("a program that ends is said", async () => {
