@@ -133,7 +133,7 @@ void Driver::editOnTheWay()
     expect("and one undo brings everything back", saved("radii") == radii, saved("radii"));
 }
 
-/// 200,000 vertices: how long is the longest time in which LibreCAD does not answer?
+/// Tens of thousands of vertices: how long is the longest time in which LibreCAD does not answer?
 void Driver::large()
 {
     Blocks blocks(this);
@@ -151,7 +151,7 @@ void Driver::large()
     report(QStringLiteral("       longest block, a line is drawn without the plugin: %1 ms").arg(alone));
     blocks.restart();
     choose("Live check");
-    expectSoon("the fault among 60,000 vertices is found", [this] { return findings().join('\n').contains("small-radius") || findings().join('\n').contains("below the correction"); },
+    expectSoon("the fault among all the vertices is found", [this] { return findings().join('\n').contains("small-radius") || findings().join('\n').contains("below the correction"); },
                [this] { return findings().join('\n').left(300) + text("wedm_server"); }, LONG);
     expectSoon("and the radius list has come", [this] { return rows() > 0; }, {}, LONG);
     report(QStringLiteral("       longest block, first look, %1 rows listed: %2 ms").arg(rows()).arg(pause()));
