@@ -4,7 +4,7 @@ import { forgetColours } from "./canvas";
 import { type Asking, Cards } from "./card";
 import { Faults } from "./faults";
 import { element, type Host } from "./host";
-import type { Shown, ToPage } from "./messages";
+import { MADE, type Shown, type ToPage } from "./messages";
 import { Player } from "./player";
 import type { Repair } from "./protocol";
 import { type Picked, Sheet } from "./sheet";
@@ -48,6 +48,9 @@ export class Picture {
         this.#follow(message.handle === null ? [] : (sheet?.ofSegment(message.handle, message.segment) ?? []));
         break;
       case "contour":
+        if (message.handles.length > 0) {
+          this.fit();
+        }
         this.#follow(message.handles.flatMap((handle) => sheet?.ofSegment(handle, null) ?? []));
         break;
       case "line":
@@ -70,6 +73,12 @@ export class Picture {
       }
       case "play":
         this.#player.play();
+        break;
+      case "approach":
+        this.#approachAll(message.handles, message.segment);
+        break;
+      case "look":
+        this.lookAt(message.fault, true);
         break;
     }
   }
@@ -95,10 +104,20 @@ export class Picture {
       fit: () => { this.fit(); },
       text: () => { this.host.hear({ type: "text" }); },
       export: () => { this.host.hear({ type: "export" }); },
+      "fix-all": () => { this.host.hear({ type: "fixAll" }); },
     };
     for (const [id, act] of Object.entries(acts)) {
       element(id, HTMLElement).addEventListener("click", act);
     }
+    const program = element("program", HTMLSelectElement);
+    program.addEventListener("change", () => {
+      const format = MADE.find((each) => each === program.value);
+      // It is a menu: it says its name again.
+      program.value = "";
+      if (format !== undefined) {
+        this.host.hear({ type: "program", format });
+      }
+    });
     document.addEventListener("keydown", (event) => {
       if (event.key === "Escape") {
         this.#cards.close();
@@ -113,10 +132,15 @@ export class Picture {
 
   /** A click in the picture is the answer. */
   #ask(asking: Asking | null): void {
+    const wasAsking = document.body.classList.contains("asking");
     document.body.classList.toggle("asking", asking !== null);
     const thread = t("Click where the wire is to be threaded. Esc: as it was.");
     const entry = t("Click the point of the contour where the cut is to begin. Esc: as it was.");
-    this.#trouble(asking === null ? "" : asking.key === "thread" ? thread : entry, false);
+    if (asking !== null) {
+      this.#trouble(asking.key === "thread" ? thread : entry, false);
+    } else if (wasAsking) {
+      this.#trouble("");
+    }
   }
 
   #pick(picked: Picked | null, twice: boolean, event?: MouseEvent): void {
@@ -168,6 +192,13 @@ export class Picture {
     }
   }
 
+  #approachAll(handles: readonly string[], segment: number | null): void {
+    const sheet = this.#stage.sheet;
+    const elements = handles.flatMap((handle) => sheet?.ofSegment(handle, segment) ?? []);
+    sheet?.select(elements);
+    this.#stage.approach(sheet?.boxOf(elements) ?? null);
+  }
+
   /** For a segment its finding is shown, where it has one, else its contour. */
   #showCardOf(handle: string, segment: number | null): void {
     if (this.#shown?.isEditor !== true) {
@@ -215,6 +246,8 @@ export class Picture {
     this.#uri = message.uri;
     this.host.shows?.(message.uri);
     this.#faults.put(message.faults, message.contours);
+    element("program", HTMLSelectElement).hidden = message.makes !== true || message.kind !== "drawing";
+    element("fix-all", HTMLElement).hidden = message.makes !== true || message.faults.length === 0;
     // The last good picture stays while the text is broken.
     if (same && (this.#stage.sheet?.drawing ?? null) !== null && (sheet.drawing === null || broken !== undefined)) {
       this.#trouble(broken?.message ?? sheet.reason);
