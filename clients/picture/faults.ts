@@ -2,6 +2,7 @@
 
 import type { Contour, Fault, Severity } from "./messages";
 import { element } from "./host";
+import { markNumbers } from "./numbers";
 import { t } from "./words";
 
 /** More chips than this nobody reads; all of them are under Problems. */
@@ -11,6 +12,8 @@ const WORST: readonly Severity[] = ["error", "warning", "information", "hint"];
 export class Faults {
   #all: readonly Fault[] = [];
   #contours: readonly Contour[] = [];
+  /** The number of the mark of each finding. */
+  #numbers: readonly (number | undefined)[] = [];
   /** The only rule that is shown, if one is chosen. */
   #only: string | null = null;
 
@@ -19,6 +22,7 @@ export class Faults {
   put(faults: readonly Fault[], contours: readonly Contour[]): void {
     this.#all = faults;
     this.#contours = contours;
+    this.#numbers = markNumbers(faults);
     if (!faults.some(({ rule }) => rule === this.#only)) {
       this.#only = null;
     }
@@ -84,6 +88,12 @@ export class Faults {
     const what = document.createElement("span");
     const radius = fault.radius !== undefined && fault.rule === "small-radius" ? `R ${fault.radius.toFixed(3)} mm` : null;
     what.textContent = fault.left ?? radius ?? fault.rule;
+    const number = this.#numbers[index];
+    if (number !== undefined) {
+      const mark = document.createElement("i");
+      mark.textContent = String(number);
+      button.append(mark);
+    }
     button.append(name, what);
     button.addEventListener("click", () => {
       this.chosen(index);
@@ -94,7 +104,7 @@ export class Faults {
   /** A contour by its number, an entity in none by its handle, a block by its line. */
   #placeOf({ handle, segment, line }: Fault): string {
     if (handle === undefined) {
-      return t("line {0}", (line ?? 0) + 1);
+      return line === undefined ? "" : t("line {0}", line + 1);
     }
     const contour = this.#contours.find(({ handles }) => handles.includes(handle));
     if (contour !== undefined) {

@@ -8,6 +8,10 @@ export function markup(): string {
   <div id="busy" role="status" aria-label="${text("The picture is being made")}" title="${text("The picture is being made")}" hidden></div>
   <div id="tools" role="toolbar" aria-label="${text("View")}">
     <button id="text" title="${text("Open as Text")}" hidden>${text("Text")}</button>
+    <button id="fix-all" title="${text("Make every repair that is safe")}" hidden>${text("Fix all")}</button>
+    <select id="program" title="${text("Write the program of the drawing")}" aria-label="${text("Program")}" hidden>
+      <option value="" selected>${text("Program")}</option><option value="3b">3B…</option><option value="4b">4B…</option><option value="iso">ISO…</option>
+    </select>
     <button id="export" title="${text("Save the picture as SVG, PNG or PDF")}">${text("Save…")}</button>
     <button id="out" title="${text("Zoom out")} (−)" aria-label="${text("Zoom out")}">−</button>
     <button id="in" title="${text("Zoom in")} (+)" aria-label="${text("Zoom in")}">+</button>

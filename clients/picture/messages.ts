@@ -62,6 +62,8 @@ export interface Shown {
   isEditor: boolean;
   /** Settings can be saved in a file beside it. */
   keeps: boolean;
+  /** The host makes programs and all safe repairs: the toolbar offers them. */
+  makes?: boolean;
 }
 
 export type ToPage =
@@ -75,6 +77,10 @@ export type ToPage =
   | { type: "trouble"; message: string }
   | { type: "busy"; busy: boolean }
   | { type: "card"; card: Card }
+  /** A segment, or all of these entities, picked elsewhere: selected, and framed. */
+  | { type: "approach"; handles: string[]; segment: number | null }
+  /** The finding with this index, picked elsewhere. */
+  | { type: "look"; fault: number }
   | { type: "play" };
 
 export type FromPage =
@@ -91,8 +97,15 @@ export type FromPage =
   | { type: "say"; handles: string[]; said: Said }
   | { type: "text" }
   | { type: "export" }
+  /** The user makes every safe repair, or a program. */
+  | { type: "fixAll" }
+  | { type: "program"; format: Made }
   /** The block on which the wire is while it plays; null when it has stopped. */
   | { type: "playing"; line: number | null };
+
+/** What the toolbar makes of a drawing. */
+export const MADE = ["3b", "4b", "iso"] as const;
+export type Made = (typeof MADE)[number];
 
 /** Keys of a contour's settings with their new values. */
 export type Said = { [Key in keyof ContourSettings]?: ContourSettings[Key] | null };
@@ -106,12 +119,17 @@ export function fromPage(message: unknown): FromPage | null {
   if (typeof message !== "object" || message === null) {
     return null;
   }
-  const { type, handle, segment, line, fault, repair, rule, handles, said } = message as Record<string, unknown>;
+  const { type, handle, segment, line, fault, repair, rule, handles, said, format } = message as Record<string, unknown>;
   switch (type) {
     case "ready":
     case "text":
     case "export":
+    case "fixAll":
       return { type };
+    case "program": {
+      const made = MADE.find((each) => each === format);
+      return made === undefined ? null : { type, format: made };
+    }
     case "segment":
       return typeof handle === "string" ? { type, handle, segment: isIndex(segment) ? segment : null } : null;
     case "line":

@@ -4,7 +4,7 @@ import { forgetColours } from "./canvas";
 import { type Asking, Cards } from "./card";
 import { Faults } from "./faults";
 import { element, type Host } from "./host";
-import type { Shown, ToPage } from "./messages";
+import { MADE, type Shown, type ToPage } from "./messages";
 import { Player } from "./player";
 import type { Repair } from "./protocol";
 import { type Picked, Sheet } from "./sheet";
@@ -52,6 +52,9 @@ export class Picture {
         this.#follow(this.#select(message.handle === null ? null : { handle: message.handle, segment: message.segment }));
         break;
       case "contour":
+        if (message.handles.length > 0) {
+          this.fit();
+        }
         this.#follow(message.handles.flatMap((handle) => sheet?.ofSegment(handle, null) ?? []));
         break;
       case "line":
@@ -74,6 +77,12 @@ export class Picture {
       }
       case "play":
         this.#player.play();
+        break;
+      case "approach":
+        this.#approachAll(message.handles, message.segment);
+        break;
+      case "look":
+        this.lookAt(message.fault, true);
         break;
     }
   }
@@ -113,10 +122,20 @@ export class Picture {
       fit: () => { this.fit(); },
       text: () => { this.host.hear({ type: "text" }); },
       export: () => { this.host.hear({ type: "export" }); },
+      "fix-all": () => { this.host.hear({ type: "fixAll" }); },
     };
     for (const [id, act] of Object.entries(acts)) {
       element(id, HTMLElement).addEventListener("click", act);
     }
+    const program = element("program", HTMLSelectElement);
+    program.addEventListener("change", () => {
+      const format = MADE.find((each) => each === program.value);
+      // It is a menu: it says its name again.
+      program.value = "";
+      if (format !== undefined) {
+        this.host.hear({ type: "program", format });
+      }
+    });
     document.addEventListener("keydown", (event) => {
       if (event.key === "Escape") {
         this.#cards.close();
@@ -190,6 +209,13 @@ export class Picture {
     }
   }
 
+  #approachAll(handles: readonly string[], segment: number | null): void {
+    const sheet = this.#stage.sheet;
+    const elements = handles.flatMap((handle) => sheet?.ofSegment(handle, segment) ?? []);
+    sheet?.select(elements);
+    this.#stage.approach(sheet?.boxOf(elements) ?? null);
+  }
+
   /** For a segment its finding is shown, where it has one, else its contour. */
   #showCardOf(handle: string, segment: number | null): void {
     if (this.#shown?.isEditor !== true) {
@@ -237,6 +263,8 @@ export class Picture {
     this.#uri = message.uri;
     this.host.shows?.(message.uri);
     this.#faults.put(message.faults, message.contours);
+    element("program", HTMLSelectElement).hidden = message.makes !== true || message.kind !== "drawing";
+    element("fix-all", HTMLElement).hidden = message.makes !== true || message.faults.length === 0;
     // The last good picture stays while the text is broken.
     if (same && (this.#stage.sheet?.drawing ?? null) !== null && (sheet.drawing === null || broken !== undefined)) {
       this.#trouble(broken?.message ?? sheet.reason);

@@ -1,6 +1,8 @@
 // The radius list as rows: a contour and the segments in it, then the entities that are in none. Knows nothing of VS Code.
 
 import type { ContoursContour, InspectedEntity, InspectedSegment, Inspection } from "./protocol";
+import type { Fault } from "./messages";
+import { circled, markNumbers } from "./numbers";
 import { t } from "./words";
 
 export interface SegmentRow {
@@ -26,16 +28,28 @@ export interface EntityRow {
 
 export type Row = EntityRow | SegmentRow;
 
+/** What the rows need beside the segments. */
+interface Read {
+  toMm: number;
+  /** The numbers of the marks on each segment, by handle and segment. */
+  marks: ReadonlyMap<string, readonly number[]>;
+}
+
 /** Contours in the order in which they are cut. With `onlyFaults`, those without a fault are left out. */
-export function rows(inspection: Inspection, onlyFaults: boolean, contours: readonly ContoursContour[] = []): EntityRow[] {
-  const toMm = inspection.unitsToMm;
+export function rows(
+  inspection: Inspection,
+  onlyFaults: boolean,
+  contours: readonly ContoursContour[] = [],
+  faults: readonly Fault[] = [],
+): EntityRow[] {
+  const read: Read = { toMm: inspection.unitsToMm, marks: marksOf(faults) };
   const entities = new Map(inspection.entities.map((entity) => [entity.handle, entity]));
   const numbered = contours.map((contour, index) => ({ contour, number: (contour.order ?? index) + 1 }));
   numbered.sort((a, b) => a.number - b.number);
-  const listed = numbered.map(({ contour, number }) => contourRow(contour, number, entities, toMm, onlyFaults));
+  const listed = numbered.map(({ contour, number }) => contourRow(contour, number, entities, read, onlyFaults));
   const held = new Set(listed.flatMap(({ handles }) => handles));
   const loose = inspection.entities.filter(({ handle }) => !held.has(handle));
-  const all = [...listed, ...loose.map((entity) => entityRow(entity, toMm, onlyFaults))];
+  const all = [...listed, ...loose.map((entity) => entityRow(entity, read, onlyFaults))];
   return onlyFaults ? all.filter((entity) => entity.faults > 0) : all;
 }
 
@@ -43,21 +57,21 @@ function contourRow(
   contour: ContoursContour,
   number: number,
   entities: ReadonlyMap<string, InspectedEntity>,
-  toMm: number,
+  read: Read,
   onlyFaults: boolean,
 ): EntityRow {
   const handles = [...new Set(contour.segments.map(({ handle }) => handle))];
   const segments = handles.flatMap((handle) => {
     const own = entities.get(handle)?.segments ?? [];
-    return own.map((segment) => segmentRow(handle, segment, toMm, handles.length > 1));
+    return own.map((segment) => segmentRow(handle, segment, read, handles.length > 1));
   });
   const layers = [...new Set(handles.map((handle) => entities.get(handle)?.layer ?? ""))];
   const row = { handle: handles[0] ?? "", handles, label: t("Contour {0}", number), layer: layers.join(", ") };
   return withSegments(row, segments, onlyFaults);
 }
 
-function entityRow(entity: InspectedEntity, toMm: number, onlyFaults: boolean): EntityRow {
-  const segments = entity.segments.map((segment) => segmentRow(entity.handle, segment, toMm, false));
+function entityRow(entity: InspectedEntity, read: Read, onlyFaults: boolean): EntityRow {
+  const segments = entity.segments.map((segment) => segmentRow(entity.handle, segment, read, false));
   const row = { handle: entity.handle, handles: [entity.handle], label: `${entity.type} ${entity.handle}`, layer: entity.layer };
   return withSegments(row, segments, onlyFaults);
 }
@@ -75,18 +89,31 @@ function withSegments(row: Pick<EntityRow, "handle" | "handles" | "label"> & { l
   };
 }
 
-function segmentRow(handle: string, segment: InspectedSegment, toMm: number, isNamed: boolean): SegmentRow {
+function segmentRow(handle: string, segment: InspectedSegment, { toMm, marks }: Read, isNamed: boolean): SegmentRow {
   const mm = (length: number): string => (length * toMm).toFixed(3);
   const what = segment.radius === undefined ? t("line {0}", mm(segment.length)) : `R ${mm(segment.radius)}`;
   const [x, y] = segment.start;
+  const numbers = (marks.get(`${handle}/${segment.index}`) ?? []).map(circled);
   return {
     kind: "segment",
     handle,
     segment,
     label: `${isNamed ? `${handle} · ` : ""}${segment.index}   ${what}`,
-    description: segment.verdict === "ok" ? `${mm(x)}, ${mm(y)}` : `${segment.verdict} · ${mm(x)}, ${mm(y)}`,
+    description: [...numbers, ...(segment.verdict === "ok" ? [] : [segment.verdict]), `${mm(x)}, ${mm(y)}`].join(" · "),
     faulty: segment.verdict !== "ok",
   };
+}
+
+function marksOf(faults: readonly Fault[]): Map<string, number[]> {
+  const marks = new Map<string, number[]>();
+  for (const [index, number] of markNumbers(faults).entries()) {
+    const { handle, segment } = faults[index] ?? {};
+    if (number !== undefined && handle !== undefined && segment !== undefined) {
+      const place = `${handle}/${segment}`;
+      marks.set(place, [...(marks.get(place) ?? []), number]);
+    }
+  }
+  return marks;
 }
 
 /** The totals above the list. */

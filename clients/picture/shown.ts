@@ -9,9 +9,9 @@ export interface Found {
   severity: number;
   rule: string;
   message: string;
-  /** Counts from 0. */
-  line: number;
-  data: unknown;
+  /** Counts from 0; undefined in a file without lines. */
+  line?: number | undefined;
+  data?: unknown;
 }
 
 const SEVERITIES: readonly Severity[] = ["error", "warning", "information", "hint"];
@@ -23,7 +23,7 @@ export function faultOf({ severity, rule, message, line, data }: Found, toMm: nu
     severity: SEVERITIES[severity] ?? "hint",
     rule,
     message,
-    line,
+    ...(line === undefined ? {} : { line }),
     ...(typeof handle === "string" ? { handle } : {}),
     ...(typeof segment === "number" ? { segment } : {}),
     ...(typeof radius === "number" ? { radius: radius * toMm } : {}),
@@ -31,7 +31,7 @@ export function faultOf({ severity, rule, message, line, data }: Found, toMm: nu
 }
 
 /** The contours with their settings. */
-export function contoursOf(listed: Contours, settings: SettingsInForce): Contour[] {
+export function contoursOf(listed: Contours, settings: Pick<SettingsInForce, "contours">): Contour[] {
   return listed.contours.map((contour, index) => {
     const handles = [...new Set(contour.segments.map(({ handle }) => handle))];
     const said = handles.map((handle) => settings.contours?.[handle]).find((each) => each !== undefined) ?? {};

@@ -25,6 +25,36 @@ impl Sentences {
     }
 }
 
+/// What VS Code's settings page calls a choice that is not made, in place of `null`.
+const NOT_SET: &str = "%settings.not-set%";
+
+/// The keys and tables that come first on that page, in this order: what every job needs. The others follow as on the page of the settings.
+const FIRST: [&str; 15] = [
+    "wire-diameter",
+    "gap",
+    "correction",
+    "side",
+    "passes.corrections",
+    "passes.gaps",
+    "program.format",
+    "program.profile",
+    "program.compensation",
+    "program.direction",
+    "units",
+    "layers",
+    "program",
+    "passes",
+    "rules",
+];
+
+/// Where a key stands among the first ones; behind all of them where it is none.
+fn place_of(key: &str) -> usize {
+    let named = FIRST.iter().position(|first| *first == key);
+    let table = key.split('.').next();
+    let tabled = || FIRST.iter().position(|first| Some(*first) == table);
+    named.or_else(tabled).unwrap_or(FIRST.len())
+}
+
 /// The schema of a key as VS Code's settings page takes it.
 fn editor_schema(row: &Row, schema: &Value, is_root: bool, sentences: &mut Sentences) -> Value {
     let mut of = Map::new();
@@ -45,16 +75,25 @@ fn editor_schema(row: &Row, schema: &Value, is_root: bool, sentences: &mut Sente
     if is_root {
         of.insert("default".into(), Value::Null);
     }
+    if is_root && schema["type"] == "boolean" {
+        of.insert("enum".into(), json!([true, false, null]));
+        of.insert(
+            "enumItemLabels".into(),
+            json!(["%settings.yes%", "%settings.no%", NOT_SET]),
+        );
+    }
     if !own.is_empty() {
         let default = row
             .default
             .as_deref()
             .map(|default| default.trim_matches('"'));
-        let names = own.iter().map(|(name, _)| json!(name));
-        of.insert(
-            "enum".into(),
-            names.chain(is_root.then_some(Value::Null)).collect(),
-        );
+        let names: Vec<Value> = own.iter().map(|(name, _)| json!(name)).collect();
+        if is_root {
+            let labels = names.iter().cloned().chain([json!(NOT_SET)]);
+            of.insert("enumItemLabels".into(), labels.collect());
+        }
+        let all = names.into_iter().chain(is_root.then_some(Value::Null));
+        of.insert("enum".into(), all.collect());
         if own.iter().any(|(_, meaning)| !meaning.is_empty()) {
             let mut meanings: Vec<Value> = own
                 .iter()
@@ -152,7 +191,10 @@ fn the_settings_page_of_vs_code_has_every_key() {
             Some((camel_case(key), schema))
         })
         .collect();
-    for (index, row) in of_documents().iter().enumerate() {
+    let rows = of_documents();
+    let mut listed: Vec<&str> = rows.iter().map(|row| row.key.as_str()).collect();
+    listed.sort_by_key(|key| place_of(key));
+    for row in &rows {
         let mut schema = match row.key.as_str() {
             "profiles" => json!({
                 "type": ["object", "null"],
@@ -162,7 +204,8 @@ fn the_settings_page_of_vs_code_has_every_key() {
             "drawings" => json!({ "type": ["object", "null"], "default": null }),
             _ => editor_schema(row, &schema_of(row), true, &mut sentences),
         };
-        schema["order"] = json!(10 + index);
+        let place = listed.iter().position(|key| *key == row.key);
+        schema["order"] = json!(place);
         if row.key == "contours" {
             schema["scope"] = json!("resource");
         }
@@ -209,8 +252,8 @@ fn the_settings_page_of_vs_code_has_every_key() {
         .enumerate()
     {
         let last = match language {
-            0 => "\"editor.drawing\": \"Picture (Wire EDM)\",\n",
-            _ => "\"editor.drawing\": \"图片（线切割）\",\n",
+            0 => "\"settings.not-set\": \"not set\",\n",
+            _ => "\"settings.not-set\": \"未设置\",\n",
         };
         hold(
             &format!("clients/vscode/{file}"),

@@ -15,10 +15,13 @@ import { scaleProgram } from "./commands/scale";
 import { completeSettings } from "./completion";
 import { detectPrograms } from "./detect";
 import { Front } from "./front";
+import { numberMarks } from "./marks";
 import { watchLargeFiles } from "./large";
+import { BinaryPictures } from "./picture/binary";
 import { DrawingEditor, EDITOR } from "./picture/editor";
 import { Pictures } from "./picture/pictures";
 import { Radii } from "./radii/tree";
+import { offerToShow, showFinding } from "./showFinding";
 import { rulePages } from "./rulePages";
 import { sayWhatFails } from "./server/notices";
 import { Server } from "./server/server";
@@ -36,9 +39,9 @@ export function activate(context: vscode.ExtensionContext): void {
   const server = new Server(context, log);
   running = server;
   const front = new Front();
-  const pictures = new Pictures(server, front, context.extensionUri);
   const editor = new DrawingEditor(server, front, context.extensionUri);
-  const radii = new Radii(server, front);
+  const pictures = new Pictures(server, front, context.extensionUri, editor);
+  const radii = new Radii(server, front, pictures);
   const check = new PathCheck(server);
   const commands: Record<string, (...given: unknown[]) => Promise<void> | void> = {
     "wedm.generate3b": (uri) => generate(server, front, pictures, "3b", uri),
@@ -55,12 +58,15 @@ export function activate(context: vscode.ExtensionContext): void {
     "wedm.simulate": (uri) => pictures.open(uri, true),
     "wedm.convertToDxf": (uri) => convertToDxf(server, front, uri),
     "wedm.scaleProgram": (uri) => scaleProgram(front, uri),
-    "wedm.fixAll": () => fixAll(server, front),
+    "wedm.fixAll": (uri) => fixAll(server, front, uri),
     "wedm.checkPath": (uri) => check.ask(uri),
     "wedm.showRadii": () => radii.show(),
     "wedm.radii.onlyFaults": () => radii.filter(true),
     "wedm.radii.all": () => radii.filter(false),
-    "wedm.radii.reveal": (handle, segment) => radii.revealInText(handle, segment),
+    "wedm.radii.reveal": (handles, segment) => radii.reveal(handles, segment),
+    "wedm.showFinding": (uri, key) => {
+      showFinding(pictures, uri, key);
+    },
     "wedm.report": (uri, all) => report(server, front, uri, all),
     "wedm.createSettings": (uri, table) => createSettings(server, front, uri, table),
     "wedm.changeCorrection": () => changeCorrection(server, front),
@@ -81,6 +87,9 @@ export function activate(context: vscode.ExtensionContext): void {
     sayWhatFails(server, log),
     watchLargeFiles(),
     detectPrograms(),
+    new BinaryPictures(server, front, context.extensionUri),
+    offerToShow(pictures),
+    numberMarks(server),
     rulePages(server),
     completeSettings(context.extension.packageJSON as Parameters<typeof completeSettings>[0]),
     vscode.workspace.onDidChangeConfiguration((event) => {

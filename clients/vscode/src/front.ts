@@ -36,6 +36,11 @@ export class Front implements vscode.Disposable {
     this.#set(isOurs(document) ? document : undefined);
   }
 
+  /** What is in front is none of the documents: commands are not about the one before. */
+  leave(): void {
+    this.#set(undefined);
+  }
+
   /** Without an active editor, a panel is in front, and belongs to what was there before. */
   #turn(editor: vscode.TextEditor | undefined): void {
     if (editor !== undefined) {

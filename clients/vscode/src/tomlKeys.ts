@@ -3,7 +3,7 @@
 /** A setting as the manifest declares it. */
 export interface Declared {
   type?: string | string[];
-  enum?: (string | null)[];
+  enum?: (string | boolean | null)[];
   enumDescriptions?: (string | null)[];
   markdownDescription?: string;
   additionalProperties?: Declared | boolean;
@@ -63,7 +63,7 @@ function names(keys: Map<string, Declared>, table: string): Offer[] {
 function values(setting: Declared | undefined, isQuoted: boolean): Offer[] {
   const words = setting?.enum ?? [];
   const said = (word: string): string => (isQuoted ? word : JSON.stringify(word));
-  const named = words.flatMap((word, index): Offer[] => (word === null ? [] : [{ kind: "value", label: word, text: said(word), detail: setting?.enumDescriptions?.[index] ?? "" }]));
+  const named = words.flatMap((word, index): Offer[] => (typeof word !== "string" ? [] : [{ kind: "value", label: word, text: said(word), detail: setting?.enumDescriptions?.[index] ?? "" }]));
   const isTruth = [setting?.type].flat().includes("boolean") && !isQuoted;
   return [...named, ...(isTruth ? ["true", "false"] : []).map((word): Offer => ({ kind: "value", label: word, text: word, detail: "" }))];
 }

@@ -7,7 +7,7 @@ import { complaint, optionsFor, programOf, runNoticed } from "./run";
 import { uriOf } from "./subject";
 import { t } from "../../../picture/words";
 
-const SEVERITIES: Record<Listed["severity"], vscode.DiagnosticSeverity> = {
+export const SEVERITIES: Record<Listed["severity"], vscode.DiagnosticSeverity> = {
   error: vscode.DiagnosticSeverity.Error,
   warning: vscode.DiagnosticSeverity.Warning,
   information: vscode.DiagnosticSeverity.Information,

@@ -17,6 +17,17 @@ export async function exportPicture(server: Server, front: Front, argument: unkn
     void vscode.window.showInformationMessage(t("Wire EDM: open a drawing or a program first."));
     return;
   }
+  const chosen = await chooseTarget(uri);
+  if (chosen === undefined) {
+    return;
+  }
+  const { data } = await server.request("wedm/export", { uri: uri.toString(), format: chosen.format });
+  await write(chosen.target, Buffer.from(data, "base64"));
+  sayIsSaved(chosen.target);
+}
+
+/** Where the picture of a document is to be saved, and as what; undefined where the user gives up, or chose something else. */
+export async function chooseTarget(uri: vscode.Uri): Promise<{ target: vscode.Uri; format: PictureForm } | undefined> {
   const target = await vscode.window.showSaveDialog({
     title: t("Save the Picture"),
     defaultUri: uri.with({ scheme: uri.scheme === "untitled" ? "file" : uri.scheme, path: `${uri.path.replace(/\.[^./]*$/, "")}.pdf` }),
@@ -24,13 +35,15 @@ export async function exportPicture(server: Server, front: Front, argument: unkn
   });
   const format = FORMS.find((form) => target?.path.toLowerCase().endsWith(`.${form}`));
   if (target === undefined) {
-    return;
+    return undefined;
   }
   if (format === undefined) {
     void vscode.window.showErrorMessage(t("Wire EDM: a picture is saved as .svg, .png or .pdf."));
-    return;
+    return undefined;
   }
-  const { data } = await server.request("wedm/export", { uri: uri.toString(), format });
-  await write(target, Buffer.from(data, "base64"));
+  return { target, format };
+}
+
+export function sayIsSaved(target: vscode.Uri): void {
   void vscode.window.showInformationMessage(t("Wire EDM: the picture is saved: {0}.", vscode.workspace.asRelativePath(target)));
 }

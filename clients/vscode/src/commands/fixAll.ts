@@ -4,13 +4,15 @@ import * as vscode from "vscode";
 import { type CodeAction, LSPErrorCodes, ResponseError, TextDocumentEdit } from "vscode-languageclient/node";
 import type { Front } from "../front";
 import type { Server } from "../server/server";
+import { uriOf } from "./subject";
 import { t } from "../../../picture/words";
 
 /** Kind of the action that makes every safe repair. */
 const FIX_ALL = "source.fixAll.wedm";
 
-export async function fixAll(server: Server, front: Front): Promise<void> {
-  const document = front.document;
+export async function fixAll(server: Server, front: Front, argument: unknown): Promise<void> {
+  const uri = uriOf(argument);
+  const document = uri === undefined ? front.document : await vscode.workspace.openTextDocument(uri);
   if (document === undefined) {
     void vscode.window.showInformationMessage(t("Wire EDM: open a drawing or a program first."));
     return;

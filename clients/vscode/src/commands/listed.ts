@@ -10,6 +10,7 @@ export interface Listed {
   rule: string;
   severity: "error" | "warning" | "information" | "hint";
   message: string;
+  data?: unknown;
 }
 
 /** Null when the text is no such list. */

@@ -11,6 +11,7 @@ export const EDITOR = "wedm.drawing";
 
 export class DrawingEditor implements vscode.CustomTextEditorProvider, vscode.Disposable {
   readonly #registered: vscode.Disposable;
+  readonly #open = new Set<Picture>();
 
   constructor(
     private readonly server: Server,
@@ -22,7 +23,13 @@ export class DrawingEditor implements vscode.CustomTextEditorProvider, vscode.Di
   }
 
   resolveCustomTextEditor(document: vscode.TextDocument, panel: vscode.WebviewPanel): void {
-    new Picture(panel, document.uri, this.server, this.extension, { isEditor: true });
+    const picture: Picture = new Picture(panel, document.uri, this.server, this.extension, {
+      isEditor: true,
+      closed: () => {
+        this.#open.delete(picture);
+      },
+    });
+    this.#open.add(picture);
     const turn = (): void => {
       if (panel.active) {
         this.front.turnTo(document);
@@ -30,6 +37,12 @@ export class DrawingEditor implements vscode.CustomTextEditorProvider, vscode.Di
     };
     panel.onDidChangeViewState(turn);
     turn();
+  }
+
+  /** The picture as which a drawing is open; the one in front, else one that is seen. */
+  pictureOf(uri: vscode.Uri): Picture | undefined {
+    const own = [...this.#open].filter((picture) => picture.uri.toString() === uri.toString());
+    return own.find(({ panel }) => panel.active) ?? own.find(({ panel }) => panel.visible) ?? own[0];
   }
 
   /** Opens a drawing as text, or as its picture. */

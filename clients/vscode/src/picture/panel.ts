@@ -9,9 +9,10 @@ import { reveal, revealLine, segmentAt } from "../place";
 import type { Repair, SimulatedBlock } from "../../../picture/protocol";
 import { rulePage } from "../rulePages";
 import type { Server } from "../server/server";
-import { type Contour, type Fault, fromPage, type FromPage, type Said, type ToPage } from "../../../picture/messages";
+import { type Contour, fromPage, type FromPage, type Made, type Said, type ToPage } from "../../../picture/messages";
 import { page } from "./page";
-import { contoursOf, faultOf as shownFault, faultsOfFit } from "../../../picture/shown";
+import { contoursOf, faultsOfFit } from "../../../picture/shown";
+import { faultOf, findings, keyOf } from "../findings";
 import { whyOf } from "../../../picture/why";
 import { t } from "../../../picture/words";
 
@@ -20,6 +21,9 @@ export const VIEW_TYPE = "wedm.picture";
 const CALM = 120;
 /** The picture of a very large drawing takes long: at least half of the time is left for everything else, up to this wait. */
 const LONGEST_CALM = 5_000;
+
+/** The command of each program that the toolbar makes. */
+const PROGRAMS: Record<Made, string> = { "3b": "wedm.generate3b", "4b": "wedm.generate4b", iso: "wedm.generateIso" };
 
 export interface Role {
   /** True for the editor of one document; else it is beside the text, and follows whatever is in front. */
@@ -42,6 +46,8 @@ export class Picture implements vscode.Disposable {
   #making = false;
   #playWhenShown = false;
   #marked: readonly string[] | null = null;
+  /** What is to be framed as soon as the picture is there. */
+  #wanted: ToPage | null = null;
   #calm = CALM;
   #timer: NodeJS.Timeout | undefined;
   #cursorTimer: NodeJS.Timeout | undefined;
@@ -100,6 +106,38 @@ export class Picture implements vscode.Disposable {
 
   get panel(): vscode.WebviewPanel {
     return this.#panel;
+  }
+
+  get uri(): vscode.Uri {
+    return this.#uri;
+  }
+
+  /** Selects and frames a segment, or all of these entities. */
+  approach(handles: readonly string[], segment: number | null): void {
+    this.#want({ type: "approach", handles: [...handles], segment });
+  }
+
+  /** Looks at a finding: it is selected and framed, and where findings are acted upon its card is opened. */
+  lookAt(key: string): void {
+    const fault = this.#found.findIndex((diagnostic) => keyOf(diagnostic) === key);
+    if (fault >= 0) {
+      this.#want({ type: "look", fault });
+    }
+  }
+
+  #want(message: ToPage): void {
+    this.#wanted = message;
+    this.#panel.reveal(undefined, true);
+    if (this.#ready && !this.#stale) {
+      this.#tellWanted();
+    }
+  }
+
+  #tellWanted(): void {
+    if (this.#wanted !== null) {
+      void this.#tell(this.#wanted);
+      this.#wanted = null;
+    }
   }
 
   /** Turns to another document. */
@@ -178,13 +216,14 @@ export class Picture implements vscode.Disposable {
     this.#found = findings(uri);
     const faults = this.#found.map((diagnostic) => faultOf(diagnostic, toMm));
     const isEditor = this.role.isEditor === true;
-    await this.#tell({ type: "picture", uri: uri.toString(), name, kind, svg, faults, contours, blocks, lines, isEditor, keeps });
+    await this.#tell({ type: "picture", uri: uri.toString(), name, kind, svg, faults, contours, blocks, lines, isEditor, keeps, makes: true });
     const editor = vscode.window.visibleTextEditors.find((editor) => editor.document.uri.toString() === uri.toString());
     if (this.#marked !== null) {
       await this.#tell({ type: "contour", handles: [...this.#marked] });
     } else if (editor !== undefined) {
       await this.#point(editor);
     }
+    this.#tellWanted();
     if (this.#playWhenShown) {
       this.#playWhenShown = false;
       await this.#tell({ type: "play" });
@@ -312,6 +351,12 @@ export class Picture implements vscode.Disposable {
       case "export":
         await vscode.commands.executeCommand("wedm.exportPicture", this.#uri);
         break;
+      case "fixAll":
+        await vscode.commands.executeCommand("wedm.fixAll", this.#uri);
+        break;
+      case "program":
+        await vscode.commands.executeCommand(PROGRAMS[message.format], this.#uri);
+        break;
       case "line":
         await revealLine(this.#uri, message.line, false);
         break;
@@ -346,16 +391,4 @@ export class Picture implements vscode.Disposable {
     vscode.Disposable.from(...this.#subscriptions).dispose();
     this.role.closed?.();
   }
-}
-
-/** The findings with a place that can be shown. */
-function findings(uri: vscode.Uri): vscode.Diagnostic[] {
-  return vscode.languages.getDiagnostics(uri).filter(({ source }) => source === "wedm");
-}
-
-function faultOf(diagnostic: vscode.Diagnostic, toMm: number): Fault {
-  const { code, severity, message, range } = diagnostic;
-  const rule = String((typeof code === "object" ? code.value : code) ?? "");
-  // The client keeps the server's `data` on the diagnostics that it makes.
-  return shownFault({ severity, rule, message, line: range.start.line, data: (diagnostic as { data?: unknown }).data }, toMm);
 }

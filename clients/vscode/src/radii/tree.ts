@@ -1,9 +1,11 @@
-// The radius list beside the text: vertex, radius, verdict; a click leads to the text.
+// The radius list: vertex, radius, verdict; a click leads to the picture or to the text, whichever is looked at.
 
 import * as vscode from "vscode";
+import { faultOf, findings } from "../findings";
 import type { Front } from "../front";
 import { isDrawing, isOurs } from "../languages";
-import { reveal, segmentAt } from "../place";
+import type { Pictures } from "../picture/pictures";
+import { segmentAt } from "../place";
 import type { Server } from "../server/server";
 import { type EntityRow, type Row, rows, summary } from "../../../picture/rows";
 import { t } from "../../../picture/words";
@@ -27,6 +29,7 @@ export class Radii implements vscode.TreeDataProvider<Row>, vscode.Disposable {
   constructor(
     private readonly server: Server,
     front: Front,
+    private readonly pictures: Pictures,
   ) {
     this.#view = vscode.window.createTreeView("wedm.radii", { treeDataProvider: this, showCollapseAll: true });
     this.#subscriptions = [
@@ -119,7 +122,8 @@ export class Radii implements vscode.TreeDataProvider<Row>, vscode.Disposable {
   async #list(uri: vscode.Uri): Promise<EntityRow[]> {
     const asked = { uri: uri.toString() };
     const [inspection, { contours }] = await Promise.all([this.server.request("wedm/inspect", asked), this.server.request("wedm/contours", asked)]);
-    return rows(inspection, this.#onlyFaults, contours);
+    const faults = findings(uri).map((diagnostic) => faultOf(diagnostic, 1));
+    return rows(inspection, this.#onlyFaults, contours, faults);
   }
 
   async #select(editor: vscode.TextEditor): Promise<void> {
@@ -146,7 +150,8 @@ export class Radii implements vscode.TreeDataProvider<Row>, vscode.Disposable {
     item.iconPath = faulty
       ? new vscode.ThemeIcon("error", new vscode.ThemeColor("charts.red"))
       : new vscode.ThemeIcon("pass", new vscode.ThemeColor("testing.iconPassed"));
-    item.command = { command: "wedm.radii.reveal", title: t("Reveal in Text"), arguments: [row.handle, row.kind === "segment" ? row.segment.index : undefined] };
+    const place = row.kind === "segment" ? [[row.handle], row.segment.index] : [row.handles];
+    item.command = { command: "wedm.radii.reveal", title: t("Show in Picture or Text"), arguments: place };
     return item;
   }
 
@@ -161,9 +166,10 @@ export class Radii implements vscode.TreeDataProvider<Row>, vscode.Disposable {
     return row.kind === "segment" ? this.#rows.find((entity) => entity.handles.includes(row.handle)) : undefined;
   }
 
-  async revealInText(handle: unknown, segment: unknown): Promise<void> {
-    if (this.#document !== undefined && typeof handle === "string") {
-      await reveal(this.server, this.#document, handle, typeof segment === "number" ? segment : undefined, false);
+  async reveal(handles: unknown, segment: unknown): Promise<void> {
+    const named = Array.isArray(handles) ? handles.filter((handle) => typeof handle === "string") : [];
+    if (this.#document !== undefined) {
+      await this.pictures.reveal(this.#document, named, typeof segment === "number" ? segment : undefined);
     }
   }
 

@@ -44,3 +44,44 @@ export function large(bytes: number): Buffer {
   const notes = Array.from({ length: Math.ceil(bytes / note(0).length) }, (_, n) => note(n)).join("");
   return Buffer.from(`${head}${notes}0\n${FILLET.slice(FILLET.indexOf("LWPOLYLINE"))}`);
 }
+
+/** A drawing of group codes with numbers and texts as binary DXF, as AutoCAD writes it from R13 on. */
+export function binary(text: string): Buffer {
+  const lines = text.trimEnd().split(/\r?\n/).map((line) => line.trim());
+  const parts: Buffer[] = [Buffer.from("AutoCAD Binary DXF\r\n\x1a\0", "latin1")];
+  for (let at = 0; at + 1 < lines.length; at += 2) {
+    const [code, value] = [Number(lines[at]), lines[at + 1] ?? ""];
+    const head = Buffer.alloc(2);
+    head.writeUInt16LE(code);
+    parts.push(head, written(code, value));
+  }
+  return Buffer.concat(parts);
+}
+
+function written(code: number, value: string): Buffer {
+  const isWithin = (from: number, to: number): boolean => code >= from && code < to;
+  const bytes = Buffer.alloc(isWithin(10, 60) ? 8 : isWithin(60, 80) ? 2 : 4);
+  if (isWithin(10, 60)) {
+    bytes.writeDoubleLE(Number(value));
+  } else if (isWithin(60, 80)) {
+    bytes.writeInt16LE(Number(value));
+  } else if (isWithin(90, 100)) {
+    bytes.writeInt32LE(Number(value));
+  } else {
+    return Buffer.from(`${value}\0`, "latin1");
+  }
+  return bytes;
+}
+
+/** A rectangle of 20 × 10 mm as DXB: lines whose coordinates are of double precision. */
+export function dxb(): Buffer {
+  const corners = [[0, 0], [20, 0], [20, 10], [0, 10]] as const;
+  const lines = corners.map(([x, y], index) => {
+    const [endX, endY] = corners[(index + 1) % corners.length] ?? [0, 0];
+    const line = Buffer.alloc(1 + 6 * 8);
+    line.writeUInt8(1);
+    [x, y, 0, endX, endY, 0].forEach((value, place) => line.writeDoubleLE(value, 1 + 8 * place));
+    return line;
+  });
+  return Buffer.concat([Buffer.from("AutoCAD DXB 1.0\r\n\x1a\0", "latin1"), Buffer.from([135, 1, 0]), ...lines, Buffer.from([0])]);
+}

@@ -38,6 +38,9 @@ export interface Machine {
   withServer?: boolean;
   /** The server is where `cargo install` puts it, and no setting names it. */
   isInstalled?: boolean;
+  /** The language of the window, and the packs that it needs. */
+  locale?: string;
+  extensions?: readonly string[];
 }
 
 export class Host {
@@ -51,7 +54,7 @@ export class Host {
 
   /** `files` are put into the folder that is opened; `settings` are the user's. */
   static async start(settings: Record<string, unknown>, files: Record<string, string | Buffer>, machine: Machine = {}): Promise<Host> {
-    const { path = process.env["PATH"] ?? "", view = {}, withServer = false, isInstalled = false } = machine;
+    const { path = process.env["PATH"] ?? "", view = {}, withServer = false, isInstalled = false, locale, extensions: others = [] } = machine;
     const root = await mkdtemp(join(tmpdir(), "vscode-test-"));
     const folder = join(root, "work");
     const [data, extensions] = [join(root, "data"), join(root, "extensions")];
@@ -74,9 +77,10 @@ export class Host {
     await mkdir(own, { mode: 0o700 });
     const folders = { HOME: root, TMPDIR: own, XDG_RUNTIME_DIR: own, XDG_DATA_HOME: root, XDG_CONFIG_HOME: root };
     const environment = { ...process.env, ...folders, PATH: path };
-    await promisify(execFile)(process.execPath, [CODE_SERVER, ...places, "--install-extension", await vsix(withServer)], { env: environment });
+    const wanted = [await vsix(withServer), ...others].flatMap((extension) => ["--install-extension", extension]);
+    await promisify(execFile)(process.execPath, [CODE_SERVER, ...places, ...wanted], { env: environment });
     const port = await freePort();
-    const options = ["--auth", "none", "--bind-addr", `127.0.0.1:${port}`, "--disable-telemetry", "--disable-update-check", "--disable-workspace-trust"];
+    const options = ["--auth", "none", "--bind-addr", `127.0.0.1:${port}`, "--disable-telemetry", "--disable-update-check", "--disable-workspace-trust", ...(locale === undefined ? [] : ["--locale", locale])];
     const server = spawn(process.execPath, [CODE_SERVER, ...places, ...options, folder], { env: environment, stdio: ["ignore", "pipe", "pipe"], detached: true });
     await listening(server);
     const browser = await startBrowser();

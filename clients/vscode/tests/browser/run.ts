@@ -2,6 +2,7 @@
 
 import { Checks } from "./checks";
 import { badDays } from "./badDays";
+import { chinese } from "./chinese";
 import { deliver } from "./deliver";
 import { drawing } from "./drawing";
 import { job } from "./job";
@@ -12,14 +13,16 @@ import { readme } from "./readme";
 import { states } from "./states";
 import { text } from "./text";
 import { themes } from "./themes";
+import { views } from "./views";
 import { withServer } from "./withServer";
 
 /** Made when it is asked for by name: it changes a picture that is committed. */
 const ONLY_BY_NAME = "readme";
 type Scenario = (checks: Checks) => Promise<void>;
-const pages = { states, large, themes };
+const pages = { states, large, themes, chinese };
 const jobs = { program, job, deliver };
-const scenarios: Record<string, Scenario> = { text, picture, drawing, ...jobs, ...pages, badDays, withServer, [ONLY_BY_NAME]: readme };
+const sights = { picture, drawing, views };
+const scenarios: Record<string, Scenario> = { text, ...sights, ...jobs, ...pages, badDays, withServer, [ONLY_BY_NAME]: readme };
 const checks = new Checks();
 const named = process.argv.slice(2);
 

@@ -11,7 +11,8 @@ const manifest = JSON.parse(await readFile(new URL("package.json", root), "utf8"
     languages: { id: string; configuration: string; icon: { light: string; dark: string } }[];
     grammars: { language: string; path: string }[];
     commands: { command: string }[];
-    menus: Record<string, { command: string }[]>;
+    menus: Record<string, ({ command: string } | { submenu: string })[]>;
+    submenus: { id: string }[];
     walkthroughs: { steps: { id: string; media: { markdown: string }; completionEvents: string[] }[] }[];
   };
 };
@@ -34,8 +35,12 @@ test("every command that is offered is registered, and menus offer no other", as
   const registered = new Set([...source.matchAll(/^ {4}"(wedm\.[\w.]+)":/gm)].map((match) => match[1]));
   const offered = new Set(manifest.contributes.commands.map(({ command }) => command));
   assert.deepEqual(registered, offered);
-  for (const { command } of Object.values(manifest.contributes.menus).flat()) {
-    assert.ok(offered.has(command), command);
+  for (const entry of Object.values(manifest.contributes.menus).flat()) {
+    if ("command" in entry) {
+      assert.ok(offered.has(entry.command), entry.command);
+    } else {
+      assert.ok(manifest.contributes.submenus.some(({ id }) => id === entry.submenu), entry.submenu);
+    }
   }
   // Code lenses of the server name these.
   for (const command of ["wedm.simulate", "wedm.openPicture", "wedm.convertToDxf"]) {
