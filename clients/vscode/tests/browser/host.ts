@@ -1,7 +1,7 @@
 // A real VS Code with the packed extension in it, served to a real browser.
 
 import { type ChildProcess, execFile, spawn } from "node:child_process";
-import { mkdir, mkdtemp, readdir, rm, symlink, writeFile } from "node:fs/promises";
+import { mkdir, mkdtemp, readdir, readFile, rm, symlink, writeFile } from "node:fs/promises";
 import { createServer } from "node:net";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -79,6 +79,9 @@ export class Host {
     const environment = { ...process.env, ...folders, PATH: path };
     const wanted = [await vsix(withServer), ...others].flatMap((extension) => ["--install-extension", extension]);
     await promisify(execFile)(process.execPath, [CODE_SERVER, ...places, ...wanted], { env: environment });
+    if (locale !== undefined) {
+      await keepLanguagePack(data, extensions, locale);
+    }
     const port = await freePort();
     const options = ["--auth", "none", "--bind-addr", `127.0.0.1:${port}`, "--disable-telemetry", "--disable-update-check", "--disable-workspace-trust", ...(locale === undefined ? [] : ["--locale", locale])];
     const server = spawn(process.execPath, [CODE_SERVER, ...places, ...options, folder], { env: environment, stdio: ["ignore", "pipe", "pipe"], detached: true });
@@ -144,4 +147,29 @@ function listening(server: ChildProcess): Promise<void> {
       reject(new Error(`code-server ended with ${code ?? "a signal"}: ${said}`));
     });
   });
+}
+
+/** Where VS Code looks for its translations; an installation from the command line does not write it down. */
+async function keepLanguagePack(data: string, extensions: string, locale: string): Promise<void> {
+  for (const name of await readdir(extensions)) {
+    const folder = join(extensions, name);
+    const text = await readFile(join(folder, "package.json"), "utf8").catch(() => "{}");
+    const { publisher = "", name: own = "", version = "", contributes } = JSON.parse(text) as Partial<PackManifest>;
+    const pack = contributes?.localizations?.find(({ languageId }) => languageId === locale);
+    if (pack !== undefined) {
+      const translations = Object.fromEntries(pack.translations.map(({ id, path }) => [id, join(folder, path)]));
+      const of = { extensionIdentifier: { id: `${publisher}.${own}`, uuid: "00000000-0000-0000-0000-000000000001" }, version };
+      const kept = { [locale]: { hash: `${own}-${version}`, label: pack.localizedLanguageName, extensions: [of], translations } };
+      await writeFile(join(data, "languagepacks.json"), JSON.stringify(kept));
+    }
+  }
+}
+
+interface PackManifest {
+  publisher: string;
+  name: string;
+  version: string;
+  contributes: {
+    localizations?: { languageId: string; localizedLanguageName: string; translations: { id: string; path: string }[] }[];
+  };
 }

@@ -14,6 +14,9 @@ test("of the page's messages only those are heard that say something", () => {
   check({ type: "line", line: 4 }, { type: "line", line: 4 });
   check({ type: "fault", fault: 2 }, { type: "fault", fault: 2 });
   check({ type: "fix", fault: 2, repair: 0 }, { type: "fix", fault: 2, repair: 0 });
+  check({ type: "fixAll" }, { type: "fixAll" });
+  check({ type: "program", format: "4b" }, { type: "program", format: "4b" });
+  check({ type: "program", format: "exe" }, null);
   check({ type: "explain", rule: "small-radius" }, { type: "explain", rule: "small-radius" });
   const said = { side: "punch", thread: [1, 2], entry: null, order: 3 };
   check({ type: "say", handles: ["2A"], said }, { type: "say", handles: ["2A"], said });

@@ -46,6 +46,12 @@ test("contours come before what is in none, and hold the segments of all their e
   assert.deepEqual(joined.map(({ segments }) => segments.map(({ label }) => label)), [["1 · 0   line 25.400", "2A · 0   line 25.400", "2A · 2   R 0.076"]]);
 });
 
+test("a segment has the numbers of its marks", () => {
+  const of = (rule: string) => ({ rule, severity: "error" as const, message: "", handle: "2A", segment: 2 });
+  const list = rows(inspection, false, [], [of("gap"), of("small-radius")]);
+  assert.deepEqual(list[1]?.segments.map(({ description }) => description), ["0.000, 0.000", "② · ① · small-radius,gap · 25.400, 12.700"]);
+});
+
 test("only faults leaves what is sound out", () => {
   const list = rows(inspection, true);
   assert.deepEqual(list.map(({ handle, segments }) => [handle, segments.length]), [["2A", 1]]);

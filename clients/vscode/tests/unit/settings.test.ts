@@ -38,6 +38,8 @@ interface Setting {
   default: unknown;
   enum?: unknown[];
   enumDescriptions?: string[];
+  enumItemLabels?: string[];
+  order?: number;
   description?: string;
   markdownDescription?: string;
   additionalProperties?: Schema;
@@ -108,4 +110,20 @@ test("each of them is not set by default, is described, and offers the words tha
       assert.deepEqual(setting.enumDescriptions?.filter((one) => said(one) === ""), [], key);
     }
   }
+});
+
+test("a choice that is not made is called so, not null", () => {
+  const choices = Object.entries(contributed).filter(([, setting]) => setting.enum?.includes(null) === true);
+  assert.ok(choices.length > 10);
+  for (const [key, { enum: all = [], enumItemLabels: labels = [] }] of choices) {
+    assert.equal(labels.length, all.length, key);
+    assert.equal(said(labels[all.indexOf(null)]), "not set", key);
+  }
+});
+
+test("the settings that every job needs come first, those of the extension last", () => {
+  const keys = Object.keys(contributed).toSorted((a, b) => (contributed[a]?.order ?? 0) - (contributed[b]?.order ?? 0));
+  assert.deepEqual(keys.slice(0, 4), ["wedm.wireDiameter", "wedm.gap", "wedm.correction", "wedm.side"]);
+  assert.deepEqual(keys.slice(-3), ["wedm.server.path", "wedm.server.log", "wedm.trace.server"]);
+  assert.equal(new Set(keys.map((key) => contributed[key]?.order)).size, keys.length);
 });
