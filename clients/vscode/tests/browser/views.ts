@@ -141,7 +141,7 @@ export async function views(checks: Checks): Promise<void> {
     await checks.check("a DXB does, too, and is drawn again when it is saved", async () => {
       await open("plate.dxb");
       const shown = await window.pictureOf("plate.dxb");
-      await expectSoon("its contour", async () => (await shown.locator("svg .contour").count()) === 4, async () => String(await shown.locator("svg .contour").count()));
+      await expectSoon("its contour", async () => (await shown.locator("svg .drawing .contour").count()) === 4, async () => String(await shown.locator("svg .drawing .contour").count()));
       await checks.shot("dxb");
       await writeFile(join(host.folder, "plate.dxb"), dxb().subarray(0, -60));
       await expectSoon("why it breaks off", async () => (await shown.locator("#trouble").innerText()) !== "", () => shown.locator("#faults").innerText());
