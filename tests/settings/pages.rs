@@ -348,7 +348,7 @@ fn a_profile_that_ships_is_named_wherever_profiles_are_listed() {
     let places = [
         "docs/programs.md",
         "docs/zh/programs.md",
-        "clients/vscode/src/commands/profiles.ts",
+        "clients/picture/profiles.ts",
     ];
     for place in places {
         let text = std::fs::read_to_string(root.join(place)).unwrap();
