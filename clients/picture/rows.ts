@@ -91,7 +91,7 @@ function withSegments(row: Pick<EntityRow, "handle" | "handles" | "label"> & { l
 
 function segmentRow(handle: string, segment: InspectedSegment, { toMm, marks }: Read, isNamed: boolean): SegmentRow {
   const mm = (length: number): string => (length * toMm).toFixed(3);
-  const what = segment.radius === undefined ? t("line {0}", mm(segment.length)) : `R ${mm(segment.radius)}`;
+  const what = segment.radius === undefined ? `${t("line")} ${mm(segment.length)}` : `R ${mm(segment.radius)}`;
   const [x, y] = segment.start;
   const numbers = (marks.get(`${handle}/${segment.index}`) ?? []).map(circled);
   return {

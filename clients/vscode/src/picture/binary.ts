@@ -34,11 +34,11 @@ export class BinaryPictures implements vscode.CustomReadonlyEditorProvider, vsco
     this.#subscriptions = vscode.Disposable.from(
       this.#findings,
       vscode.window.registerCustomEditorProvider(BINARY, this, options),
-      vscode.window.tabGroups.onDidChangeTabs(({ opened }) => {
-        opened.forEach((tab) => void turn(tab));
+      vscode.window.tabGroups.onDidChangeTabs(({ opened, changed }) => {
+        turnAll([...opened, ...changed]);
       }),
     );
-    vscode.window.tabGroups.all.flatMap(({ tabs }) => tabs).forEach((tab) => void turn(tab));
+    turnAll(vscode.window.tabGroups.all.flatMap(({ tabs }) => tabs));
   }
 
   openCustomDocument(uri: vscode.Uri): vscode.CustomDocument {
@@ -62,14 +62,28 @@ export class BinaryPictures implements vscode.CustomReadonlyEditorProvider, vsco
 }
 
 /** By its name a binary DXF opens as a text or as a picture of one, which VS Code refuses: it is opened again as what it is. */
-async function turn(tab: vscode.Tab): Promise<void> {
-  const { input } = tab;
-  const isOther = input instanceof vscode.TabInputText || (input instanceof vscode.TabInputCustom && input.viewType !== BINARY);
-  if (!isOther || input.uri.scheme !== "file" || !/\.dxf$/i.test(input.uri.path) || !(await isBinary(input.uri))) {
+function turnAll(tabs: readonly vscode.Tab[]): void {
+  for (const tab of tabs) {
+    const uri = refusedIn(tab);
+    if (uri !== undefined) {
+      void turn(uri, tab.group.viewColumn);
+    }
+  }
+}
+
+async function turn(uri: vscode.Uri, column: vscode.ViewColumn): Promise<void> {
+  if (!(await isBinary(uri))) {
     return;
   }
-  await vscode.commands.executeCommand("vscode.openWith", input.uri, BINARY, tab.group.viewColumn);
-  await vscode.window.tabGroups.close(tab);
+  await vscode.commands.executeCommand("vscode.openWith", uri, BINARY, column);
+  const all = vscode.window.tabGroups.all.flatMap(({ tabs }) => tabs);
+  await vscode.window.tabGroups.close(all.filter((tab) => refusedIn(tab)?.toString() === uri.toString()));
+}
+
+/** The DXF that a tab would show as a text. */
+function refusedIn({ input }: vscode.Tab): vscode.Uri | undefined {
+  const isText = input instanceof vscode.TabInputText || (input instanceof vscode.TabInputCustom && input.viewType !== BINARY);
+  return isText && input.uri.scheme === "file" && /\.dxf$/i.test(input.uri.path) ? input.uri : undefined;
 }
 
 async function isBinary(uri: vscode.Uri): Promise<boolean> {

@@ -51,7 +51,7 @@ export async function chinese(checks: Checks): Promise<void> {
     const page = await window.pictureOf("small-radius.dxf");
     await checks.check("so are the picture, its toolbar and what is found", async () => {
       await expectSoon("four faults", async () => (await page.locator("svg .drawing .fault").count()) === 4);
-      for (const [part, words] of Object.entries({ "#text": "文本", "#fix-all": "全部修复", "#fit": "适合", "#alert": "4 " })) {
+      for (const [part, words] of Object.entries({ "#text": "文本", "#fix-all": "全部修复", "#fit": "全图", "#alert": "4 " })) {
         expectEqual(part, (await page.locator(part).innerText()).includes(words), true);
       }
       expectEqual("English in it", await english(page.locator("body").innerText()), []);
@@ -66,6 +66,7 @@ export async function chinese(checks: Checks): Promise<void> {
       await host.page.locator('.activitybar [aria-label*="线切割"]').first().click();
       const row = host.page.locator(".sidebar .monaco-list-row", { hasText: "轮廓 1" });
       await row.waitFor();
+      await host.page.locator(".sidebar .monaco-list-row", { hasText: "直线 2.820" }).waitFor();
       await host.page.keyboard.press("Control+Shift+m");
       const problem = host.page.locator(".markers-panel .monaco-list-row", { hasText: "R 0.040" });
       await problem.waitFor();

@@ -77,11 +77,11 @@ export async function picture(checks: Checks): Promise<void> {
       await checks.shot("picture-close");
       await page.locator("#fit").click();
     });
-    await checks.check("the radius list has vertex, radius and verdict, and leads to the text", async () => {
+    await checks.check("the radius list has vertex, radius, number of the mark and verdict, and leads to the text", async () => {
       await window.command("Wire EDM: Show Radius List");
       const row = host.page.locator(".pane-body .monaco-list-row", { hasText: "R 0.040" });
       await row.waitFor();
-      expectEqual("row", (await row.innerText()).replaceAll(/\s+/g, ""), "4R0.040small-radius·3.200,0.983");
+      expectEqual("row", (await row.innerText()).replaceAll(/\s+/g, ""), "4R0.040②·small-radius·3.200,0.983");
       await expectSoon("fifteen rows", async () => (await host.page.locator(".pane-body .monaco-list-row").count()) === 15);
       await actUntil("the line of the row", () => row.click(), async () => (await window.line()) === bulges[2]);
       await checks.shot("radii");

@@ -125,9 +125,10 @@ export async function views(checks: Checks): Promise<void> {
       await checks.shot("broken-file");
     });
     await checks.check("a binary DXF opens as a picture that is looked at only", async () => {
-      await open("binary.dxf");
-      // By its name it is a text; VS Code finds out, says so, and the extension opens it as what it is.
-      await host.page.locator(".monaco-dialog-box", { hasText: "binary" }).getByRole("button", { name: "OK" }).click();
+      await host.page.keyboard.press("Control+p");
+      await host.page.locator(".quick-input-widget input").fill("binary.dxf");
+      await host.page.locator(".quick-input-widget .monaco-list-row.focused", { hasText: "binary.dxf" }).waitFor();
+      await host.page.keyboard.press("Enter");
       const shown = await window.pictureOf("binary.dxf");
       await expectSoon("four faults", async () => (await shown.locator("svg .drawing .fault").count()) === 4);
       expectEqual("chips", await shown.locator("#chips .chip").count(), 4);
@@ -140,7 +141,7 @@ export async function views(checks: Checks): Promise<void> {
     await checks.check("a DXB does, too, and is drawn again when it is saved", async () => {
       await open("plate.dxb");
       const shown = await window.pictureOf("plate.dxb");
-      await expectSoon("its contour", async () => (await shown.locator("svg .contour").count()) === 4, async () => String(await shown.locator("svg .contour").count()));
+      await expectSoon("its contour", async () => (await shown.locator("svg .drawing .contour").count()) === 4, async () => String(await shown.locator("svg .drawing .contour").count()));
       await checks.shot("dxb");
       await writeFile(join(host.folder, "plate.dxb"), dxb().subarray(0, -60));
       await expectSoon("why it breaks off", async () => (await shown.locator("#trouble").innerText()) !== "", () => shown.locator("#faults").innerText());
