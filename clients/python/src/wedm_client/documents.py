@@ -273,6 +273,8 @@ class Drawing(Document):
         self._entities = {entity.handle: entity for entity in entities}
         #: The ezdxf entities that the drawing was made from, by handle.
         self.sources: dict[str, Any] = {}
+        #: Handles of the annotation among them, by kind, such as ``DIMENSION``: no contour is taken from it, as of a file.
+        self.left_out: dict[str, list[str]] = {}
 
     @property
     def entities(self) -> list[Entity]:

@@ -94,13 +94,18 @@ class Server(Session):
             written = StringIO()
             source.write(written)
             return self.open_text(written.getvalue(), "dxf", uri=uri)
-        entities, sources = cad.entities_from(source)
+        items = list(source)
+        entities, sources = cad.entities_from(items)
         doubled = len(entities) - len({entity.handle for entity in entities})
         if doubled:
             raise ValueError(f"{doubled} entities have a handle that another one has")
         units = units or cad.units_of(sources.values())
         drawing = Drawing(self, uri or f"wedm-client:drawing-{next(self._numbers)}", entities, units)
         drawing.sources = sources
+        drawing.left_out = cad.left_out(items)
+        if drawing.left_out:
+            counted = ", ".join(f"{len(handles)} {kind}" for kind, handles in sorted(drawing.left_out.items()))
+            LOG.info("%s: annotation is not cut: %s", drawing.uri, counted)
         return self._opened(drawing)
 
     def open_text(self, text: str, language: Literal["dxf", "3b", "wire-iso"] = "dxf", *, uri: str | None = None) -> TextDocument:
