@@ -9,10 +9,12 @@ HEADERS += \
     $$PWD/src/core/contours.h \
     $$PWD/src/core/difference.h \
     $$PWD/src/core/drawing.h \
+    $$PWD/src/core/figures.h \
     $$PWD/src/core/frame.h \
     $$PWD/src/core/kept_hole.h \
     $$PWD/src/core/language.h \
     $$PWD/src/core/messages.h \
+    $$PWD/src/core/program.h \
     $$PWD/src/core/program_search.h \
     $$PWD/src/core/restarts.h \
     $$PWD/src/core/server.h \
@@ -22,13 +24,16 @@ SOURCES += \
     $$PWD/src/core/contours.cpp \
     $$PWD/src/core/difference.cpp \
     $$PWD/src/core/drawing.cpp \
+    $$PWD/src/core/figures.cpp \
     $$PWD/src/core/frame.cpp \
     $$PWD/src/core/kept_hole.cpp \
     $$PWD/src/core/language.cpp \
     $$PWD/src/core/messages.cpp \
+    $$PWD/src/core/program.cpp \
     $$PWD/src/core/program_search.cpp \
     $$PWD/src/core/server.cpp \
-    $$PWD/src/core/session.cpp
+    $$PWD/src/core/session.cpp \
+    $$PWD/src/core/session_asks.cpp
 
 # What lrelease makes of translations/wedm_zh.ts is inside the plugin; without Qt's tools it speaks English alone.
 LRELEASE = $$[QT_INSTALL_BINS]/lrelease

@@ -209,7 +209,7 @@ fn repair(path: &Path, mut document: Document, lists: bool) -> Result<Repair, Fa
         repaired,
         rounds: of_all,
         ..
-    }) = job::fix_all(&document)
+    }) = job::fix_all(&document, &())
     {
         gone = Outcome::of(&document, &repaired).repaired;
         (document, rounds) = (*repaired, of_all);

@@ -1,5 +1,6 @@
 //! All safe fixes of a document, until none is left.
 
+use super::Watch;
 use crate::document::{Document, Source};
 use crate::drawing::{Drawing, DrawingEdit};
 use crate::finding::{Edit, Finding, Rule, Severity};
@@ -73,8 +74,13 @@ impl Outcome {
 /// At most this many rounds. Each leaves less to repair than the one before, so that they end by themselves long before.
 pub const ROUNDS: usize = 100;
 
-/// Every safe fix, repeated until none is left that repairs anything.
-pub(crate) fn fix_all(document: &Document) -> Option<Repairs> {
+/// Every safe fix, repeated until none is left that repairs anything. After each round it says what part of the findings is repaired.
+pub(crate) fn fix_all(document: &Document, watch: &dyn Watch) -> Option<Repairs> {
+    let findings = document.all_findings().len();
+    let tell = |present: &Document| {
+        let repaired = findings.saturating_sub(present.all_findings().len());
+        watch.at(say!(looking_for_fixes), Some((repaired, findings)));
+    };
     if let Source::Cad(_) = document.source() {
         let mut present = document.clone();
         let mut rounds = Vec::new();
@@ -89,8 +95,10 @@ pub(crate) fn fix_all(document: &Document) -> Option<Repairs> {
             (matches!(made, Some(Ok(()))) && is_less()).then_some((repaired, before, edit))
         };
         while rounds.len() < ROUNDS
+            && watch.is_wanted()
             && let Some((repaired, before, edit)) = next(&present)
         {
+            tell(&repaired);
             rounds.push((before, edit));
             present = repaired;
         }
@@ -101,10 +109,12 @@ pub(crate) fn fix_all(document: &Document) -> Option<Repairs> {
     let mut repaired = None;
     let mut rounds = 0;
     while rounds < ROUNDS
+        && watch.is_wanted()
         && let present = repaired.as_ref().unwrap_or(document)
         && let Some((edits, after)) = present.round()
         && let Some(longer) = patch.then(&edits)
     {
+        tell(&after);
         rounds += 1;
         patch = longer;
         repaired = Some(after);

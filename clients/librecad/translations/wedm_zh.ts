@@ -141,6 +141,130 @@
         <source>The thread hole could not be kept in %1: %2.</source>
         <translation>穿丝孔无法记入 %1：%2。</translation>
     </message>
+    <message>
+        <source>No figures: %1.</source>
+        <translation>没有数据：%1。</translation>
+    </message>
+    <message>
+        <source>Nothing was drawn: %1.</source>
+        <translation>未画出任何内容：%1。</translation>
+    </message>
+    <message>
+        <source>There is no path of the wire: %1.</source>
+        <translation>没有切割轨迹：%1。</translation>
+    </message>
+    <message>
+        <source>drawing</source>
+        <translation>图形</translation>
+    </message>
+    <message>
+        <source>No program was made: %1.</source>
+        <translation>未生成程序：%1。</translation>
+    </message>
+    <message>
+        <source>The program is made and proved; it is not written yet.</source>
+        <translation>程序已生成并验证，尚未写出。</translation>
+    </message>
+    <message>
+        <source>No program was written to %1: %2.</source>
+        <translation>程序未写到 %1：%2。</translation>
+    </message>
+    <message>
+        <source>The programs are being made…</source>
+        <translation>正在生成程序…</translation>
+    </message>
+    <message>
+        <source>The programs are made and proved; they are not written yet.</source>
+        <translation>程序已生成并验证，尚未写出。</translation>
+    </message>
+    <message>
+        <source>Save the programs of the pair</source>
+        <translation>保存一对零件的程序</translation>
+    </message>
+    <message>
+        <source>Two parts would be written to %1: give them other names.</source>
+        <translation>两个零件会写入同一文件 %1：请给它们取不同的名称。</translation>
+    </message>
+    <message>
+        <source>The drill list is saved: %1.</source>
+        <translation>钻孔清单已保存：%1。</translation>
+    </message>
+    <message>
+        <source>The drill list could not be saved to %1: %2.</source>
+        <translation>钻孔清单无法保存到 %1：%2。</translation>
+    </message>
+    <message>
+        <source>There is no drill list: %1.</source>
+        <translation>没有钻孔清单：%1。</translation>
+    </message>
+    <message>
+        <source>Whether the parts fit is not known: %1.</source>
+        <translation>不知道两件是否配合：%1。</translation>
+    </message>
+    <message>
+        <source>Show the picture</source>
+        <translation>显示图片</translation>
+    </message>
+    <message>
+        <source>The picture could not be shown: %1.</source>
+        <translation>无法显示图片：%1。</translation>
+    </message>
+    <message>
+        <source>A report is made of the saved file: save the drawing first.</source>
+        <translation>报告按已保存的文件生成：请先保存图形。</translation>
+    </message>
+    <message>
+        <source>The report is being made…</source>
+        <translation>正在生成报告…</translation>
+    </message>
+    <message>
+        <source>No report was made: %1.</source>
+        <translation>未生成报告：%1。</translation>
+    </message>
+    <message>
+        <source>No report was made: %1</source>
+        <translation>未生成报告：%1</translation>
+    </message>
+    <message>
+        <source>it ended with code %1</source>
+        <translation>以代码 %1 结束</translation>
+    </message>
+    <message>
+        <source>The report is written: %1.</source>
+        <translation>报告已写出：%1。</translation>
+    </message>
+    <message>
+        <source>There are errors in the drawing.</source>
+        <translation>图形存在错误。</translation>
+    </message>
+    <message>
+        <source>No program was found that shows it.</source>
+        <translation>没有找到可显示它的程序。</translation>
+    </message>
+    <message>
+        <source>ellipse</source>
+        <translation>椭圆</translation>
+    </message>
+    <message>
+        <source>spline</source>
+        <translation>样条曲线</translation>
+    </message>
+    <message>
+        <source>block</source>
+        <translation>块</translation>
+    </message>
+    <message>
+        <source>hatch</source>
+        <translation>填充</translation>
+    </message>
+    <message>
+        <source>image</source>
+        <translation>图像</translation>
+    </message>
+    <message>
+        <source>solid</source>
+        <translation>实心填充</translation>
+    </message>
 </context>
 <context>
     <name>wedm::Drawing</name>
@@ -410,6 +534,30 @@
         <source>   notes: %1</source>
         <translation>   说明：%1</translation>
     </message>
+    <message>
+        <source>error</source>
+        <translation>错误</translation>
+    </message>
+    <message>
+        <source>warning</source>
+        <translation>警告</translation>
+    </message>
+    <message>
+        <source>note</source>
+        <translation>注意</translation>
+    </message>
+    <message>
+        <source>hint</source>
+        <translation>提示</translation>
+    </message>
+    <message>
+        <source>More</source>
+        <translation>更多</translation>
+    </message>
+    <message>
+        <source>Figures, the fit of punch and plate, the drill list, a report</source>
+        <translation>数据、凸模与凹模是否配合、钻孔清单、报告</translation>
+    </message>
 </context>
 <context>
     <name>wedm::ProgramSearch</name>
@@ -459,6 +607,26 @@
     <message>
         <source>× %1 mm</source>
         <translation>× %1 mm</translation>
+    </message>
+    <message>
+        <source>polyline</source>
+        <translation>多段线</translation>
+    </message>
+    <message>
+        <source>line</source>
+        <translation>直线</translation>
+    </message>
+    <message>
+        <source>arc</source>
+        <translation>圆弧</translation>
+    </message>
+    <message>
+        <source>circle</source>
+        <translation>圆</translation>
+    </message>
+    <message>
+        <source>ok</source>
+        <translation>正常</translation>
     </message>
 </context>
 <context>
@@ -527,16 +695,8 @@
         <translation>没有修复：%1。未作任何修改。</translation>
     </message>
     <message>
-        <source>The server is not running; nothing was written.</source>
-        <translation>服务器没有运行，未写出任何文件。</translation>
-    </message>
-    <message>
         <source>the server ended before it answered</source>
         <translation>服务器没有应答就结束了</translation>
-    </message>
-    <message>
-        <source>No program was written: %1.</source>
-        <translation>未写出程序：%1。</translation>
     </message>
     <message>
         <source>There is nothing that can be repaired safely; nothing was changed.</source>
@@ -555,20 +715,27 @@
         <translation>服务器没有发来程序</translation>
     </message>
     <message>
-        <source>No program was written to %1: %2.</source>
-        <translation>程序未写到 %1：%2。</translation>
-    </message>
-    <message>
         <source>line %1 is not understood</source>
         <translation>无法理解第 %1 行</translation>
     </message>
     <message>
-        <source>There is no path of the wire: %1.</source>
-        <translation>没有切割轨迹：%1。</translation>
+        <source>the server is not running</source>
+        <translation>服务器没有运行</translation>
+    </message>
+</context>
+<context>
+    <name>wedm::Sheet</name>
+    <message>
+        <source>and %1 more, which Copy takes along</source>
+        <translation>另有 %1 行，复制时一并带上</translation>
     </message>
     <message>
-        <source>The server is not running; nothing was drawn.</source>
-        <translation>服务器没有运行，未画出任何内容。</translation>
+        <source>Copy</source>
+        <translation>复制</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>关闭</translation>
     </message>
 </context>
 <context>
@@ -621,6 +788,26 @@
         <source>Clear wire path</source>
         <translation>清除切割轨迹</translation>
     </message>
+    <message>
+        <source>Generate the programs of the pair…</source>
+        <translation>生成一对零件的程序…</translation>
+    </message>
+    <message>
+        <source>Show whether punch and plate fit</source>
+        <translation>显示凸模与凹模是否配合</translation>
+    </message>
+    <message>
+        <source>Save drill list…</source>
+        <translation>保存钻孔清单…</translation>
+    </message>
+    <message>
+        <source>Show figures</source>
+        <translation>显示数据</translation>
+    </message>
+    <message>
+        <source>Make a report</source>
+        <translation>生成报告</translation>
+    </message>
 </context>
 <context>
     <name>wedm::dialogs</name>
@@ -660,6 +847,130 @@
         <source>%1 programs (%2);;All files (*)</source>
         <translation>%1 程序 (%2);;所有文件 (*)</translation>
     </message>
+    <message>
+        <source>Save the drill list</source>
+        <translation>保存钻孔清单</translation>
+    </message>
+    <message>
+        <source>List for the drill (*.csv);;Drawing with the holes (*.dxf)</source>
+        <translation>钻孔清单 (*.csv);;带穿丝孔的图形 (*.dxf)</translation>
+    </message>
+    <message>
+        <source>The programs of the pair: what does the machine read?</source>
+        <translation>一对零件的程序：机床读什么？</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>取消</translation>
+    </message>
+    <message>
+        <source>%1 is there already. Overwrite it?</source>
+        <translation>%1 已存在。覆盖它吗？</translation>
+    </message>
+    <message>
+        <source>%1 are there already. Overwrite them?</source>
+        <translation>%1 已存在。覆盖它们吗？</translation>
+    </message>
+    <message>
+        <source>Overwrite</source>
+        <translation>覆盖</translation>
+    </message>
+    <message>
+        <source>Which side does the electrode run on?</source>
+        <translation>电极在哪一侧走？</translation>
+    </message>
+    <message>
+        <source>Which side does the wire run on?</source>
+        <translation>丝在哪一侧走？</translation>
+    </message>
+    <message>
+        <source>Opening: electrode inside</source>
+        <translation>型腔：电极在内侧</translation>
+    </message>
+    <message>
+        <source>Opening: wire inside</source>
+        <translation>型孔：丝在内侧</translation>
+    </message>
+    <message>
+        <source>Punch: electrode outside</source>
+        <translation>凸台：电极在外侧</translation>
+    </message>
+    <message>
+        <source>Punch: wire outside</source>
+        <translation>凸模：丝在外侧</translation>
+    </message>
+    <message>
+        <source>By nesting</source>
+        <translation>按嵌套</translation>
+    </message>
+    <message>
+        <source>%1: what lies outermost is a punch, a contour within it an opening, and so on.</source>
+        <translation>%1：最外面的是凸模，其中的轮廓是型孔，依此类推。</translation>
+    </message>
+    <message>
+        <source>%1: it mills along the wall of a pocket.</source>
+        <translation>%1：沿型腔的壁铣削。</translation>
+    </message>
+    <message>
+        <source>%1: what falls out is scrap, as of a die&apos;s plate.</source>
+        <translation>%1：落下的是废料，如凹模板。</translation>
+    </message>
+    <message>
+        <source>%1: it mills round what stays.</source>
+        <translation>%1：绕着留下的部分铣削。</translation>
+    </message>
+    <message>
+        <source>%1: what falls out is the part.</source>
+        <translation>%1：落下的是工件。</translation>
+    </message>
+    <message>
+        <source>The answer holds for all contours that no setting covers, and stays in the dock under Side.</source>
+        <translation>此回答用于没有设置的所有轮廓，并保留在停靠窗的“补偿方向”中。</translation>
+    </message>
+    <message>
+        <source>Punch and plate</source>
+        <translation>凸模与凹模</translation>
+    </message>
+    <message>
+        <source>punch</source>
+        <translation>凸模</translation>
+    </message>
+    <message>
+        <source>plate</source>
+        <translation>凹模</translation>
+    </message>
+    <message>
+        <source> mm</source>
+        <translation> mm</translation>
+    </message>
+    <message>
+        <source>For this time. Kept in a wedm.toml beside the drawing (pair.drawn-as, pair.clearance, wire-diameter, gap), they hold always.</source>
+        <translation>仅用于这一次。写入图形旁的 wedm.toml（pair.drawn-as、pair.clearance、wire-diameter、gap）则始终有效。</translation>
+    </message>
+    <message>
+        <source>OK</source>
+        <translation>确定</translation>
+    </message>
+    <message>
+        <source>Drawn is the size of the</source>
+        <translation>图上画的尺寸属于</translation>
+    </message>
+    <message>
+        <source>Clearance on each side</source>
+        <translation>单边间隙</translation>
+    </message>
+    <message>
+        <source>Diameter of the wire</source>
+        <translation>电极丝直径</translation>
+    </message>
+    <message>
+        <source>Spark gap</source>
+        <translation>放电间隙</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>关闭</translation>
+    </message>
 </context>
 <context>
     <name>wedm::programs</name>
@@ -678,6 +989,194 @@
     <message>
         <source>Findings in the drawing: %1</source>
         <translation>图形中的问题：%1</translation>
+    </message>
+    <message>
+        <source>punch</source>
+        <translation>凸模</translation>
+    </message>
+    <message>
+        <source>plate</source>
+        <translation>凹模</translation>
+    </message>
+    <message>
+        <source>stripper</source>
+        <translation>卸料板</translation>
+    </message>
+    <message>
+        <source>holder</source>
+        <translation>固定板</translation>
+    </message>
+    <message>
+        <source>opening</source>
+        <translation>型孔</translation>
+    </message>
+    <message>
+        <source>left</source>
+        <translation>左侧</translation>
+    </message>
+    <message>
+        <source>right</source>
+        <translation>右侧</translation>
+    </message>
+    <message>
+        <source>both sides</source>
+        <translation>两侧</translation>
+    </message>
+    <message>
+        <source>%1, %2: correction %3 mm</source>
+        <translation>%1，%2：补偿量 %3 mm</translation>
+    </message>
+    <message>
+        <source>, the wire on what is drawn or on its other side</source>
+        <translation>，丝走在图线上或图线的另一侧</translation>
+    </message>
+    <message>
+        <source>, %1 blocks, cut %2 mm, jumps %3 mm</source>
+        <translation>，%1 段，切割 %2 mm，跳步 %3 mm</translation>
+    </message>
+    <message>
+        <source>Written to %1:</source>
+        <translation>已写到 %1：</translation>
+    </message>
+    <message>
+        <source>Whether punch and plate fit</source>
+        <translation>凸模与凹模是否配合</translation>
+    </message>
+    <message>
+        <source>Nothing was compared: no contour has a partner.</source>
+        <translation>未作比较：没有一个轮廓有配对的轮廓。</translation>
+    </message>
+    <message>
+        <source>Does not fit: the parts overlap by %1 mm where it is tightest, %2 mm of clearance are wanted.</source>
+        <translation>不能配合：最紧处两件重叠 %1 mm，应有间隙 %2 mm。</translation>
+    </message>
+    <message>
+        <source>Fits: %1 mm of %2 mm are left where it is tightest.</source>
+        <translation>能够配合：最紧处 %2 mm 间隙剩 %1 mm。</translation>
+    </message>
+    <message>
+        <source>Does not fit: %1 mm of %2 mm are left where it is tightest.</source>
+        <translation>不能配合：最紧处 %2 mm 间隙剩 %1 mm。</translation>
+    </message>
+    <message>
+        <source>mm left</source>
+        <translation>剩余 mm</translation>
+    </message>
+    <message>
+        <source>Part</source>
+        <translation>零件</translation>
+    </message>
+    <message>
+        <source>Entity</source>
+        <translation>图元</translation>
+    </message>
+    <message>
+        <source>Vertex</source>
+        <translation>顶点</translation>
+    </message>
+    <message>
+        <source>%1 of %2</source>
+        <translation>%2 的 %1</translation>
+    </message>
+    <message>
+        <source>Without a partner: %1</source>
+        <translation>没有配对：%1</translation>
+    </message>
+    <message>
+        <source>Less is left at these places than there should be. A double click shows one.</source>
+        <translation>这些位置的剩余间隙小于应有间隙。双击可显示该处。</translation>
+    </message>
+    <message>
+        <source>Figures</source>
+        <translation>数据</translation>
+    </message>
+    <message>
+        <source>Contours: %1, %2 mm round</source>
+        <translation>轮廓：%1 个，共长 %2 mm</translation>
+    </message>
+    <message>
+        <source>%1: </source>
+        <translation>%1：</translation>
+    </message>
+    <message>
+        <source>cut %1 mm, jumps %2 mm</source>
+        <translation>切割 %1 mm，跳步 %2 mm</translation>
+    </message>
+    <message>
+        <source>, %1 min on the machine</source>
+        <translation>，机床用时 %1 分钟</translation>
+    </message>
+    <message>
+        <source>, cost %1</source>
+        <translation>，费用 %1</translation>
+    </message>
+    <message>
+        <source>Contour</source>
+        <translation>轮廓</translation>
+    </message>
+    <message>
+        <source>Layer</source>
+        <translation>图层</translation>
+    </message>
+    <message>
+        <source>Side</source>
+        <translation>补偿方向</translation>
+    </message>
+    <message>
+        <source>Segments</source>
+        <translation>段数</translation>
+    </message>
+    <message>
+        <source>Length mm</source>
+        <translation>长度 mm</translation>
+    </message>
+    <message>
+        <source>Area mm²</source>
+        <translation>面积 mm²</translation>
+    </message>
+    <message>
+        <source>Extents mm</source>
+        <translation>外形 mm</translation>
+    </message>
+    <message>
+        <source>Least R mm</source>
+        <translation>最小 R mm</translation>
+    </message>
+    <message>
+        <source>Cut no.</source>
+        <translation>切割顺序</translation>
+    </message>
+    <message>
+        <source>Cut mm</source>
+        <translation>切割 mm</translation>
+    </message>
+    <message>
+        <source>min</source>
+        <translation>分钟</translation>
+    </message>
+    <message>
+        <source>Drops g</source>
+        <translation>落料 g</translation>
+    </message>
+    <message>
+        <source>%1, open</source>
+        <translation>%1，不封闭</translation>
+    </message>
+    <message>
+        <source>Largest wire: not known, since gap is not set</source>
+        <translation>最粗可用电极丝：未设 gap，无法得知</translation>
+    </message>
+    <message>
+        <source>Largest wire: Ø %1 mm</source>
+        <translation>最粗可用电极丝：Ø %1 mm</translation>
+    </message>
+    <message>
+        <source>There is no path of the wire: %1.</source>
+        <translation>没有切割轨迹：%1。</translation>
+    </message>
+    <message>
+        <source>Not known, since not set: %1</source>
+        <translation>未设而无法得知：%1</translation>
     </message>
 </context>
 </TS>

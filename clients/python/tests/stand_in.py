@@ -3,6 +3,7 @@
     python stand_in.py protocol N      says that it speaks protocol N
     python stand_in.py dies METHOD     ends when it is asked for METHOD
     python stand_in.py deaf METHOD     never answers METHOD
+    python stand_in.py slow METHOD     passes METHOD on after seven seconds, in which it says that it works on it
     python stand_in.py babbles METHOD  writes a line that is no message, directly before the answer to METHOD
     python stand_in.py raves METHOD    the same with a body that is no JSON
     python stand_in.py counts METHOD   the same with JSON that is no message
@@ -18,6 +19,7 @@ import os
 import subprocess
 import sys
 import threading
+import time
 from pathlib import Path
 from typing import IO, Any
 
@@ -49,6 +51,12 @@ def misbehave(what: str, once: list[str]) -> None:
     sys.stdout.buffer.flush()
 
 
+def report(token: str | None) -> None:
+    for _ in range(28):
+        write(sys.stdout.buffer, {"jsonrpc": "2.0", "method": "$/progress", "params": {"token": token, "value": {"kind": "report", "message": "still cutting"}}})
+        time.sleep(0.25)
+
+
 def main() -> None:
     what, detail, *once = sys.argv[1:]
     server = subprocess.Popen([os.environ["WEDM"]], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
@@ -57,7 +65,8 @@ def main() -> None:
 
     def answers() -> None:
         while (message := read(out)) is not None:
-            experimental = (message.get("result") or {}).get("capabilities", {}).get("experimental") if "result" in message else None
+            result = message.get("result")
+            experimental = result.get("capabilities", {}).get("experimental") if isinstance(result, dict) else None
             if what == "protocol" and experimental:
                 experimental["wedm"]["protocol"] = int(detail)
             write(sys.stdout.buffer, message)
@@ -72,6 +81,8 @@ def main() -> None:
                 os._exit(3)
             if what == "deaf":
                 continue
+            if what == "slow":
+                report(message["params"].get("workDoneToken"))
             misbehave(what, once)
         write(into, message)
     into.close()

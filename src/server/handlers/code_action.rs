@@ -178,7 +178,7 @@ fn fix_all(
     if is_long && !is_meant {
         return with_edit(context, document, action, &document.fix_all()?);
     }
-    let (made, repaired) = match job::fix_all(document)? {
+    let (made, repaired) = match job::fix_all(document, context)? {
         Repairs::OfText {
             edits, repaired, ..
         } => {

@@ -31,6 +31,8 @@ public:
     void stop();
     State state() const { return m_state; }
     bool isReady() const { return m_state == State::Ready; }
+    /// The path of the program; empty while none was found.
+    QString program() const { return m_program; }
     /// The connection to a server that is ready.
     Connection &connection() { return *m_connection; }
 

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "session.h"
 
-#include <QDir>
 #include <QJsonArray>
 #include <QJsonDocument>
-#include <QSaveFile>
 #include <QTimer>
 
 #include <algorithm>
@@ -58,7 +56,8 @@ void registerSessionTypes()
     qRegisterMetaType<wedm::Units>("wedm::Units");
     qRegisterMetaType<wedm::InForce>("wedm::InForce");
     qRegisterMetaType<wedm::Repair>("wedm::Repair");
-    qRegisterMetaType<wedm::Program>("wedm::Program");
+    qRegisterMetaType<wedm::Figures>("wedm::Figures");
+    qRegisterMetaType<wedm::Refusal>("wedm::Refusal");
     qRegisterMetaType<wedm::Toolpath>("wedm::Toolpath");
     qRegisterMetaType<wedm::Server::State>("wedm::Server::State");
     qRegisterMetaType<QVector<wedm::Entity>>("QVector<wedm::Entity>");
@@ -189,44 +188,6 @@ void Session::askRepair(const QString &uri, const QString &handle, int segment)
         else
             takeRepair(uri, answer.result.toArray());
     });
-}
-
-void Session::generate(const QString &uri, const QString &format, const QString &path, bool force)
-{
-    const auto fail = [this, uri, format, path](const QString &reason, const QStringList &findings) {
-        emit generateFailed(uri, format, path, reason, findings);
-    };
-    const auto ask = [=] {
-        QByteArray params = "{\"uri\":" + toJson(uri) + ",\"format\":" + toJson(format);
-        params += force ? ",\"force\":true}" : "}";
-        m_server.connection().request("wedm/generate", params, [=](const Answer &answer) {
-            if (!answer.failed) {
-                takeProgram(uri, format, path, answer.result.toObject());
-                return;
-            }
-            QStringList findings;
-            const QJsonArray diagnostics = answer.data.value("diagnostics").toArray();
-            for (const QJsonValue &each : diagnostics)
-                findings += each.toObject().value("message").toString();
-            const QString reason = answer.code == Connection::ENDED ? tr("the server ended before it answered") : answer.message;
-            fail(tr("No program was written: %1.").arg(reason), findings);
-        });
-    };
-    withServer(uri, ask, [=] { fail(tr("The server is not running; nothing was written."), QStringList()); });
-}
-
-void Session::requestToolpath(const QString &uri)
-{
-    const auto ask = [=] {
-        m_server.connection().request("wedm/toolpath", uriOnly(uri), [=](const Answer &answer) {
-            if (!answer.failed)
-                emit toolpathReady(uri, toolpathFromJson(answer.result.toObject()));
-            else
-                emit toolpathFailed(uri, tr("There is no path of the wire: %1.")
-                                             .arg(answer.code == Connection::ENDED ? tr("the server ended before it answered") : answer.message));
-        });
-    };
-    withServer(uri, ask, [=] { emit toolpathFailed(uri, tr("The server is not running; nothing was drawn.")); });
 }
 
 void Session::requestContour(const QString &uri, const QPointF &hole)
@@ -454,41 +415,6 @@ void Session::takeRepair(const QString &uri, const QJsonArray &actions)
     repair.before = document->drawing.entities;
     repair.after = after.entities;
     emit repairReady(repair);
-}
-
-void Session::takeProgram(const QString &uri, const QString &format, const QString &path, const QJsonObject &result)
-{
-    const QByteArray text = result.value("program").toString().toUtf8();
-    QSaveFile file(path);
-    const bool written = !text.isEmpty() && file.open(QIODevice::WriteOnly) && file.write(text) == text.size() && file.commit();
-    if (!written) {
-        const QString reason = text.isEmpty() ? tr("the server sent none") : file.errorString();
-        emit generateFailed(uri, format, path, tr("No program was written to %1: %2.").arg(QDir::toNativeSeparators(path), reason), QStringList());
-        return;
-    }
-    Program program;
-    program.path = path;
-    program.format = format;
-    program.blocks = result.value("blocks").toInt();
-    program.cut = result.value("length").toDouble();
-    program.jumps = result.value("jumps").toDouble();
-    program.deviation = result.value("deviation").toDouble();
-    program.closureX = result.value("closure").toObject().value("x").toDouble();
-    program.closureY = result.value("closure").toObject().value("y").toDouble();
-    const QJsonObject milling = result.value("milling").toObject();
-    program.layers = milling.value("layers").toInt();
-    const QJsonArray milled = milling.value("contours").toArray();
-    for (const QJsonValue &each : milled) {
-        const QJsonObject floor = each.toObject().value("floor").toObject();
-        const double least = floor.value("least").toDouble();
-        program.floorLeast = program.floorLeast > 0 ? std::min(program.floorLeast, least) : least;
-        program.floorMost = std::max(program.floorMost, floor.value("most").toDouble());
-        program.worn = each.toObject().value("worn").toDouble();
-    }
-    const QJsonArray warnings = result.value("warnings").toArray();
-    for (const QJsonValue &each : warnings)
-        program.warnings += each.toObject().value("message").toString();
-    emit generated(uri, program);
 }
 
 } // namespace wedm

@@ -5,7 +5,9 @@
 
 #include "contours.h"
 #include "difference.h"
+#include "figures.h"
 #include "messages.h"
+#include "program.h"
 #include "server.h"
 
 #include <QSharedPointer>
@@ -19,25 +21,6 @@ struct Repair {
     QString title;
     QVector<Entity> before;
     QVector<Entity> after;
-};
-
-/// The figures of a program: `cut` and `jumps` in mm, the length that is cut and that of the ways between contours.
-struct Program {
-    QString path;
-    /// "3b", "4b", "iso" or "milling".
-    QString format;
-    int blocks = 0;
-    double cut = 0;
-    double jumps = 0;
-    double deviation = 0;
-    double closureX = 0;
-    double closureY = 0;
-    /// For an electrode, in mm: the highest and deepest place of the floor, and by how much the electrode is shorter at the end.
-    int layers = 0;
-    double floorLeast = 0;
-    double floorMost = 0;
-    double worn = 0;
-    QStringList warnings;
 };
 
 /// Against what the server checks, and where each comes from: "default", "client", "file" or "drawing".
@@ -78,10 +61,14 @@ public slots:
     void watchRadii(const QString &uri, bool on);
     /// Asks for the repair of one finding, or, with an empty handle, of all that can be repaired safely.
     void requestRepair(const QString &uri, const QString &handle, int segment);
-    /// Writes the program of that format ("3b", "4b", "iso", "milling") beside `path` and renames it.
-    void generate(const QString &uri, const QString &format, const QString &path, bool force);
-    /// Asks for the path of the wire.
-    void requestToolpath(const QString &uri);
+    /// Sends a request about a drawing, such as `wedm/generate`; `answered` or `refused` follows with the same number.
+    void ask(int number, const QString &uri, const QString &method, const QJsonObject &params);
+    /// Runs the server's program with these arguments in that folder, beside the server; `ran` follows with the same number.
+    void run(int number, const QStringList &arguments, const QString &folder);
+    /// Asks for the path of the wire, under these settings.
+    void requestToolpath(const QString &uri, const QJsonObject &options);
+    /// Asks for what the drawing comes to.
+    void requestFigures(const QString &uri);
     /// Asks for the contour nearest to a thread hole, by which the hole is kept.
     void requestContour(const QString &uri, const QPointF &hole);
     /// Asks whether the settings hold the thread hole for the contour of that name, once they have been read again.
@@ -96,11 +83,14 @@ signals:
     void settingsInForce(const QString &uri, const wedm::InForce &settings);
     void repairReady(const wedm::Repair &repair);
     void repairFailed(const QString &uri, const QString &reason);
-    void generated(const QString &uri, const wedm::Program &program);
-    /// `findings` are the errors that stand in the way; only with some of them would `force` help.
-    void generateFailed(const QString &uri, const QString &format, const QString &path, const QString &reason, const QStringList &findings);
+    void answered(int number, const QJsonObject &result);
+    void refused(int number, const wedm::Refusal &refusal);
+    /// `code` is that of the program's end, -1 where it did not run to it; `said` what it wrote about errors.
+    void ran(int number, int code, const QString &said);
     void toolpathReady(const QString &uri, const wedm::Toolpath &path);
-    void toolpathFailed(const QString &uri, const QString &reason);
+    void toolpathFailed(const QString &uri, const wedm::Refusal &refusal);
+    void figuresReady(const QString &uri, const wedm::Figures &figures);
+    void figuresFailed(const QString &uri, const QString &reason);
     /// `contour` is the name that the hole is kept by; empty where the drawing has no contour, or the server did not answer.
     void contourFound(const QString &uri, const QString &contour, const QPointF &hole);
     void holeConfirmed(const QString &uri, bool holds);
@@ -126,7 +116,6 @@ private:
     void askSettings(const QString &uri);
     void askRepair(const QString &uri, const QString &handle, int segment);
     void takeRepair(const QString &uri, const QJsonArray &actions);
-    void takeProgram(const QString &uri, const QString &format, const QString &path, const QJsonObject &result);
     /// Waits for a server that is starting, then calls `ask` where there is one and it knows the drawing, else `cannot`.
     void withServer(const QString &uri, std::function<void()> ask, std::function<void()> cannot);
     /// Does `call` now, or as soon as a server that is starting is ready or is not going to be.
@@ -150,6 +139,7 @@ Q_DECLARE_METATYPE(QSharedPointer<wedm::Inspection>)
 Q_DECLARE_METATYPE(wedm::InForce)
 Q_DECLARE_METATYPE(wedm::ProgramSearch)
 Q_DECLARE_METATYPE(wedm::Repair)
-Q_DECLARE_METATYPE(wedm::Program)
+Q_DECLARE_METATYPE(wedm::Figures)
+Q_DECLARE_METATYPE(wedm::Refusal)
 Q_DECLARE_METATYPE(wedm::Toolpath)
 Q_DECLARE_METATYPE(wedm::Units)

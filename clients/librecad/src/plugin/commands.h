@@ -15,6 +15,11 @@ constexpr char GENERATE[] = QT_TRANSLATE_NOOP("wedm::command", "Generate 3B…")
 constexpr char GENERATE_4B[] = QT_TRANSLATE_NOOP("wedm::command", "Generate 4B…");
 constexpr char GENERATE_ISO[] = QT_TRANSLATE_NOOP("wedm::command", "Generate ISO…");
 constexpr char GENERATE_MILLING[] = QT_TRANSLATE_NOOP("wedm::command", "Generate milling…");
+constexpr char PAIR[] = QT_TRANSLATE_NOOP("wedm::command", "Generate the programs of the pair…");
+constexpr char FIT[] = QT_TRANSLATE_NOOP("wedm::command", "Show whether punch and plate fit");
+constexpr char DRILL[] = QT_TRANSLATE_NOOP("wedm::command", "Save drill list…");
+constexpr char FIGURES[] = QT_TRANSLATE_NOOP("wedm::command", "Show figures");
+constexpr char REPORT[] = QT_TRANSLATE_NOOP("wedm::command", "Make a report");
 constexpr char HOLE[] = QT_TRANSLATE_NOOP("wedm::command", "Pick thread hole");
 constexpr char PATH[] = QT_TRANSLATE_NOOP("wedm::command", "Draw wire path");
 constexpr char CLEAR_PATH[] = QT_TRANSLATE_NOOP("wedm::command", "Clear wire path");
@@ -24,7 +29,9 @@ constexpr char LOOK[] = "wedm look";
 constexpr char APPLY[] = "wedm apply";
 
 /// Those of the menu, in its order.
-constexpr const char *SHOWN[] = {CHECK, LIVE, FIX, HOLE, PATH, CLEAR_PATH, GENERATE, GENERATE_4B, GENERATE_ISO, GENERATE_MILLING, MARK, CLEAR};
+constexpr const char *SHOWN[] = {CHECK,       LIVE,         FIX,              FIGURES, HOLE, PATH,  CLEAR_PATH, GENERATE,
+                                 GENERATE_4B, GENERATE_ISO, GENERATE_MILLING, PAIR,    FIT,  DRILL, REPORT,     MARK,
+                                 CLEAR};
 
 } // namespace command
 } // namespace wedm

@@ -5,12 +5,9 @@
 #include "host.h"
 #include "document_interface.h"
 #include "marks.h"
-#include "programs.h"
 
 #include <QAction>
 #include <QApplication>
-#include <QDir>
-#include <QFileInfo>
 #include <QMainWindow>
 #include <QMdiArea>
 #include <QMenu>
@@ -44,6 +41,7 @@ Controller::Controller(QObject *actions)
     , m_session(new Session)
     , m_looks(this)
     , m_drawings(this)
+    , m_attempts(m_kept, this)
 {
     registerSessionTypes();
     m_session->moveToThread(&m_thread);
@@ -87,6 +85,7 @@ void Controller::quit()
     if (const QMainWindow *main = host::mainWindow(); main && main->findChild<QMdiArea *>())
         disconnect(main->findChild<QMdiArea *>(), nullptr, this, nullptr);
     disconnect(m_session, nullptr, this, nullptr);
+    disconnect(m_session, nullptr, &m_attempts, nullptr);
     if (!m_thread.isRunning())
         return;
     post([](Session &session) {
@@ -110,8 +109,10 @@ void Controller::settle()
         return;
     if (const QMdiArea *area = main->findChild<QMdiArea *>())
         connect(area, &QMdiArea::subWindowActivated, this, [this] {
-            if (!m_panel || !host::currentWindow())
+            // The window of a drawing is also activated anew when a dialog before it has closed.
+            if (!m_panel || !host::currentWindow() || host::currentWindow() == m_front)
                 return;
+            m_front = host::currentWindow();
             const OpenDrawing *open = m_drawings.current();
             m_panel->clear();
             m_panel->setInspection(open ? open->inspection : QSharedPointer<Inspection>());
@@ -140,6 +141,10 @@ void Controller::settle()
         if (QAction *action = actionOf(name))
             action->setText(QCoreApplication::translate("wedm::command", name));
     }
+    for (QMenu *menu : menus) {
+        if (menu->actions().contains(actionOf(command::CHECK)))
+            menu->setTitle(tr("Wire EDM"));
+    }
     if (m_kept.live())
         setLive(true);
     if (!firstCommand().isEmpty())
@@ -162,6 +167,7 @@ void Controller::run(const QString &command, Document_Interface &drawing)
     m_running = true;
     if (!m_panel)
         makePanel();
+    m_front = host::currentWindow();
     if (!own) {
         m_panel->show();
         m_panel->raise();
@@ -190,25 +196,16 @@ void Controller::run(const QString &command, Document_Interface &drawing)
             post([](Session &session) { session.reloadSettings(); });
         m_looks.whole(drawing);
         const QString uri = m_drawings.of(host::currentWindow()).uri;
-        const auto program = [&](const char *format) {
-            QTimer::singleShot(0, this, [this, uri, format] { askForFile(uri, QString::fromLatin1(format)); });
-        };
         if (command == QLatin1String(command::FIX))
             post([uri](Session &session) { session.requestRepair(uri, QString(), -1); });
-        else if (command == QString::fromUtf8(command::GENERATE))
-            program("3b");
-        else if (command == QString::fromUtf8(command::GENERATE_4B))
-            program("4b");
-        else if (command == QString::fromUtf8(command::GENERATE_ISO))
-            program("iso");
-        else if (command == QString::fromUtf8(command::GENERATE_MILLING))
-            program("milling");
         else if (command == QLatin1String(command::MARK))
             mark(drawing);
         else if (command == QLatin1String(command::PATH))
-            post([uri](Session &session) { session.requestToolpath(uri); });
+            post([uri](Session &session) { session.requestToolpath(uri, {}); });
         else if (command == QLatin1String(command::HOLE))
             pickHole(drawing, uri);
+        else
+            QTimer::singleShot(0, this, [this, command, uri] { make(command, uri); });
     }
     // LibreCAD closes its undo step after this call. What the command has drawn does not make the last look outdated; while a point is
     // picked, the user can draw.
@@ -262,9 +259,17 @@ void Controller::connectSession()
         }
     });
     connect(m_session, &Session::toolpathReady, this, &Controller::pathReady);
-    connect(m_session, &Session::toolpathFailed, this, [this](const QString &, const QString &reason) {
+    connect(m_session, &Session::toolpathFailed, this, &Controller::pathRefused);
+    connect(m_session, &Session::figuresReady, this, &Controller::showFigures);
+    connect(m_session, &Session::figuresFailed, this, [this](const QString &, const QString &reason) { say(tr("No figures: %1.").arg(reason), Panel::Tone::Bad); });
+    connect(m_session, &Session::ran, this, &Controller::reported);
+    connect(&m_attempts, &Attempts::asked, m_session, &Session::ask);
+    connect(m_session, &Session::answered, &m_attempts, &Attempts::answered);
+    connect(m_session, &Session::refused, &m_attempts, &Attempts::refused);
+    connect(&m_attempts, &Attempts::said, this, &Controller::say);
+    connect(&m_attempts, &Attempts::sideChosen, this, [this](const QString &side) {
         if (m_panel)
-            m_panel->setMessage(reason, Panel::Tone::Bad);
+            m_panel->chooseSide(side);
     });
     connect(m_session, &Session::contourFound, this, &Controller::keepHole);
     connect(m_session, &Session::holeConfirmed, this, [this](const QString &, bool holds) {
@@ -292,19 +297,6 @@ void Controller::connectSession()
     connect(m_session, &Session::repairFailed, this, [this](const QString &, const QString &reason) {
         if (m_panel)
             m_panel->setMessage(reason, Panel::Tone::Bad);
-    });
-    connect(m_session, &Session::generateFailed, this,
-            [this](const QString &uri, const QString &format, const QString &path, const QString &reason, const QStringList &findings) {
-                if (m_panel)
-                    m_panel->setMessage(programs::refused(reason, findings), Panel::Tone::Bad);
-                if (!findings.isEmpty())
-                    dialogs::writeAllTheSame(reason, findings, [this, uri, format, path] {
-                        post([uri, format, path](Session &session) { session.generate(uri, format, path, true); });
-                    });
-            });
-    connect(m_session, &Session::generated, this, [this](const QString &, const Program &program) {
-        if (m_panel)
-            m_panel->setMessage(programs::written(program), program.warnings.isEmpty() ? Panel::Tone::Good : Panel::Tone::Plain);
     });
 }
 
@@ -380,7 +372,7 @@ void Controller::looked(const Snapshot &snapshot)
     OpenDrawing &open = m_drawings.of(host::currentWindow());
     QStringList unchecked;
     for (auto each = snapshot.unchecked.constBegin(); each != snapshot.unchecked.constEnd(); ++each)
-        unchecked += QStringLiteral("%1 × %2").arg(each.value()).arg(each.key());
+        unchecked += QStringLiteral("%1 × %2").arg(each.value()).arg(tr(each.key().toLatin1().constData()));
     open.stale = Stale::No;
     ++open.looking;
     open.changes = changesOf(host::currentWindow());
@@ -442,24 +434,6 @@ void Controller::setLive(bool on)
         action->setChecked(on);
     if (m_panel)
         m_panel->setLive(on ? tr("live check on") : QString());
-}
-
-void Controller::askForFile(const QString &uri, const QString &format)
-{
-    QMdiSubWindow *window = nullptr;
-    const OpenDrawing *open = m_drawings.find(uri, &window);
-    if (!open)
-        return;
-    const QString path = host::filePath(window);
-    const QString base = path.isEmpty() ? QStringLiteral("drawing") : QFileInfo(path).completeBaseName();
-    const QString folder = open->folder.isEmpty() ? m_lastFolder : open->folder;
-    dialogs::programFile(format, folder.isEmpty() ? QDir::currentPath() : folder, base, [this, uri, format](const QString &chosen) {
-        m_lastFolder = QFileInfo(chosen).absolutePath();
-        if (OpenDrawing *open = m_drawings.find(uri))
-            open->folder = m_lastFolder;
-        m_panel->setMessage(tr("The program is being made…"), Panel::Tone::Plain);
-        post([uri, format, chosen](Session &session) { session.generate(uri, format, chosen, false); });
-    });
 }
 
 void Controller::mark(Document_Interface &drawing)

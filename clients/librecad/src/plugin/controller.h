@@ -2,6 +2,7 @@
 // What happens on each command: takes the drawing to the session, and the session's answers to the dock and back to the drawing.
 #pragma once
 
+#include "attempts.h"
 #include "commands.h"
 #include "core/kept_hole.h"
 #include "drawings.h"
@@ -53,10 +54,24 @@ private:
     void sendSettings();
     void showCurrent();
     void setLive(bool on);
-    void askForFile(const QString &uri, const QString &format);
+    /// What is made of a drawing: programs, lists, figures, a report.
+    void make(const QString &command, const QString &uri);
+    void generate(const QString &uri, const QString &format);
+    void generatePair(const QString &uri, const QString &format);
+    void savePair(const QVector<Program> &programs, const QString &format, const QString &folder, const QString &base);
+    void saveDrillList(const QString &uri);
+    void showFit(const QString &uri);
+    void showFigures(const QString &uri, const Figures &figures);
+    void report(const QString &uri);
+    void reported(int number, int code, const QString &said);
+    void say(const QString &text, Panel::Tone tone);
+    /// The folder and the name without its ending that are proposed for what is made of the drawing.
+    QPair<QString, QString> proposal(const QString &uri);
+    void choseFolder(const QString &uri, const QString &folder);
     void repairReady(const Repair &repair);
     void applyRepairTo(Document_Interface &drawing, const Repair &repair);
     void pathReady(const QString &uri, const Toolpath &path);
+    void pathRefused(const QString &uri, const Refusal &refusal);
     void pickHole(Document_Interface &drawing, const QString &uri);
     void keepHole(const QString &uri, const QString &contour, const QPointF &hole);
     /// Says that the hole is kept, or why it is not.
@@ -71,6 +86,8 @@ private:
     QObject *m_actions;
     Kept m_kept;
     QPointer<Panel> m_panel;
+    /// The window whose drawing the panel shows.
+    QPointer<QMdiSubWindow> m_front;
     QThread m_thread;
     Session *m_session;
     Looks m_looks;
@@ -78,6 +95,9 @@ private:
     Write m_write;
     QTimer m_comparison;
     KeptHole m_hole;
+    Attempts m_attempts;
+    /// The first page of each report that is being made.
+    QHash<int, QString> m_reports;
     bool m_running = false;
     /// A command has ended, and LibreCAD has not closed its step of undo yet.
     bool m_settling = false;

@@ -89,6 +89,15 @@ void Controller::pathReady(const QString &uri, const Toolpath &path)
     });
 }
 
+void Controller::pathRefused(const QString &uri, const Refusal &refusal)
+{
+    say((refusal.isEnded ? tr("Nothing was drawn: %1.") : tr("There is no path of the wire: %1.")).arg(refusal.reason), Panel::Tone::Bad);
+    if (refusal.needsSide())
+        m_attempts.askSide(false, [this, uri](const QString &side) {
+            post([uri, side](Session &session) { session.requestToolpath(uri, {{"side", side}}); });
+        });
+}
+
 /// LibreCAD asks for the point, and goes on while it does.
 void Controller::pickHole(Document_Interface &drawing, const QString &uri)
 {

@@ -26,7 +26,7 @@ namespace wedm {
 
 namespace {
 
-/// Pixels; vertex, radius and verdict are seen without scrolling.
+/// Pixels; entity, vertex, radius and verdict are seen without scrolling.
 constexpr int WIDTH = 400;
 constexpr double LARGEST_CORRECTION = 5.0;
 constexpr int CORRECTION_DECIMALS = 4;
@@ -34,19 +34,19 @@ constexpr double CORRECTION_STEP = 0.005;
 /// The number of findings that are listed, errors first: laying out wrapped lines blocks LibreCAD.
 constexpr int MOST_LISTED = 100;
 
-const char *severityName(Severity severity)
+QString severityName(Severity severity)
 {
     switch (severity) {
     case Severity::Error:
-        return "error";
+        return Panel::tr("error");
     case Severity::Warning:
-        return "warning";
+        return Panel::tr("warning");
     case Severity::Information:
-        return "note";
+        return Panel::tr("note");
     case Severity::Hint:
-        return "hint";
+        return Panel::tr("hint");
     }
-    return "";
+    return QString();
 }
 
 /// Shows its text literally: names out of drawings are no mark-up.
@@ -173,8 +173,10 @@ Panel::Panel(QWidget *parent)
     m_view->verticalHeader()->setSectionResizeMode(QHeaderView::Fixed);
     m_view->verticalHeader()->setDefaultSectionSize(m_view->fontMetrics().height() + 5);
     m_view->horizontalHeader()->setStretchLastSection(true);
+    // The head of a selected column would be bold, and wider than the column.
+    m_view->horizontalHeader()->setHighlightSections(false);
     const int digit = m_view->fontMetrics().horizontalAdvance(QLatin1Char('0'));
-    const QVector<int> widths{7, 11, 14, 9, 6, 10, 10, 14, 8};
+    const QVector<int> widths{9, 6, 10, 11, 9, 7, 10, 10, 8};
     for (int i = 0; i < widths.size(); ++i)
         m_view->setColumnWidth(i, widths.at(i) * digit);
     m_list->setObjectName(QStringLiteral("wedm_findings"));
@@ -185,9 +187,14 @@ Panel::Panel(QWidget *parent)
     QPushButton *fix = button(tr("Fix all"), command::FIX, tr("Make every repair that is safe, in one undo step"));
     QPushButton *program = button(tr("Program"), nullptr, tr("Write the program to a file"));
     QMenu *formats = new QMenu(program);
-    for (const char *each : {command::GENERATE, command::GENERATE_4B, command::GENERATE_ISO, command::GENERATE_MILLING})
+    for (const char *each : {command::GENERATE, command::GENERATE_4B, command::GENERATE_ISO, command::GENERATE_MILLING, command::PAIR})
         connect(formats->addAction(QCoreApplication::translate("wedm::command", each)), &QAction::triggered, this, [this, each] { emit commandWanted(each); });
     program->setMenu(formats);
+    QPushButton *more = button(tr("More"), nullptr, tr("Figures, the fit of punch and plate, the drill list, a report"));
+    QMenu *made = new QMenu(more);
+    for (const char *each : {command::FIGURES, command::FIT, command::DRILL, command::REPORT})
+        connect(made->addAction(QCoreApplication::translate("wedm::command", each)), &QAction::triggered, this, [this, each] { emit commandWanted(each); });
+    more->setMenu(made);
     QPushButton *hole = button(tr("Thread hole…"), command::HOLE, tr("Click where the wire is threaded for the contour nearest to that point; it is kept in wedm.toml"));
     QPushButton *path = button(tr("Wire path"), command::PATH, tr("Draw the path of the wire on the layer WEDM_PATH, which is never checked"));
     QPushButton *noPath = button(tr("Clear path"), command::CLEAR_PATH, tr("Remove the path of the wire"));
@@ -208,11 +215,11 @@ Panel::Panel(QWidget *parent)
     layout->addLayout(form);
     layout->addWidget(m_inForce);
     QHBoxLayout *buttons = new QHBoxLayout;
-    for (QPushButton *button : {check, fix, m_fixOne})
+    for (QPushButton *button : {check, fix, m_fixOne, program})
         buttons->addWidget(button);
     layout->addLayout(buttons);
     QHBoxLayout *wire = new QHBoxLayout;
-    for (QPushButton *button : {hole, path, noPath, program})
+    for (QPushButton *button : {hole, path, noPath, more})
         wire->addWidget(button);
     layout->addLayout(wire);
     layout->addWidget(m_message);
@@ -332,7 +339,7 @@ void Panel::setFindings(const QVector<Finding> &findings)
         if (!place.isEmpty() && finding.segment >= 0)
             place += tr(" vertex %1").arg(finding.segment);
         QListWidgetItem *item =
-            new QListWidgetItem(QStringLiteral("%1%2: %3").arg(QString::fromLatin1(severityName(finding.severity)), place, finding.message));
+            new QListWidgetItem(QStringLiteral("%1%2: %3").arg(severityName(finding.severity), place, finding.message));
         item->setToolTip(finding.rule);
         m_list->addItem(item);
     }
@@ -409,6 +416,11 @@ void Panel::setSettings(double correction, const QString &side)
     const QSignalBlocker one(m_correction);
     const QSignalBlocker other(m_side);
     m_correction->setValue(correction);
+    m_side->setCurrentIndex(qMax(0, m_side->findData(side)));
+}
+
+void Panel::chooseSide(const QString &side)
+{
     m_side->setCurrentIndex(qMax(0, m_side->findData(side)));
 }
 

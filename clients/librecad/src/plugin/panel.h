@@ -40,6 +40,8 @@ public:
     void clear();
 
     void setSettings(double correction, const QString &side);
+    /// As if the user had chosen it.
+    void chooseSide(const QString &side);
     double correction() const;
     QString side() const;
 

@@ -18,6 +18,19 @@ void worsen(QHash<Key, Severity> &known, const Key &key, Severity severity)
     known.insert(key, qMin(known.value(key, severity), severity));
 }
 
+/// What the user calls an entity or a segment that the server names by its type in DXF.
+QString nameOf(const QString &type)
+{
+    const QString known = type.toLower();
+    if (known.endsWith(QLatin1String("polyline")))
+        return RadiusTable::tr("polyline");
+    if (known == QLatin1String("line"))
+        return RadiusTable::tr("line");
+    if (known == QLatin1String("arc"))
+        return RadiusTable::tr("arc");
+    return known == QLatin1String("circle") ? RadiusTable::tr("circle") : known;
+}
+
 } // namespace
 
 RadiusTable::RadiusTable(QObject *parent)
@@ -130,7 +143,7 @@ QVariant RadiusTable::data(const QModelIndex &index, int role) const
     case Vertex:
         return each->segment;
     case Entity:
-        return QStringLiteral("%1 %2").arg(each->handle, each->type.toLower());
+        return QStringLiteral("%1 %2").arg(each->handle, nameOf(each->type));
     case Layer:
         return each->layer;
     case X:
@@ -138,13 +151,13 @@ QVariant RadiusTable::data(const QModelIndex &index, int role) const
     case Y:
         return QString::number(each->start.y(), 'f', DECIMALS);
     case Kind:
-        return each->kind;
+        return nameOf(each->kind);
     case Radius:
         return each->hasRadius ? QString::number(each->radius, 'f', DECIMALS) : QString();
     case Sweep:
         return each->hasRadius ? QString::number(each->sweep, 'f', DEGREE_DECIMALS) : QString();
     case Verdict:
-        return each->verdict;
+        return each->verdict == QLatin1String(OK) ? tr("ok") : each->verdict;
     }
     return QVariant();
 }

@@ -14,7 +14,7 @@ class RadiusTable : public QAbstractTableModel {
     Q_OBJECT
 public:
     enum class Show { Faults, Arcs, All };
-    enum Column { Vertex, Radius, Verdict, Sweep, Kind, X, Y, Entity, Layer, Columns };
+    enum Column { Entity, Vertex, Radius, Verdict, Sweep, Kind, X, Y, Layer, Columns };
 
     explicit RadiusTable(QObject *parent = nullptr);
 

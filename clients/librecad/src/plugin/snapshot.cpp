@@ -70,18 +70,18 @@ const char *uncheckedKind(int type)
 {
     switch (type) {
     case DPI::ELLIPSE:
-        return "ellipse";
+        return QT_TRANSLATE_NOOP("wedm::Controller", "ellipse");
     case DPI::SPLINE:
     case DPI::SPLINEPOINTS:
-        return "spline";
+        return QT_TRANSLATE_NOOP("wedm::Controller", "spline");
     case DPI::INSERT:
-        return "block";
+        return QT_TRANSLATE_NOOP("wedm::Controller", "block");
     case DPI::HATCH:
-        return "hatch";
+        return QT_TRANSLATE_NOOP("wedm::Controller", "hatch");
     case DPI::IMAGE:
-        return "image";
+        return QT_TRANSLATE_NOOP("wedm::Controller", "image");
     case DPI::SOLID:
-        return "solid";
+        return QT_TRANSLATE_NOOP("wedm::Controller", "solid");
     default:
         return nullptr;
     }

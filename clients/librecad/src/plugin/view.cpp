@@ -59,20 +59,30 @@ struct Viewed : RS_GraphicView {
     static RS_EntityContainer *of(RS_GraphicView &view) { return view.*&Viewed::container; }
 };
 
+/// Null where it is not known: blocks are drawings of their own, in windows of their own.
+RS_Document *documentOf(QMdiSubWindow *window)
+{
+    QWidget *widget = graphicView(window);
+    RS_EntityContainer *shown = widget ? Viewed::of(*static_cast<RS_GraphicView *>(widget)) : nullptr;
+    return shown && shown->isDocument() ? static_cast<RS_Document *>(shown) : nullptr;
+}
+
 } // namespace
 
 ChangeCount changesOf(QMdiSubWindow *window)
 {
     ChangeCount count;
-    QWidget *widget = graphicView(window);
-    RS_EntityContainer *shown = widget ? Viewed::of(*static_cast<RS_GraphicView *>(widget)) : nullptr;
-    // Blocks are drawings of their own, in windows of their own.
-    if (!shown || !shown->isDocument())
-        return count;
-    RS_Document *document = static_cast<RS_Document *>(shown);
-    count.undo = document->countUndoCycles();
-    count.redo = document->countRedoCycles();
+    if (RS_Document *document = documentOf(window)) {
+        count.undo = document->countUndoCycles();
+        count.redo = document->countRedoCycles();
+    }
     return count;
+}
+
+bool isModified(QMdiSubWindow *window)
+{
+    const RS_Document *document = documentOf(window);
+    return document && document->isModified();
 }
 
 bool zoomTo(QMdiSubWindow *window, const QPointF &centre, double half)

@@ -20,6 +20,9 @@ struct ChangeCount {
 /// The counts of the drawing in `window`; both −1 where they are not known.
 ChangeCount changesOf(QMdiSubWindow *window);
 
+/// Whether the drawing in `window` differs from its file.
+bool isModified(QMdiSubWindow *window);
+
 /// Zooms `window` so that `half` drawing units are seen to each side of `centre`.
 bool zoomTo(QMdiSubWindow *window, const QPointF &centre, double half);
 

@@ -144,17 +144,17 @@ void Driver::large()
     pause();
     blocks.restart();
     press("ZoomRedraw");
-    report(QStringLiteral("       longest block, LibreCAD's own repaint: %1 ms").arg(pause()));
+    print(QStringLiteral("       longest block, LibreCAD's own repaint: %1 ms").arg(pause()));
     blocks.restart();
     drawLine();
     const qint64 alone = pause();
-    report(QStringLiteral("       longest block, a line is drawn without the plugin: %1 ms").arg(alone));
+    print(QStringLiteral("       longest block, a line is drawn without the plugin: %1 ms").arg(alone));
     blocks.restart();
     choose("Live check");
     expectSoon("the fault among all the vertices is found", [this] { return findings().join('\n').contains("small-radius") || findings().join('\n').contains("below the correction"); },
                [this] { return findings().join('\n').left(300) + text("wedm_server"); }, LONG);
     expectSoon("and the radius list has come", [this] { return rows() > 0; }, {}, LONG);
-    report(QStringLiteral("       longest block, first look, %1 rows listed: %2 ms").arg(rows()).arg(pause()));
+    print(QStringLiteral("       longest block, first look, %1 rows listed: %2 ms").arg(rows()).arg(pause()));
     for (int i = 0; i < 3; ++i) {
         const int looks = controller()->property("looks").toInt();
         blocks.restart();
@@ -162,7 +162,7 @@ void Driver::large()
         // A costly look waits for a quiet moment; it belongs to the measurement.
         wait([&] { return controller()->property("looks").toInt() > looks; }, LONG);
         const qint64 longest = pause();
-        report(QStringLiteral("       longest block, a line is drawn under live check: %1 ms; LibreCAD's painting %2 ms, anything else at most %3 ms; "
+        print(QStringLiteral("       longest block, a line is drawn under live check: %1 ms; LibreCAD's painting %2 ms, anything else at most %3 ms; "
                               "the look took %4 ms in %5 slices of at most %6 ms")
                    .arg(longest)
                    .arg(blocks.painting())
@@ -191,7 +191,7 @@ void Driver::large()
     blocks.restart();
     drawLine();
     choose("Check radii");
-    report(QStringLiteral("       longest block, a line is drawn and checked while the server hangs: %1 ms").arg(pause()));
+    print(QStringLiteral("       longest block, a line is drawn and checked while the server hangs: %1 ms").arg(pause()));
     ::kill(server, SIGCONT);
     QElapsedTimer clock;
     clock.start();
@@ -201,7 +201,7 @@ void Driver::large()
                [this] { return text("wedm_message"); }, LONG);
     if (QDialog *box = m_main->findChild<QDialog *>("wedm_rebuild"))
         box->reject();
-    report(QStringLiteral("       after %1 ms, of them rebuilding %2 ms: %3")
+    print(QStringLiteral("       after %1 ms, of them rebuilding %2 ms: %3")
                .arg(clock.elapsed())
                .arg(controller()->property("applyMilliseconds").toInt())
                .arg(text("wedm_message")));

@@ -17,9 +17,11 @@
 #include <QMdiSubWindow>
 #include <QMenu>
 #include <QMenuBar>
+#include <QMessageBox>
 #include <QProcess>
 #include <QSaveFile>
 #include <QTableView>
+#include <QTableWidget>
 #include <QtTest>
 
 #include <algorithm>
@@ -207,6 +209,58 @@ void Driver::acceptFile(const QString &path)
     QTest::qWait(50);
 }
 
+void Driver::acceptFolder(const QString &path)
+{
+    QFileDialog *dialog = nullptr;
+    expectSoon("a folder is asked for", [&] {
+        dialog = m_main->findChild<QFileDialog *>("wedm_folder");
+        return dialog && dialog->isVisible();
+    });
+    if (!dialog)
+        return;
+    for (QLineEdit *edit : dialog->findChildren<QLineEdit *>("fileNameEdit"))
+        edit->setText(path);
+    QMetaObject::invokeMethod(dialog, "accept");
+    QTest::qWait(50);
+}
+
+void Driver::answer(const char *box, const QString &button)
+{
+    QMessageBox *asked = nullptr;
+    expectSoon(QStringLiteral("it is asked: %1").arg(box), [&] {
+        asked = m_main->findChild<QMessageBox *>(box);
+        return asked && asked->isVisible();
+    });
+    for (QAbstractButton *each : asked ? asked->buttons() : QList<QAbstractButton *>()) {
+        if (each->text().remove('&') == button) {
+            each->click();
+            QTest::qWait(50);
+            return;
+        }
+    }
+    expect(QStringLiteral("%1 has a button %2").arg(box, button), false);
+}
+
+QDialog *Driver::sheet(const char *name)
+{
+    QDialog *found = nullptr;
+    expectSoon(QStringLiteral("the window is there: %1").arg(name), [&] {
+        found = m_main->findChild<QDialog *>(name);
+        return found && found->isVisible();
+    }, [this] { return text("wedm_message"); });
+    return found;
+}
+
+QString Driver::cellOf(QDialog *sheet, int row, const QString &head) const
+{
+    const QTableWidget *table = sheet ? sheet->findChild<QTableWidget *>("wedm_sheet_table") : nullptr;
+    for (int column = 0; table && column < table->columnCount(); ++column) {
+        if (table->horizontalHeaderItem(column)->text() == head && row < table->rowCount())
+            return table->item(row, column)->text();
+    }
+    return "no such cell";
+}
+
 void Driver::set(const char *combo, const QVariant &value)
 {
     QComboBox *box = m_main->findChild<QComboBox *>(combo);
@@ -251,12 +305,17 @@ QStringList Driver::findings() const
     return result;
 }
 
-QString Driver::saved(const QString &key)
+QByteArray Driver::told(const QStringList &arguments)
 {
     QProcess server;
-    server.start(qEnvironmentVariable("WEDM"), {"inspect", "--output", "json", m_file});
+    server.start(qEnvironmentVariable("WEDM"), arguments + QStringList{m_file});
     server.waitForFinished(PATIENCE);
-    const QJsonObject inspection = QJsonDocument::fromJson(server.readAllStandardOutput()).object();
+    return server.readAllStandardOutput();
+}
+
+QString Driver::saved(const QString &key)
+{
+    const QJsonObject inspection = QJsonDocument::fromJson(told({"inspect", "--output", "json"})).object();
     QStringList result;
     for (const QJsonValue &each : inspection.value("entities").toArray()) {
         const QJsonObject entity = each.toObject();
@@ -275,11 +334,8 @@ QString Driver::saved(const QString &key)
 
 QString Driver::checked()
 {
-    QProcess server;
-    server.start(qEnvironmentVariable("WEDM"), {"check", "--side", "opening", "--output", "concise", m_file});
-    server.waitForFinished(PATIENCE);
     // The note that something on the layer of the path is not cut is no finding about the drawing.
-    QStringList lines = QString::fromUtf8(server.readAllStandardOutput()).split('\n');
+    QStringList lines = QString::fromUtf8(told({"check", "--side", "opening", "--output", "concise"})).split('\n');
     lines.erase(std::remove_if(lines.begin(), lines.end(), [](const QString &line) { return line.contains("WEDM_PATH") || line.contains("checked:"); }), lines.end());
     return lines.join('\n');
 }
@@ -310,7 +366,7 @@ bool Driver::wait(const std::function<bool()> &condition, int milliseconds)
 void Driver::expect(const QString &what, bool good, const QString &seen)
 {
     m_failed += !good;
-    report(QStringLiteral("%1 %2%3").arg(good ? "ok    " : "FAILED", what, good || seen.isEmpty() ? QString() : "\n       seen: " + seen));
+    print(QStringLiteral("%1 %2%3").arg(good ? "ok    " : "FAILED", what, good || seen.isEmpty() ? QString() : "\n       seen: " + seen));
 }
 
 void Driver::expectSoon(const QString &what, const std::function<bool()> &condition, const std::function<QString()> &seen, int milliseconds)
@@ -355,7 +411,7 @@ void Driver::writePlaces(const QString &path) const
     }
 }
 
-void Driver::report(const QString &what)
+void Driver::print(const QString &what)
 {
     std::printf("%s\n", qPrintable(what));
     std::fflush(stdout);

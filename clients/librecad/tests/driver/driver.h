@@ -6,11 +6,13 @@
 #include <QMainWindow>
 #include <QObject>
 #include <QTimer>
+#include <QUrl>
 #include <QtPlugin>
 
 #include <functional>
 
 class QAction;
+class QDialog;
 
 /// Longer than anything takes here, also on a busy machine with a server that is not optimised, in ms: a wait ends as soon as its condition holds.
 constexpr int PATIENCE = 300000;
@@ -20,6 +22,10 @@ class Driver : public QObject {
     Q_PLUGIN_METADATA(IID "wedm.test.Driver" FILE "driver.json")
 public:
     Driver();
+
+public slots:
+    /// Takes the place of the browser.
+    void shown(const QUrl &url) { m_shown = url; }
 
 private:
     void run();
@@ -32,6 +38,12 @@ private:
     void generate();
     void formats();
     void counterbore();
+    void pair();
+    void fit();
+    void drill();
+    void figures();
+    void report();
+    void chinese();
     void path();
     void hole();
     void stale();
@@ -66,18 +78,26 @@ private:
     QObject *controller() const;
     void save();
     void acceptFile(const QString &path);
+    void acceptFolder(const QString &path);
+    /// Presses the button of an open box that bears this text.
+    void answer(const char *box, const QString &button);
     void set(const char *combo, const QVariant &value);
 
     // What a user sees.
-    enum Column { VERTEX, RADIUS, VERDICT };
+    enum Column { ENTITY, VERTEX, RADIUS, VERDICT };
     QString text(const char *label) const;
     QString cell(int row, int column) const;
+    /// The window of that name with a table, once it is there.
+    QDialog *sheet(const char *name);
+    QString cellOf(QDialog *sheet, int row, const QString &head) const;
     int rows() const;
     QStringList findings() const;
     QString verdictOf(const QString &radius) const;
 
     // What stands in the saved file, as the command line sees it.
     QString saved(const QString &key);
+    /// What the command line writes to stdout about the saved file.
+    QByteArray told(const QStringList &arguments);
     /// What the command line finds in the saved file.
     QString checked();
     int entitiesSaved(const QByteArray &type);
@@ -87,10 +107,11 @@ private:
     bool wait(const std::function<bool()> &condition, int milliseconds = PATIENCE);
     void expect(const QString &what, bool good, const QString &seen = QString());
     void expectSoon(const QString &what, const std::function<bool()> &condition, const std::function<QString()> &seen = {}, int milliseconds = PATIENCE);
-    void report(const QString &what);
+    void print(const QString &what);
 
     QMainWindow *m_main = nullptr;
     QString m_file;
+    QUrl m_shown;
     int m_failed = 0;
 };
 

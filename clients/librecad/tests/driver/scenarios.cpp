@@ -31,6 +31,12 @@ void Driver::scenario(const QString &name)
         {"generate", &Driver::generate},
         {"formats", &Driver::formats},
         {"counterbore", &Driver::counterbore},
+        {"pair", &Driver::pair},
+        {"fit", &Driver::fit},
+        {"drill", &Driver::drill},
+        {"figures", &Driver::figures},
+        {"report", &Driver::report},
+        {"chinese", &Driver::chinese},
         {"path", &Driver::path},
         {"hole", &Driver::hole},
         {"stale", &Driver::stale},
@@ -66,6 +72,11 @@ void Driver::check()
     for (const char *name : {"wedm_message", "wedm_server", "wedm_unchecked", "wedm_count", "wedm_live", "wedm_in_force"})
         plain = plain && m_main->findChild<QLabel *>(name)->textFormat() == Qt::PlainText;
     expect("what comes out of a drawing is no mark-up", plain);
+    const QTableView *view = m_main->findChild<QTableView *>("wedm_radii");
+    const int right = view->columnViewportPosition(VERDICT) + view->columnWidth(VERDICT);
+    expect("entity, vertex, radius and verdict are seen without scrolling", right <= view->viewport()->width(),
+           QStringLiteral("%1 of %2").arg(right).arg(view->viewport()->width()));
+    expect("the entity has the number of the findings", cell(0, ENTITY) == "1 polyline", cell(0, ENTITY));
     expect("the server says who it is", text("wedm_server").startsWith("wedm "), text("wedm_server"));
     expect("the plugin's own actions are not in the menu", !action("wedm look") && !action("wedm apply"));
 }
@@ -138,90 +149,15 @@ void Driver::fixOne()
         [this] { return cell(0, RADIUS) + " " + cell(1, RADIUS); });
 }
 
-void Driver::generate()
-{
-    const QString path = QFileInfo(m_file).absoluteDir().filePath("plate.3b");
-    choose("Generate 3B…");
-    acceptFile(path);
-    expectSoon("a drawing with a fault is refused", [this] { return text("wedm_message").startsWith("No program"); }, [this] { return text("wedm_message"); });
-    expect("with the fault", text("wedm_message").contains("R 0.080"), text("wedm_message"));
-    expect("and nothing is written", !QFile::exists(path));
-    expectSoon("the question whether to write it all the same is there", [this] { return m_main->findChild<QDialog *>("wedm_refused"); });
-    if (QDialog *box = m_main->findChild<QDialog *>("wedm_refused"))
-        box->reject();
-    set("wedm_side", "opening");
-    choose("Fix");
-    expectSoon("the repair is done", [this] { return text("wedm_message").startsWith("Done"); }, [this] { return text("wedm_message"); });
-    choose("Generate 3B…");
-    acceptFile(path);
-    expectSoon("the program is written", [this] { return text("wedm_message").startsWith("Written"); }, [this] { return text("wedm_message"); });
-    QFile file(path);
-    expect("and is there", file.open(QIODevice::ReadOnly));
-    const QByteArray program = file.readAll();
-    expect("it is 3B, from the first block to DD", program.startsWith("B") && program.trimmed().endsWith("DD"), program);
-    expect("nothing else lies beside it", QDir(QFileInfo(path).path()).entryList({"plate.3b*", "*.XXXXXX"}, QDir::Files).size() == 1);
-}
-
-/// What is drawn to be read, by its linetype or its layer's, is not cut here either: the program is that of the file.
-void Driver::counterbore()
-{
-    const QString path = QFileInfo(m_file).absoluteDir().filePath("plate.3b");
-    choose("Check radii");
-    set("wedm_side", "opening");
-    choose("Generate 3B…");
-    acceptFile(path);
-    expectSoon("the program is written", [this] { return text("wedm_message").startsWith("Written"); }, [this] { return text("wedm_message"); });
-    QFile file(path);
-    const QByteArray program = file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
-    QProcess server;
-    server.start(qEnvironmentVariable("WEDM"), {"generate", "--side", "opening", m_file});
-    server.waitForFinished(PATIENCE);
-    const QByteArray ofFile = server.readAllStandardOutput();
-    expect("it is that of the file", !program.isEmpty() && program == ofFile, program + "\n---\n" + ofFile);
-}
-
-/// ISO, 4B and milling, from the same drawing.
-void Driver::formats()
-{
-    QFile said(QFileInfo(m_file).absoluteDir().filePath("wedm.toml"));
-    const QByteArray both = "correction = 0.1\n[milling]\ntool-diameter = 0.1\ngap = 0.05\nlayer = 0.05\ndepth = 0.2\nwear = 0.0001\n";
-    expect("wire and electrode are said beside the drawing", said.open(QIODevice::WriteOnly) && said.write(both) == both.size());
-    said.close();
-    choose("Check radii");
-    set("wedm_side", "opening");
-    choose("Fix");
-    expectSoon("the repair is done", [this] { return text("wedm_message").startsWith("Done"); }, [this] { return text("wedm_message"); });
-    const QString iso = QFileInfo(m_file).absoluteDir().filePath("plate.iso");
-    choose("Generate ISO…");
-    acceptFile(iso);
-    expectSoon("an ISO program is written", [this] { return text("wedm_message").startsWith("Written") && text("wedm_message").contains("plate.iso"); },
-               [this] { return text("wedm_message"); });
-    expect("lengths have their one name", text("wedm_message").contains("cut ") && text("wedm_message").contains("jumps 0.000 mm"), text("wedm_message"));
-    expect("nothing is counted in it", !text("wedm_message").contains("of J"), text("wedm_message"));
-    QFile file(iso);
-    expect("it is ISO", file.open(QIODevice::ReadOnly) && file.readAll().contains("G92"));
-    choose("Generate 4B…");
-    acceptFile(QFileInfo(m_file).absoluteDir().filePath("plate.4b"));
-    expectSoon("a 4B program is written", [this] { return text("wedm_message").startsWith("Written") && text("wedm_message").contains("plate.4b"); },
-               [this] { return text("wedm_message"); });
-    expect("a drift that rounds to zero has no sign", text("wedm_message").contains("added up: 0.00, 0.00"), text("wedm_message"));
-    const QString milled = QFileInfo(m_file).absoluteDir().filePath("milled.iso");
-    choose("Generate milling…");
-    acceptFile(milled);
-    expectSoon("a program for an electrode is written", [this] { return text("wedm_message").startsWith("Written") && text("wedm_message").contains("milled.iso"); },
-               [this] { return text("wedm_message"); });
-    expect("with its layers", text("wedm_message").contains("4 layers; simulated: the floor 0.") && !text("wedm_message").contains("of J"), text("wedm_message"));
-    QFile heights(milled);
-    expect("it has heights", heights.open(QIODevice::ReadOnly) && heights.readAll().contains("G01 Z-0.0"));
-}
-
 /// The wire's path is drawn on a layer of its own, which is no part of the drawing, here and in the saved file.
 void Driver::path()
 {
     choose("Draw wire path");
     expectSoon("without a side there is none, and it is said why", [this] { return text("wedm_message").startsWith("There is no path of the wire"); },
                [this] { return text("wedm_message"); });
-    set("wedm_side", "opening");
+    answer("wedm_side_asked", "Opening: wire inside");
+    expectSoon("once it is answered there is one", [this] { return text("wedm_message").startsWith("The wire path is on the layer"); }, [this] { return text("wedm_message"); });
+    choose("Clear wire path");
     choose("Fix");
     expectSoon("the repair is done", [this] { return text("wedm_message").startsWith("Done"); }, [this] { return text("wedm_message"); });
     save();

@@ -41,6 +41,18 @@ inline Entity arc(quint64 identity, double x, double y, double radius, double st
     return entity;
 }
 
+inline Entity circle(quint64 identity, double x, double y, double radius)
+{
+    Entity entity;
+    entity.identity = identity;
+    entity.layer = "DIE";
+    entity.kind = Kind::Circle;
+    entity.x = x;
+    entity.y = y;
+    entity.radius = radius;
+    return entity;
+}
+
 constexpr double QUARTER = 0.41421356237309503; // tan(90° / 4)
 
 /// A 20 × 10 opening of which the corner at 20, 0 has a fillet of `radius`.

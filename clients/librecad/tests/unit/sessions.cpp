@@ -148,29 +148,37 @@ private slots:
         talk.start();
         talk.session.look("librecad:1", {polyline(1, opening(0.08))}, Units::Millimetre);
         QTRY_COMPARE_WITH_TIMEOUT(talk.version(), 1, LONG);
-        talk.session.generate("librecad:1", "3b", path, false);
-        QTRY_COMPARE_WITH_TIMEOUT(talk.noPrograms.size(), 1, LONG);
-        QVERIFY(talk.noPrograms.last().at(4).toStringList().join(' ').contains("0.080"));
-        QVERIFY(!QFile::exists(path));
+        talk.session.ask(1, "librecad:1", "wedm/generate", {{"format", "3b"}});
+        QTRY_COMPARE_WITH_TIMEOUT(talk.refusals.size(), 1, LONG);
+        QVERIFY(talk.refusal().findings.join(' ').contains("0.080"));
+        talk.session.look("librecad:1", {polyline(1, opening(0.3))}, Units::Millimetre);
+        talk.session.ask(2, "librecad:1", "wedm/generate", {{"format", "3b"}});
+        QTRY_COMPARE_WITH_TIMEOUT(talk.refusals.size(), 2, LONG);
+        QVERIFY2(talk.refusal().needsSide() && !talk.refusal().needsPair(), qPrintable(talk.refusal().reason));
+        talk.session.ask(3, "librecad:1", "wedm/pair", {{"format", "3b"}});
+        QTRY_COMPARE_WITH_TIMEOUT(talk.refusals.size(), 3, LONG);
+        QVERIFY2(talk.refusal().needsPair() && !talk.refusal().needsSide(), qPrintable(talk.refusal().reason));
+        talk.session.ask(4, "librecad:1", "wedm/fit", {});
+        QTRY_COMPARE_WITH_TIMEOUT(talk.refusals.size(), 4, LONG);
+        QVERIFY2(talk.refusal().needsPair(), qPrintable(talk.refusal().reason));
 
         QFile old(path);
         QVERIFY(old.open(QIODevice::WriteOnly));
         old.write("what was there before");
         old.close();
-        talk.session.setSettings(QJsonObject{{"side", "opening"}});
-        talk.session.look("librecad:1", {polyline(1, opening(0.3))}, Units::Millimetre);
-        talk.session.generate("librecad:1", "3b", path, false);
-        QTRY_COMPARE_WITH_TIMEOUT(talk.programs.size() + talk.noPrograms.size(), 2, LONG);
-        QVERIFY2(talk.programs.size() == 1, qPrintable(talk.noPrograms.last().at(3).toString()));
+        talk.session.ask(5, "librecad:1", "wedm/generate", {{"format", "3b"}, {"options", QJsonObject{{"side", "opening"}}}});
+        QTRY_COMPARE_WITH_TIMEOUT(talk.answers.size() + talk.refusals.size(), 5, LONG);
+        QVERIFY2(talk.answers.size() == 1, qPrintable(talk.refusal().reason));
+        QCOMPARE(talk.answers.last().at(0).toInt(), 5);
+        const Program program = programFromJson(talk.answer(), "3b");
+        QVERIFY2(program.text.contains("GXL") && program.text.trimmed().endsWith("DD"), program.text.constData());
+        QCOMPARE(writeFile(path, program.text), QString());
         QFile file(path);
         QVERIFY(file.open(QIODevice::ReadOnly));
-        const QByteArray text = file.readAll();
-        QVERIFY2(text.contains("GXL") && text.trimmed().endsWith("DD"), text.constData());
+        QCOMPARE(file.readAll(), program.text);
         QCOMPARE(QDir(folder.path()).entryList(QDir::Files), QStringList{"plate.3b"});
-
-        talk.session.generate("librecad:1", "3b", folder.filePath("no/such/folder/plate.3b"), false);
-        QTRY_COMPARE_WITH_TIMEOUT(talk.noPrograms.size(), 2, LONG);
-        QVERIFY(talk.noPrograms.last().at(3).toString().contains("no/such/folder"));
+        QVERIFY(!writeFile(folder.filePath("no/such/folder/plate.3b"), program.text).isEmpty());
+        QCOMPARE(writeFile(path, QByteArray()), QString("the server sent none"));
     }
 
     void programsOfEachFormat_data()
@@ -187,25 +195,20 @@ private slots:
     {
         QFETCH(QString, format);
         QFETCH(QByteArray, holds);
-        QTemporaryDir folder;
-        const QString path = folder.filePath("plate." + format);
         Talk talk;
         talk.start();
         const QJsonObject electrode{{"toolDiameter", 0.2}, {"gap", 0.05}, {"layer", 0.05}, {"depth", 0.2}, {"wear", 0.0001}};
         talk.session.setSettings(QJsonObject{{"side", "opening"}, {"correction", 0.1}, {"milling", electrode}});
         talk.session.look("librecad:1", {polyline(1, opening(0.3))}, Units::Millimetre);
-        talk.session.generate("librecad:1", format, path, false);
-        QTRY_COMPARE_WITH_TIMEOUT(talk.programs.size() + talk.noPrograms.size(), 1, LONG);
-        QVERIFY2(talk.programs.size() == 1, qPrintable(talk.noPrograms.value(0).value(3).toString()));
-        const Program written = talk.programs.last().at(1).value<Program>();
+        talk.session.ask(1, "librecad:1", "wedm/generate", {{"format", format}});
+        QTRY_COMPARE_WITH_TIMEOUT(talk.answers.size() + talk.refusals.size(), 1, LONG);
+        QVERIFY2(talk.answers.size() == 1, qPrintable(talk.refusal().reason));
+        const Program written = programFromJson(talk.answer(), format);
         QCOMPARE(written.format, format);
         QVERIFY(written.cut > 50 && written.jumps == 0);
         QCOMPARE(written.layers, format == "milling" ? 4 : 0);
         QVERIFY(written.floorMost >= written.floorLeast && (written.floorLeast > 0.1) == (format == "milling"));
-        QFile file(path);
-        QVERIFY(file.open(QIODevice::ReadOnly));
-        const QByteArray text = file.readAll();
-        QVERIFY2(text.contains(holds), text.constData());
+        QVERIFY2(written.text.contains(holds), written.text.constData());
     }
 
     /// Every piece of the path begins where the one before it ends, and what is not refused can be drawn.
@@ -214,11 +217,11 @@ private slots:
         Talk talk;
         talk.start();
         talk.session.look("librecad:1", {polyline(1, opening(0.3))}, Units::Millimetre);
-        talk.session.requestToolpath("librecad:1");
+        talk.session.requestToolpath("librecad:1", {});
         QTRY_COMPARE_WITH_TIMEOUT(talk.noPaths.size(), 1, LONG);
-        QVERIFY(talk.noPaths.last().at(1).toString().startsWith("There is no path of the wire: "));
+        QVERIFY(talk.noPaths.last().at(1).value<Refusal>().needsSide());
         talk.session.setSettings(QJsonObject{{"side", "opening"}});
-        talk.session.requestToolpath("librecad:1");
+        talk.session.requestToolpath("librecad:1", {});
         QTRY_COMPARE_WITH_TIMEOUT(talk.paths.size(), 1, LONG);
         const Toolpath path = talk.paths.last().at(1).value<Toolpath>();
         const auto kinds = [&](Kind kind) { return std::count_if(path.pieces.begin(), path.pieces.end(), [=](const Entity &each) { return each.kind == kind; }); };
@@ -256,7 +259,7 @@ private slots:
         talk.session.confirmHole(uri, name, {45, 5});
         QTRY_COMPARE_WITH_TIMEOUT(talk.confirmed.size(), 1, LONG);
         QVERIFY(talk.confirmed.last().at(1).toBool());
-        talk.session.requestToolpath(uri);
+        talk.session.requestToolpath(uri, {});
         QTRY_COMPARE_WITH_TIMEOUT(talk.paths.size() + talk.noPaths.size(), 1, LONG);
         const Toolpath path = talk.paths.value(0).value(1).value<Toolpath>();
         QVERIFY(std::any_of(path.holes.begin(), path.holes.end(), [](const ThreadHole &hole) { return hole.at == QPointF(45, 5); }));

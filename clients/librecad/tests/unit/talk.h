@@ -27,8 +27,11 @@ struct Talk {
     QSignalSpy inspected{&session, &Session::inspected};
     QSignalSpy repairs{&session, &Session::repairReady};
     QSignalSpy noRepairs{&session, &Session::repairFailed};
-    QSignalSpy programs{&session, &Session::generated};
-    QSignalSpy noPrograms{&session, &Session::generateFailed};
+    QSignalSpy answers{&session, &Session::answered};
+    QSignalSpy refusals{&session, &Session::refused};
+    QSignalSpy figures{&session, &Session::figuresReady};
+    QSignalSpy noFigures{&session, &Session::figuresFailed};
+    QSignalSpy runs{&session, &Session::ran};
     QSignalSpy paths{&session, &Session::toolpathReady};
     QSignalSpy noPaths{&session, &Session::toolpathFailed};
     QSignalSpy contours{&session, &Session::contourFound};
@@ -56,6 +59,8 @@ struct Talk {
                 result += QStringLiteral("%1 %2/%3").arg(finding.rule, finding.handle).arg(finding.segment);
         return result;
     }
+    Refusal refusal() const { return refusals.isEmpty() ? Refusal() : refusals.last().at(1).value<Refusal>(); }
+    QJsonObject answer() const { return answers.isEmpty() ? QJsonObject() : answers.last().at(1).toJsonObject(); }
     int version() const { return found.isEmpty() ? -1 : found.last().at(1).toInt(); }
 };
 

@@ -10,7 +10,7 @@ int main(int count, char **words)
 {
     const QCoreApplication application(count, words);
     int failed = 0;
-    for (QObject *tests : {coreTests(), sessionTests(), serverTests()}) {
+    for (QObject *tests : {coreTests(), sessionTests(), askTests(), serverTests()}) {
         const QScopedPointer<QObject> owned(tests);
         failed += QTest::qExec(tests, count, words);
     }

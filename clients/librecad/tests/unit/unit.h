@@ -6,4 +6,5 @@ class QObject;
 
 QObject *coreTests();
 QObject *sessionTests();
+QObject *askTests();
 QObject *serverTests();

@@ -50,6 +50,7 @@ from .programs import (
     SimulatedBlock,
     Simulation,
 )
+from .progress import Progress
 from .results import (
     Contour,
     ContourPiece,
@@ -141,6 +142,7 @@ __all__ = [
     "Repairs",
     "ProgramFormat",
     "ProgramSettings",
+    "Progress",
     "Put",
     "Refused",
     "RequestFailed",

@@ -17,6 +17,26 @@ class UnsupportedEntity(ValueError):
     """An entity that the drawing model of the protocol does not have. As DXF text the server may well read it."""
 
 
+#: What is drawn to be read: of a file the server takes no contour from it either, and says so.
+_ANNOTATION = frozenset(
+    ("ACAD_TABLE", "ARC_DIMENSION", "ATTDEF", "ATTRIB", "DGNUNDERLAY", "DIMENSION", "DWFUNDERLAY", "HATCH", "IMAGE", "LARGE_RADIAL_DIMENSION")
+    + ("LEADER", "MLEADER", "MULTILEADER", "OLE2FRAME", "OLEFRAME", "PDFUNDERLAY", "RAY", "TOLERANCE", "VIEWPORT", "WIPEOUT", "XLINE")
+)
+
+
+def left_out(source: Iterable[Any]) -> dict[str, list[str]]:
+    """The handles of the annotation of ezdxf in a list, by kind: :func:`entities_from` passes over it."""
+    found: dict[str, list[str]] = {}
+    for item in source:
+        if _is_annotation(item):
+            found.setdefault(item.dxftype(), []).append(str(item.dxf.handle or ""))
+    return found
+
+
+def _is_annotation(item: Any) -> bool:
+    return is_ezdxf(item) and item.dxftype() in _ANNOTATION
+
+
 def entities_from(source: Iterable[Any] | Any) -> tuple[list[Entity], dict[str, Any]]:
     """The entities of a list, and those of them that came from ezdxf, by handle.
 
@@ -29,6 +49,8 @@ def entities_from(source: Iterable[Any] | Any) -> tuple[list[Entity], dict[str, 
     entities: list[Entity] = []
     sources: dict[str, Any] = {}
     for number, item in enumerate(items, 1):
+        if _is_annotation(item):
+            continue
         entity = _entity(item, number)
         if not entity.handle:
             entity = with_handle(entity, str(number))

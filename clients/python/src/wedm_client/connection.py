@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import collections
+import itertools
 import logging
 import os
 import re
@@ -23,6 +24,7 @@ from pygls.protocol import LanguageServerProtocol
 
 from .errors import NoAnswer, Outdated, Refused, RequestFailed, WedmError, WrongProtocol, WrongSettings
 from .findings import diagnostic_from_json
+from .progress import Heard
 
 #: The version of the name space wedm/ that this package speaks.
 PROTOCOL = 1
@@ -32,6 +34,8 @@ REQUEST_FAILED = -32803
 
 # Seconds; a program that has not answered by then is no server.
 _PATIENCE = 20.0
+# Seconds after which what was heard of a request that takes long is handed on.
+_BEAT = 0.25
 # Seconds that a process may live on when it has closed its stdout.
 _LAST_WORDS = 2.0
 
@@ -71,7 +75,7 @@ class _Response:
 class _Protocol(LanguageServerProtocol):
     # pygls keeps its answers in a cache, which is no type that a method could have.
     def get_message_type(self, method: str) -> type[Any] | None:  # type: ignore[override]
-        if method == types.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS or method.startswith("wedm/did"):
+        if method in (types.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS, types.PROGRESS) or method.startswith("wedm/did"):
             return _Notification
         # A code action is asked for with the diagnostics as they came.
         if method.startswith("wedm/") or method == types.TEXT_DOCUMENT_CODE_ACTION:
@@ -85,7 +89,7 @@ class _Protocol(LanguageServerProtocol):
         # Results are left as they are; errors and what the server sends by itself go the usual way.
         if "jsonrpc" in data and "result" in data and "id" in data:
             return _Response(data["id"], data["result"], data["jsonrpc"])
-        if data.get("method") == types.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS:
+        if data.get("method") in (types.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS, types.PROGRESS):
             return _Notification(data["method"], data.get("params"), data["jsonrpc"])
         asked = str(data.get("method", ""))
         if (asked.startswith("wedm/") or asked == types.WORKSPACE_APPLY_EDIT) and "id" in data:
@@ -223,9 +227,18 @@ class Connection:
         self._client.feature(types.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS)(lambda params: on_publish(self, params))
         self._client.feature("wedm/resendDrawing")(lambda params: on_resend(str(params["uri"])))
         self._client.feature(types.WORKSPACE_APPLY_EDIT)(lambda params: _applied(on_edit(params["edit"])))
+        # What is heard of the requests that are waited for, by their tokens.
+        self._heard: dict[str, Heard] = {}
+        self._tokens = itertools.count(1)
+        self._client.feature(types.PROGRESS)(lambda params: self._progress(params))
         self._shown: list[str] = []
         self._client.feature(types.WINDOW_LOG_MESSAGE)(lambda params: self._hear(params))
         self._client.feature(types.WINDOW_SHOW_MESSAGE)(lambda params: self._see(params))
+
+    def _progress(self, params: Mapping[str, Any]) -> None:
+        heard = self._heard.get(str(params["token"]))
+        if heard is not None:
+            heard.hear(params["value"])
 
     def _see(self, params: types.ShowMessageParams) -> None:
         if params.type == types.MessageType.Error:
@@ -321,15 +334,26 @@ class Connection:
                 f"wedm-client speaks {PROTOCOL}: {older} has to be updated"
             )
 
-    def request(self, method: str, params: Any, timeout: float) -> Any:
+    def request(self, method: str, params: Any, timeout: float, heard: Heard | None = None) -> Any:
         """Sends a request and waits for its result.
 
+        :param heard: told what the server says of it meanwhile; each word of it begins the ``timeout`` anew.
         :raises Died: the process ended before it had answered.
         :raises NoAnswer: nothing came within ``timeout`` seconds.
         :raises RequestFailed: the server answered with an error.
         """
         if self.ended:
             raise Died
+        if heard is None:
+            return self._request(method, params, lambda answer: answer.result(timeout), timeout)
+        token = f"wedm-client-{next(self._tokens)}"
+        self._heard[token] = heard
+        try:
+            return self._request(method, {**params, "workDoneToken": token}, lambda answer: _patient(answer, heard, timeout), timeout)
+        finally:
+            del self._heard[token]
+
+    def _request(self, method: str, params: Any, wait: Callable[[Future[Any]], Any], timeout: float) -> Any:
         sent: Future[Future[Any]] = Future()
 
         def send() -> None:
@@ -344,7 +368,7 @@ class Connection:
             # The process may have ended between the check and the sending.
             if self.ended and not answer.done():
                 raise Died
-            return answer.result(timeout)
+            return wait(answer)
         except FutureTimeout:
             raise NoAnswer(f"no answer to {method} within {timeout:g} s") from None
         except JsonRpcException as error:
@@ -385,6 +409,20 @@ class Connection:
                 return self._loop.run(stop, 5)
             except FutureTimeout:
                 self.kill()
+
+
+def _patient(answer: Future[Any], heard: Heard, timeout: float) -> Any:
+    """The answer, for as long as the server says something of it within ``timeout`` seconds."""
+    while True:
+        try:
+            result = answer.result(min(_BEAT, timeout))
+        except FutureTimeout:
+            heard.tell()
+            if heard.silence > timeout and not answer.done():
+                raise
+        else:
+            heard.tell()
+            return result
 
 
 def _applied(failure: str | None) -> dict[str, Any]:

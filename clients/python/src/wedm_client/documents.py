@@ -15,6 +15,7 @@ from .errors import DoesNotApply, WedmError
 from .files import write_beside
 from .findings import Diagnostic, Findings, Fixed, Located
 from .programs import Fit, PairProgram, Program, Simulation
+from .progress import Told
 from .results import Contours, Inspection, Picture, Repair, SettingsInForce, Toolpath
 from .settings import Settings, Units
 from .shown import Rows, counted
@@ -67,7 +68,7 @@ class Asked(Protocol):
     """What a document needs of the server that it is open in."""
 
     def diagnostics(self, document: Document) -> Findings: ...
-    def fix(self, document: Document, diagnostic: Diagnostic | None = None) -> Fixed: ...
+    def fix(self, document: Document, diagnostic: Diagnostic | None = None, *, progress: Told | None = None) -> Fixed: ...
     def inspect(self, document: Document, handle: str | None = None) -> Inspection: ...
     def contours(self, document: Document) -> Contours: ...
     def toolpath(self, document: Document, options: Settings | None = None) -> Toolpath: ...
@@ -146,9 +147,9 @@ class Document:
         """See :meth:`Server.diagnostics`."""
         return self._server.diagnostics(self)
 
-    def fix(self, diagnostic: Diagnostic | None = None) -> Fixed:
+    def fix(self, diagnostic: Diagnostic | None = None, *, progress: Told | None = None) -> Fixed:
         """See :meth:`Server.fix`."""
-        return self._server.fix(self, diagnostic)
+        return self._server.fix(self, diagnostic, progress=progress)
 
     def inspect(self, handle: str | None = None) -> Inspection:
         """See :meth:`Server.inspect`."""
@@ -272,6 +273,8 @@ class Drawing(Document):
         self._entities = {entity.handle: entity for entity in entities}
         #: The ezdxf entities that the drawing was made from, by handle.
         self.sources: dict[str, Any] = {}
+        #: Handles of the annotation among them, by kind, such as ``DIMENSION``: no contour is taken from it, as of a file.
+        self.left_out: dict[str, list[str]] = {}
 
     @property
     def entities(self) -> list[Entity]:

@@ -19,13 +19,14 @@ from typing import Any, Literal, Union, overload
 from lsprotocol import types
 
 from . import cad
-from .connection import CONTENT_MODIFIED
+from .connection import CONTENT_MODIFIED, LOG
 from .convert import converted
 from .documents import Action, Document, Drawing, ProgramFormat, TextDocument, WireFormat, language_of, read_text
 from .entities import change_from_json, number
 from .errors import Outdated
 from .findings import Diagnostic, Findings, Fixed, Located, diagnostic_from_json, located_from_json
 from .programs import Fit, PairProgram, PairPrograms, Program, Simulation
+from .progress import Progress, Told
 from .reading import from_json
 from .results import Contours, Inspection, Picture, Repair, Repairs, SettingsInForce, Toolpath
 from .session import Session
@@ -93,13 +94,18 @@ class Server(Session):
             written = StringIO()
             source.write(written)
             return self.open_text(written.getvalue(), "dxf", uri=uri)
-        entities, sources = cad.entities_from(source)
+        items = list(source)
+        entities, sources = cad.entities_from(items)
         doubled = len(entities) - len({entity.handle for entity in entities})
         if doubled:
             raise ValueError(f"{doubled} entities have a handle that another one has")
         units = units or cad.units_of(sources.values())
         drawing = Drawing(self, uri or f"wedm-client:drawing-{next(self._numbers)}", entities, units)
         drawing.sources = sources
+        drawing.left_out = cad.left_out(items)
+        if drawing.left_out:
+            counted = ", ".join(f"{len(handles)} {kind}" for kind, handles in sorted(drawing.left_out.items()))
+            LOG.info("%s: annotation is not cut: %s", drawing.uri, counted)
         return self._opened(drawing)
 
     def open_text(self, text: str, language: Literal["dxf", "3b", "wire-iso"] = "dxf", *, uri: str | None = None) -> TextDocument:
@@ -349,8 +355,12 @@ class Server(Session):
         if not answer.get("applied"):
             raise Outdated(str(answer.get("failureReason")), CONTENT_MODIFIED)
 
-    def fix(self, document: Document, diagnostic: Diagnostic | None = None) -> Fixed:
+    def fix(self, document: Document, diagnostic: Diagnostic | None = None, *, progress: Told | None = None) -> Fixed:
         """Repairs what can be repaired safely: everything, or the one finding by its preferred repair.
+
+        In a drawing of many contours that takes a while. The logger ``wedm_client`` says how far it is, and so does ``progress``: it
+        is called on this thread, with a :class:`Progress`, whenever the server says something and every few seconds. As long as the
+        server says something, it is waited for, however long it takes.
 
         Each repair moves the contour by no more than the correction, and is proved by the server before it is offered. Repairs that
         would leave more errors than there were are taken back. A file is not written: see :meth:`TextDocument.save`.
@@ -363,9 +373,16 @@ class Server(Session):
             self.apply(offered[0])
             return Fixed(before, self.diagnostics(document))
         after = before
+
+        def told(how_far: Progress) -> None:
+            share = "" if how_far.percentage is None else f", {how_far.percentage} %"
+            LOG.info("%s: %s, %.0f s%s", document.uri, how_far.message, how_far.seconds, share)
+            if progress is not None:
+                progress(how_far)
+
         for _ in range(_MOST_ROUNDS):
             whole = {"start": {"line": 0, "character": 0}, "end": {"line": 2**31 - 1, "character": 0}}
-            offered = self._offered(document, whole, [], "source.fixAll.wedm")
+            offered = self._offered(document, whole, [], "source.fixAll.wedm", told)
             if not offered:
                 break
             old, repaired = self._content(document), document._repaired
@@ -392,12 +409,14 @@ class Server(Session):
                 if self._connection is not None:
                     self._connection.notify("wedm/didOpenDrawing", {"drawing": document.to_json()})
 
-    def _offered(self, document: Document, range: Mapping[str, Any], meant: list[Mapping[str, Any]], kind: str) -> list[Action]:
+    def _offered(
+        self, document: Document, range: Mapping[str, Any], meant: list[Mapping[str, Any]], kind: str, told: Told | None = None
+    ) -> list[Action]:
         params = {"textDocument": {"uri": document.uri}, "range": range, "context": {"diagnostics": meant, "only": [kind]}}
         for _ in itertools.repeat(None, _MOST_TRIES):
             version = document.version
             try:
-                found = self._ask(document, types.TEXT_DOCUMENT_CODE_ACTION, params)
+                found = self._ask(document, types.TEXT_DOCUMENT_CODE_ACTION, params, told=told)
             except Outdated:
                 continue
             break

@@ -24,6 +24,7 @@ from .documents import Document, Drawing, TextDocument
 from .entities import Change, Delete, Put, Splice
 from .errors import NoAnswer, NotOpen, NotSaved, Outdated, ServerDied, WedmError
 from .find import find
+from .progress import Heard, Told
 from .restarts import MOST_ENDS, Restarts
 from .settings import Settings, to_json
 from .shown import counted
@@ -196,15 +197,22 @@ class Session:
         if self._documents.get(document.uri) is not document:
             raise NotOpen(f"{document.uri} is not open in this server")
 
-    def _ask(self, document: Document | None, method: str, params: Any, is_done: Callable[[], bool] = lambda: False) -> Any:
-        """Sends a request until a living server has answered it, or it is done without an answer."""
+    def _ask(
+        self,
+        document: Document | None,
+        method: str,
+        params: Any,
+        is_done: Callable[[], bool] = lambda: False,
+        told: Told | None = None,
+    ) -> Any:
+        """Sends a request until a living server has answered it, or it is done without an answer; tells its progress meanwhile."""
         if document is not None:
             with self._state:
                 self._check_open(document)
         while True:
             connection = self._live()
             try:
-                return connection.request(method, params, self.timeout)
+                return connection.request(method, params, self.timeout, None if told is None else Heard(told))
             except Died:
                 if is_done():
                     return None
