@@ -22,7 +22,7 @@ fn the_chinese_readme_shows_the_same_commands_which_answer_in_chinese() {
 #[test]
 fn the_commands_of_tutorials_and_how_to_do_what_they_show() {
     the_commands_do_what_is_shown("docs/how-to.md", "C");
-    for name in ["librecad", "vscode", "python"] {
+    for name in ["librecad", "browser", "vscode", "python"] {
         the_commands_do_what_is_shown(&format!("docs/tutorials/{name}.md"), "C");
     }
 }

@@ -109,11 +109,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     ] {
         say(&format!("wedm {}", words.join(" ")));
     }
-    let folder = output::word(folder);
-    say(&format!(
-        "wedm view {folder}   {}",
-        say!(all_of_this_in_a_browser)
-    ));
+    say(&say!(the_same_in_a_browser, output::word(folder)));
     good(say!(everything_above_was_checked_as_it_was_said));
     Ok(Verdict::Clean)
 }

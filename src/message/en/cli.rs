@@ -124,7 +124,7 @@ declare! {
     the_plate_repaired => "the plate, repaired";
     its_program => "its program";
     contour_faults_and_wire_path => "contour, faults and wire path: open it in a browser";
-    all_of_this_in_a_browser => "all of this in a browser, beside your CAD program";
+    the_same_in_a_browser(folder) => "the same in a browser, beside your CAD program: wedm view {folder}";
     everything_above_was_checked_as_it_was_said => "Everything above was checked before it was printed.";
     the_server_starts_as_a_child_and_speaks_lsp_over => "The server starts as a child process and speaks LSP over stdio";
     wedm_protocol_started_and_answered_within(version, protocol, elapsed) => "wedm {version}, protocol {protocol}; started and answered within {elapsed}";

@@ -124,7 +124,7 @@ translate! {
     the_plate_repaired => "修复后的凹模板";
     its_program => "它的程序";
     contour_faults_and_wire_path => "轮廓、问题和切割轨迹：用浏览器打开";
-    all_of_this_in_a_browser => "在浏览器中完成这一切，配合您的 CAD";
+    the_same_in_a_browser(folder) => "在浏览器中做同样的事，配合您的 CAD：wedm view {folder}";
     everything_above_was_checked_as_it_was_said => "以上每一条都边说边核对过。";
     the_server_starts_as_a_child_and_speaks_lsp_over => "服务器作为子进程启动，经标准输入输出使用 LSP";
     wedm_protocol_started_and_answered_within(version, protocol, elapsed) => "wedm {version}，协议 {protocol}；{elapsed} 内启动并应答";
