@@ -2,7 +2,7 @@
 
 use super::guard::Pass;
 use super::places::Place;
-use super::reply::{Answer, Body, json_of, refusal, too_much, with};
+use super::reply::{Answer, Body, Refused, json_of, with};
 use super::shelf::Change;
 use super::{Page, View, files, socket};
 use crate::message::{Asker, Language, speak, spoken};
@@ -50,12 +50,13 @@ pub(super) async fn answer(
     place: Arc<Place>,
     request: Request<Incoming>,
 ) -> Result<Answer, Infallible> {
-    let mut answer = match view.guard.check(&request) {
-        Err(refused) => refused,
-        Ok(_) if !place.is_known() => too_much(),
-        Ok(Pass::New(welcome)) => welcome,
+    let answered = match view.guard.check(&request) {
+        Err(refused) => Err(refused),
+        Ok(_) if !place.is_known() => Err(Refused::too_much()),
+        Ok(Pass::New) => Ok(view.guard.welcome()),
         Ok(Pass::Known) => answer_known(&view, request).await,
     };
+    let mut answer = answered.unwrap_or_else(Answer::from);
     // What was sent with a request that was not taken is not read, and no stranger keeps a connection.
     if matches!(
         answer.status(),
@@ -68,7 +69,7 @@ pub(super) async fn answer(
     Ok(answer)
 }
 
-async fn answer_known(view: &Arc<View>, request: Request<Incoming>) -> Answer {
+async fn answer_known(view: &Arc<View>, request: Request<Incoming>) -> Result<Answer, Refused> {
     let path = request.uri().path();
     let of_page = PAGE.iter().find(|(name, ..)| *name == path);
     match (request.method(), path) {
@@ -79,16 +80,16 @@ async fn answer_known(view: &Arc<View>, request: Request<Incoming>) -> Answer {
         (&Method::PUT, "/api/file") => files::write(view, request).await,
         (&Method::GET, "/lsp") => lsp(view, request),
         (&Method::GET, _) if let Some((_, kind, bytes)) = of_page => {
-            with(StatusCode::OK, kind, Bytes::from_static(bytes))
+            Ok(with(StatusCode::OK, kind, Bytes::from_static(bytes)))
         }
-        (_, "/api/start" | "/api/files" | "/api/changes" | "/api/file" | "/lsp") => {
-            refusal(StatusCode::METHOD_NOT_ALLOWED, say!(another_method))
-        }
-        _ => refusal(StatusCode::NOT_FOUND, say!(nothing_is_there)),
+        (_, "/api/start" | "/api/files" | "/api/changes" | "/api/file" | "/lsp") => Err(
+            Refused::new(StatusCode::METHOD_NOT_ALLOWED, say!(another_method)),
+        ),
+        _ => Err(Refused::new(StatusCode::NOT_FOUND, say!(nothing_is_there))),
     }
 }
 
-async fn start(view: &Arc<View>, request: &Request<Incoming>) -> Answer {
+async fn start(view: &Arc<View>, request: &Request<Incoming>) -> Result<Answer, Refused> {
     // On Windows no environment says a language; the browser does.
     let accepted = request.headers().get(header::ACCEPT_LANGUAGE);
     let first = accepted.and_then(|accepted| accepted.to_str().ok()?.split([',', ';']).next());
@@ -107,10 +108,8 @@ async fn start(view: &Arc<View>, request: &Request<Incoming>) -> Answer {
 }
 
 /// Server-sent events. A page that does not read them in time is told to ask for all files again.
-fn changes(view: &View) -> Answer {
-    let Some(page) = Page::open(&view.pages) else {
-        return too_much();
-    };
+fn changes(view: &View) -> Result<Answer, Refused> {
+    let page = Page::open(&view.pages).ok_or_else(Refused::too_much)?;
     let events = stream::unfold(
         (view.shelf.subscribe(), page, true),
         |(mut changes, page, is_first)| async move {
@@ -131,17 +130,14 @@ fn changes(view: &View) -> Answer {
     let mut answer = Response::new(StreamBody::new(events).boxed_unsync());
     let kind = HeaderValue::from_static("text/event-stream");
     answer.headers_mut().insert(header::CONTENT_TYPE, kind);
-    answer
+    Ok(answer)
 }
 
-fn lsp(view: &Arc<View>, mut request: Request<Incoming>) -> Answer {
-    let Ok(answer) = create_response_with_body(&request, Body::default) else {
-        return refusal(StatusCode::BAD_REQUEST, say!(a_websocket_is_expected));
-    };
-    let Some(page) = Page::open(&view.pages) else {
-        return too_much();
-    };
+fn lsp(view: &Arc<View>, mut request: Request<Incoming>) -> Result<Answer, Refused> {
+    let answer = create_response_with_body(&request, Body::default)
+        .map_err(|_| Refused::new(StatusCode::BAD_REQUEST, say!(a_websocket_is_expected)))?;
+    let page = Page::open(&view.pages).ok_or_else(Refused::too_much)?;
     let upgrade = hyper::upgrade::on(&mut request);
     tokio::spawn(socket::converse(view.clone(), page, upgrade));
-    answer
+    Ok(answer)
 }

@@ -1,7 +1,7 @@
 //! One file, read or written: within the fence, and of a kind that wedm makes or reads.
 
 use super::View;
-use super::reply::{Answer, refusal, too_much, with};
+use super::reply::{Answer, Refused, with};
 use crate::disk::{self, Barred, Seen, ending_of};
 use crate::document::FileKind;
 use crate::server::path_of;
@@ -34,7 +34,8 @@ pub(crate) fn is_of_ours(rest: &Path) -> bool {
         Component::Normal(name) => {
             let name = name.to_string_lossy();
             // On Windows a colon names a stream of another file.
-            !name.starts_with('.') && !(cfg!(windows) && name.contains(':'))
+            let names_a_stream = cfg!(windows) && name.contains(':');
+            !name.starts_with('.') && !names_a_stream
         }
         _ => false,
     };
@@ -57,44 +58,38 @@ impl AsRef<[u8]> for Held {
     }
 }
 
-/// Why nothing was read or written.
-struct Refused(StatusCode, String);
-
 impl From<Barred> for Refused {
     fn from(barred: Barred) -> Refused {
         let status = match barred {
             Barred::Missing => StatusCode::NOT_FOUND,
             Barred::Outside | Barred::Faulty(_) => StatusCode::FORBIDDEN,
         };
-        Refused(status, barred.to_string())
+        Refused::new(status, barred)
     }
 }
 
 /// The file that `?uri=` names.
-fn named<T>(request: &Request<T>) -> Option<PathBuf> {
-    let query = request.uri().query()?;
+fn named<T>(request: &Request<T>) -> Result<PathBuf, Refused> {
+    let query = request.uri().query().unwrap_or_default();
     let mut pairs = form_urlencoded::parse(query.as_bytes());
-    let (_, uri) = pairs.find(|(key, _)| key == "uri")?;
-    path_of(&uri).filter(|path| !path.to_string_lossy().contains('\0'))
+    let uri = pairs.find(|(key, _)| key == "uri");
+    let path = uri.and_then(|(_, uri)| path_of(&uri));
+    path.filter(|path| !path.to_string_lossy().contains('\0'))
+        .ok_or_else(|| Refused::new(StatusCode::BAD_REQUEST, say!(a_file_uri_is_expected)))
 }
 
 /// Does work with files, which may wait for a disk.
 async fn beside<T: Send + 'static>(
     work: impl FnOnce() -> Result<T, Refused> + Send + 'static,
-) -> Result<T, Answer> {
+) -> Result<T, Refused> {
     let done = tokio::task::spawn_blocking(work).await;
-    let done = done.unwrap_or_else(|error| {
-        Err(Refused(
-            StatusCode::INTERNAL_SERVER_ERROR,
-            error.to_string(),
-        ))
-    });
-    done.map_err(|Refused(status, sentence)| refusal(status, sentence))
+    done.unwrap_or_else(|error| Err(Refused::new(StatusCode::INTERNAL_SERVER_ERROR, error)))
 }
 
-fn room(view: &View, bytes: u64) -> Option<OwnedSemaphorePermit> {
-    let mebibytes = u32::try_from(bytes / MEBIBYTE + 1).ok()?;
-    view.room.clone().try_acquire_many_owned(mebibytes).ok()
+fn room(view: &View, bytes: u64) -> Result<OwnedSemaphorePermit, Refused> {
+    let mebibytes = u32::try_from(bytes / MEBIBYTE + 1).unwrap_or(u32::MAX);
+    let permit = view.room.clone().try_acquire_many_owned(mebibytes);
+    permit.map_err(|_| Refused::too_much())
 }
 
 fn tagged(mut answer: Answer, revision: &str) -> Answer {
@@ -105,42 +100,25 @@ fn tagged(mut answer: Answer, revision: &str) -> Answer {
     answer
 }
 
-pub(super) async fn read<T>(view: &Arc<View>, request: &Request<T>) -> Answer {
-    let Some(path) = named(request) else {
-        return refusal(StatusCode::BAD_REQUEST, say!(a_file_uri_is_expected));
-    };
-    let shared = view.clone();
-    let opened = beside(move || {
-        shared.fence.place(&path, is_of_ours)?;
-        let file = shared.fence.open(&path)?;
+pub(super) async fn read<T>(view: &Arc<View>, request: &Request<T>) -> Result<Answer, Refused> {
+    let (path, view) = (named(request)?, view.clone());
+    let read = move || {
+        view.fence.place(&path, is_of_ours)?;
+        let file = view.fence.open(&path)?;
         let length = file.metadata().map_err(Barred::from)?.len();
-        Ok((file, length))
-    });
-    let (file, length) = match opened.await {
-        Ok(opened) => opened,
-        Err(refused) => return refused,
-    };
-    if length > LARGEST {
-        let sentence = say!(it_has_too_many_bytes, length, LARGEST);
-        return refusal(StatusCode::PAYLOAD_TOO_LARGE, sentence);
-    }
-    let Some(room) = room(view, length) else {
-        return too_much();
-    };
-    let read = beside(move || {
-        let bytes = disk::read_at_most(&file, LARGEST)
-            .map_err(|reason| Refused(StatusCode::FORBIDDEN, reason))?;
+        let too_large = |sentence| Refused(StatusCode::PAYLOAD_TOO_LARGE, sentence);
+        if length > LARGEST {
+            return Err(too_large(say!(it_has_too_many_bytes, length, LARGEST)));
+        }
+        let room = room(&view, length)?;
+        let bytes = disk::read_at_most(&file, LARGEST).map_err(too_large)?;
         let revision = disk::revision(&bytes);
         Ok((Held { bytes, _room: room }, revision))
-    });
-    match read.await {
-        Ok((held, revision)) => {
-            let bytes = Bytes::from_owner(held);
-            let answer = with(StatusCode::OK, "application/octet-stream", bytes);
-            tagged(answer, &revision)
-        }
-        Err(refused) => refused,
-    }
+    };
+    let (held, revision) = beside(read).await?;
+    let bytes = Bytes::from_owner(held);
+    let answer = with(StatusCode::OK, "application/octet-stream", bytes);
+    Ok(tagged(answer, &revision))
 }
 
 /// What a file must be for another to take its place.
@@ -155,7 +133,7 @@ fn condition<T>(request: &Request<T>) -> Result<Condition, Refused> {
         let value = request.headers().get(name)?.to_str().ok()?;
         Some(value.trim())
     };
-    let refused = |status| Err(Refused(status, say!(a_condition_is_expected).into()));
+    let refused = |status| Err(Refused::new(status, say!(a_condition_is_expected)));
     match (value(header::IF_MATCH), value(header::IF_NONE_MATCH)) {
         (None, Some("*")) => Ok(Condition::Missing),
         (Some(tag), None) => {
@@ -170,41 +148,31 @@ fn condition<T>(request: &Request<T>) -> Result<Condition, Refused> {
     }
 }
 
-pub(super) async fn write(view: &Arc<View>, request: Request<Incoming>) -> Answer {
-    let Some(path) = named(&request) else {
-        return refusal(StatusCode::BAD_REQUEST, say!(a_file_uri_is_expected));
-    };
-    let condition = match condition(&request) {
-        Ok(condition) => condition,
-        Err(Refused(status, sentence)) => return refusal(status, sentence),
-    };
+pub(super) async fn write(view: &Arc<View>, request: Request<Incoming>) -> Result<Answer, Refused> {
+    let (path, condition) = (named(&request)?, condition(&request)?);
     let too_large = || {
         let sentence = say!(it_holds_too_many_bytes, LARGEST);
-        refusal(StatusCode::PAYLOAD_TOO_LARGE, sentence)
+        Refused(StatusCode::PAYLOAD_TOO_LARGE, sentence)
     };
     let stated = request.body().size_hint().upper();
     if stated.is_some_and(|length| length > LARGEST) {
-        return too_large();
+        return Err(too_large());
     }
     // Before anything of it is read.
     let (shared, target) = (view.clone(), path.clone());
-    let place = beside(move || Ok(shared.fence.place(&target, is_of_ours)?));
-    if let Err(refused) = place.await {
-        return refused;
-    }
-    let Some(room) = room(view, stated.unwrap_or(LARGEST)) else {
-        return too_much();
-    };
+    beside(move || Ok(shared.fence.place(&target, is_of_ours)?)).await?;
+    let room = room(view, stated.unwrap_or(LARGEST))?;
     let limit = usize::try_from(LARGEST).unwrap_or(usize::MAX);
     let body = Limited::new(request.into_body(), limit).collect();
-    let bytes = match tokio::time::timeout(PATIENCE, body).await {
-        Ok(Ok(body)) => body.to_bytes(),
-        Ok(Err(error)) if error.is::<LengthLimitError>() => return too_large(),
-        Ok(Err(error)) => return refusal(StatusCode::BAD_REQUEST, error),
-        Err(_) => return refusal(StatusCode::REQUEST_TIMEOUT, say!(it_took_too_long)),
-    };
-    let shared = view.clone();
-    let written = beside(move || {
+    let body = tokio::time::timeout(PATIENCE, body)
+        .await
+        .map_err(|_| Refused::new(StatusCode::REQUEST_TIMEOUT, say!(it_took_too_long)))?
+        .map_err(|error| match error.is::<LengthLimitError>() {
+            true => too_large(),
+            false => Refused::new(StatusCode::BAD_REQUEST, error),
+        })?;
+    let (bytes, shared) = (body.to_bytes(), view.clone());
+    let written = move || {
         let _one = shared
             .writing
             .lock()
@@ -212,26 +180,21 @@ pub(super) async fn write(view: &Arc<View>, request: Request<Incoming>) -> Answe
         let written = put(&shared, &path, &condition, &bytes);
         drop(room);
         written.map(|()| disk::revision(&bytes))
-    });
-    match written.await {
-        Ok(revision) => {
-            let answer = with(StatusCode::OK, "text/plain; charset=utf-8", Bytes::new());
-            tagged(answer, &revision)
-        }
-        Err(refused) => refused,
-    }
+    };
+    let revision = beside(written).await?;
+    let answer = with(StatusCode::OK, "text/plain; charset=utf-8", Bytes::new());
+    Ok(tagged(answer, &revision))
 }
 
 /// Writes beside and renames, as `wedm fix` does.
 fn put(view: &View, path: &Path, condition: &Condition, bytes: &[u8]) -> Result<(), Refused> {
     let place = view.fence.place(path, is_of_ours)?;
     let failed = |reason: String| Refused(StatusCode::INTERNAL_SERVER_ERROR, reason);
-    let changed = || Refused(StatusCode::PRECONDITION_FAILED, say!(it_has_changed).into());
+    let changed = || Refused::new(StatusCode::PRECONDITION_FAILED, say!(it_has_changed));
     let Condition::Revision(expected) = condition else {
         return disk::create(&place, bytes).map_err(|error| match error.kind() {
             ErrorKind::AlreadyExists => {
-                let sentence = say!(there_is_one_already);
-                Refused(StatusCode::PRECONDITION_FAILED, sentence.into())
+                Refused::new(StatusCode::PRECONDITION_FAILED, say!(there_is_one_already))
             }
             _ => failed(disk::plain(&error)),
         });

@@ -4,7 +4,7 @@
 //! *Host* is what the browser believes to speak to: a name of another that was made to lead here (DNS rebinding) differs.
 //! *Origin* is the page that asks.
 
-use super::reply::{Answer, Body, refusal};
+use super::reply::{Answer, Body, Refused};
 use hyper::header::{self, HeaderName, HeaderValue};
 use hyper::{Method, Request, Response, StatusCode};
 
@@ -36,8 +36,8 @@ pub(super) struct Guard {
 pub(super) enum Pass {
     /// It has the cookie.
     Known,
-    /// It has the token, and is answered with the cookie.
-    New(Answer),
+    /// It has the token, and is to be answered with the cookie.
+    New,
 }
 
 impl Guard {
@@ -68,9 +68,9 @@ impl Guard {
         (is_ours && request.uri().host().is_none()).then_some(host)
     }
 
-    pub(super) fn check<T>(&self, request: &Request<T>) -> Result<Pass, Answer> {
+    pub(super) fn check<T>(&self, request: &Request<T>) -> Result<Pass, Refused> {
         let Some(host) = self.host(request) else {
-            return Err(refusal(StatusCode::FORBIDDEN, say!(another_host)));
+            return Err(Refused::new(StatusCode::FORBIDDEN, say!(another_host)));
         };
         let path = request.uri().path();
         let is_own = match request.headers().contains_key(header::ORIGIN) {
@@ -85,16 +85,16 @@ impl Guard {
             }
         };
         if !is_own {
-            return Err(refusal(StatusCode::FORBIDDEN, say!(another_page_asks)));
+            return Err(Refused::new(StatusCode::FORBIDDEN, say!(another_page_asks)));
         }
         if let Some(token) = self.token(request) {
             if self.token.is(token) {
-                return Ok(Pass::New(self.welcome()));
+                return Ok(Pass::New);
             }
         } else if self.has_cookie(request) {
             return Ok(Pass::Known);
         }
-        Err(refusal(StatusCode::FORBIDDEN, say!(another_address)))
+        Err(Refused::new(StatusCode::FORBIDDEN, say!(another_address)))
     }
 
     fn token<'a, T>(&self, request: &'a Request<T>) -> Option<&'a str> {
@@ -113,7 +113,8 @@ impl Guard {
             .any(|(own, value)| own == name && self.cookie.is(value))
     }
 
-    fn welcome(&self) -> Answer {
+    /// The cookie, and the way to the page.
+    pub(super) fn welcome(&self) -> Answer {
         let cookie = format!(
             "{}={}; HttpOnly; SameSite=Strict; Path=/",
             self.cookie_name(),

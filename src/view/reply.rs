@@ -19,19 +19,32 @@ pub(super) fn with(status: StatusCode, kind: &'static str, bytes: Bytes) -> Answ
     answer
 }
 
-pub(super) fn json_of(value: &impl Serialize) -> Answer {
-    match serde_json::to_vec(value) {
-        Ok(json) => with(StatusCode::OK, "application/json", json.into()),
-        Err(error) => refusal(StatusCode::INTERNAL_SERVER_ERROR, error),
+pub(super) fn json_of(value: &impl Serialize) -> Result<Answer, Refused> {
+    let json = serde_json::to_vec(value)
+        .map_err(|error| Refused::new(StatusCode::INTERNAL_SERVER_ERROR, error))?;
+    Ok(with(StatusCode::OK, "application/json", json.into()))
+}
+
+/// Why a request is not answered otherwise: the status, and a plain sentence.
+#[derive(Debug)]
+pub(super) struct Refused(pub(super) StatusCode, pub(super) String);
+
+impl Refused {
+    pub(super) fn new(status: StatusCode, sentence: impl ToString) -> Refused {
+        Refused(status, sentence.to_string())
+    }
+
+    pub(super) fn too_much() -> Refused {
+        Refused::new(StatusCode::SERVICE_UNAVAILABLE, say!(too_much_at_a_time))
     }
 }
 
-/// A plain sentence.
-pub(super) fn refusal(status: StatusCode, sentence: impl ToString) -> Answer {
-    let text = sentence.to_string() + "\n";
-    with(status, "text/plain; charset=utf-8", text.into())
-}
-
-pub(super) fn too_much() -> Answer {
-    refusal(StatusCode::SERVICE_UNAVAILABLE, say!(too_much_at_a_time))
+impl From<Refused> for Answer {
+    fn from(Refused(status, sentence): Refused) -> Answer {
+        with(
+            status,
+            "text/plain; charset=utf-8",
+            (sentence + "\n").into(),
+        )
+    }
 }

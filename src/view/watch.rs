@@ -159,3 +159,63 @@ impl Watch<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::shelf::{Counts, Root, Shown};
+    use super::*;
+    use crate::disk::Fence;
+
+    fn find(root: &Root) -> Vec<PathBuf> {
+        let entries = std::fs::read_dir(&root.folder).unwrap();
+        entries.map(|entry| entry.unwrap().path()).collect()
+    }
+
+    /// As on a drive of which the system reports nothing.
+    #[test]
+    fn what_changes_is_found_without_any_report() {
+        let folder = tempfile::tempdir().unwrap();
+        let (old, new) = (folder.path().join("a.dxf"), folder.path().join("b.dxf"));
+        std::fs::write(&old, "old").unwrap();
+        let root = Root {
+            folder: folder.path().to_path_buf(),
+            has_subfolders: true,
+        };
+        let shown = Shown {
+            roots: vec![root],
+            opened: Vec::new(),
+            find,
+            count: |_, _| Ok(Counts::default()),
+        };
+        let fence = Fence::around([folder.path().to_path_buf()]).unwrap();
+        let shelf = Shelf::new(shown, fence);
+        shelf.begin(shelf.find());
+        let mut changes = shelf.subscribe();
+        let mut watch = Watch {
+            shelf: &shelf,
+            unsettled: BTreeMap::new(),
+        };
+        let mut seen = Vec::new();
+        let mut wait_for = |what: &str, uri: &Path| {
+            let uri = uri_of(uri).unwrap_or_default();
+            let is_it = |event: &String| event.contains(what) && event.contains(&uri);
+            while !seen.iter().any(is_it) {
+                watch.look();
+                watch.settle();
+                while let Ok(change) = changes.try_recv() {
+                    seen.push(change.as_event());
+                }
+            }
+            std::mem::take(&mut seen)
+        };
+        std::fs::write(&old, "changed").unwrap();
+        let events = wait_for("saved", &old);
+        assert!(events[0].contains("writing"), "{events:?}");
+        std::fs::write(&new, "new").unwrap();
+        let events = wait_for("saved", &new);
+        assert!(!events.concat().contains("writing"), "{events:?}");
+        std::fs::remove_file(&new).unwrap();
+        wait_for("files", Path::new(""));
+        assert_eq!(shelf.stamps().into_keys().collect::<Vec<_>>(), [old]);
+    }
+}
