@@ -95,8 +95,8 @@ export async function chinese(checks: Checks): Promise<void> {
   }
 }
 
-/** Words of English in a text: of more than three letters, and no name of a file, a rule or a unit. */
+/** Words of English in a text: of more than three letters, and no name of a file, a rule, or a value of a setting. */
 async function english(text: Promise<string>): Promise<string[]> {
   const words = (await text).match(/[A-Za-z][\w.-]{3,}/g) ?? [];
-  return [...new Set(words)].filter((word) => !/^(small-radius|.*\.dxf|wedm\.toml)$/.test(word));
+  return [...new Set(words)].filter((word) => !/^(small-radius|auto|opening|punch|.*\.dxf|wedm\.toml)$/.test(word));
 }

@@ -16,7 +16,7 @@ const THEMES = { dark: "Default Dark Modern", light: "Default Light Modern" };
 const READ = 4.5;
 const SEEN = 3;
 const TEXTS = [
-  "#title, #note, #alert, #place, #scale-text, .chip, .chip span, .rule, #where, #motion, #block",
+  "#title, #note, #alert, #place, #scale-text, .chip, .chip i, .chip span, .rule, #where, #motion, #block",
   "#card h2, #card p, #card .name, #card .link, #trouble, #speed",
 ].join(", ");
 const LINES = "svg .contour, svg .wire, svg .fault, svg .lead:not(.back)";

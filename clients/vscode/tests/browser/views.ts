@@ -146,7 +146,7 @@ export async function views(checks: Checks): Promise<void> {
       await writeFile(join(host.folder, "plate.dxb"), dxb().subarray(0, -60));
       await expectSoon("why it breaks off", async () => (await shown.locator("#trouble").innerText()) !== "", () => shown.locator("#faults").innerText());
     });
-    await checks.check("one broken number of the settings hides nothing else that is found", async () => {
+    await checks.check("one broken number of the settings leaves the others in force", async () => {
       await open("plate.dxf");
       await window.hold(host.folder, 'correction = "abc"\nwire-diameter = 0.3\ngap = 0.02\nside = "auto"\n', "0.170");
       await rm(join(host.folder, "wedm.toml"));
