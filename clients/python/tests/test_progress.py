@@ -18,7 +18,7 @@ from wedm_client import NoAnswer, Polyline, Progress, Server
 from .maps import map_of
 from .plates import TIGHT
 
-BYTES = int(os.environ.get("WEDM_MAP_BYTES", "4000"))
+BYTES = int(os.environ.get("WEDM_MAP_BYTES", "50000"))
 STAND_IN = [sys.executable, str(Path(__file__).with_name("stand_in.py"))]
 
 
