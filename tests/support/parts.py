@@ -90,6 +90,7 @@ def night(share: float) -> list[Part]:
     parts = [
         Part("release", "night", "cargo build --locked --release --bins --benches", 900, 5400, counts=silent),
         Part("cases", "night", "tests/cases/run", 120, 900, ("release",), counts=line, environment={"WEDM": release}),
+        Part("map", "night", "clients/python/test tests/test_progress.py", 300, 1200, ("release",), counts=line, environment={"WEDM": release, "WEDM_MAP_BYTES": "1000000"}),
         Part("packages", "night", "dist/test", 300, 2400, ("release",), counts=line, environment={"WEDM": release}),
     ]
     for name in BENCHES:

@@ -18,7 +18,7 @@ from wedm_client import NoAnswer, Polyline, Progress, Server
 from .maps import map_of
 from .plates import TIGHT
 
-BYTES = int(os.environ.get("WEDM_MAP_BYTES", "4000"))
+BYTES = int(os.environ.get("WEDM_MAP_BYTES", "50000"))
 STAND_IN = [sys.executable, str(Path(__file__).with_name("stand_in.py"))]
 
 
@@ -29,13 +29,16 @@ def _map(size: int) -> str:
     return text
 
 
+@pytest.mark.timeout(120 + BYTES // 1500)
 def test_a_map_is_repaired_and_it_is_said_how_far(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
     heard: list[Progress] = []
     with Server(folder=tmp_path, timeout=60) as server, caplog.at_level(logging.INFO, "wedm_client"):
-        drawing = server.open_text(_map(BYTES))
+        drawn = _map(BYTES)
+        drawing = server.open_text(drawn)
         fixed = drawing.fix(progress=heard.append)
-        assert drawing.text.endswith("EOF\n")
-    assert len(fixed.after) < len(fixed.before) and len(fixed.after.errors) <= len(fixed.before.errors)
+        # Of a large one not all findings are sent; whether it was repaired stands in the text.
+        assert drawing.text != drawn and drawing.text.endswith("EOF\n")
+    assert len(fixed.after) <= len(fixed.before) and len(fixed.after.errors) <= len(fixed.before.errors)
     assert heard[0].percentage is None and heard[0].message
     shares = [one.percentage for one in heard if one.percentage is not None]
     assert shares and all(0 <= share <= 100 for share in shares)
