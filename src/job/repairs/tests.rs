@@ -236,7 +236,7 @@ fn compared(squares: &[Square]) -> Vec<&'static str> {
     }
     let before = dxf::Document::read(text_of(&held).into_bytes());
     let document = Document::new(Source::Dxf(before.clone()), Arc::new(Effective::default()));
-    let Some(Repairs::OfText { repaired, .. }) = fix_all(&document) else {
+    let Some(Repairs::OfText { repaired, .. }) = fix_all(&document, &()) else {
         return Vec::new();
     };
     let Source::Dxf(after) = repaired.source() else {
