@@ -1,6 +1,6 @@
 //! `wedm view`: the page in the browser, and how it is opened.
 
-use super::{Failure, Verdict, check, files, output};
+use super::{Failure, Verdict, check, files, output, pages};
 use crate::compare::plain as plain_path;
 use crate::disk::{Fence, plain};
 use crate::server;
@@ -54,6 +54,7 @@ fn shown(paths: &[PathBuf]) -> Result<Shown, Failure> {
         opened: Vec::new(),
         find,
         count: check::count,
+        report: pages::page_of,
     };
     for path in paths {
         let failed = |error| Failure::of(path, plain(&error));

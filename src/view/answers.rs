@@ -77,14 +77,19 @@ async fn answer_known(view: &Arc<View>, request: Request<Incoming>) -> Result<An
         (&Method::GET, "/api/files") => json_of(&view.shelf.listed()),
         (&Method::GET, "/api/changes") => changes(view),
         (&Method::GET, "/api/file") => files::read(view, &request).await,
+        (&Method::GET, "/api/report") => files::report(view, &request).await,
         (&Method::PUT, "/api/file") => files::write(view, request).await,
         (&Method::GET, "/lsp") => lsp(view, request),
         (&Method::GET, _) if let Some((_, kind, bytes)) = of_page => {
             Ok(with(StatusCode::OK, kind, Bytes::from_static(bytes)))
         }
-        (_, "/api/start" | "/api/files" | "/api/changes" | "/api/file" | "/lsp") => Err(
-            Refused::new(StatusCode::METHOD_NOT_ALLOWED, say!(another_method)),
-        ),
+        (
+            _,
+            "/api/start" | "/api/files" | "/api/changes" | "/api/file" | "/api/report" | "/lsp",
+        ) => Err(Refused::new(
+            StatusCode::METHOD_NOT_ALLOWED,
+            say!(another_method),
+        )),
         _ => Err(Refused::new(StatusCode::NOT_FOUND, say!(nothing_is_there))),
     }
 }

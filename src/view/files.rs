@@ -11,6 +11,7 @@ use hyper::body::{Body as _, Bytes, Incoming};
 use hyper::header::{self, HeaderName, HeaderValue};
 use hyper::{Request, StatusCode};
 use std::io::ErrorKind;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Component, Path, PathBuf};
 use std::sync::{Arc, PoisonError};
 use std::time::Duration;
@@ -119,6 +120,37 @@ pub(super) async fn read<T>(view: &Arc<View>, request: &Request<T>) -> Result<An
     let bytes = Bytes::from_owner(held);
     let answer = with(StatusCode::OK, "application/octet-stream", bytes);
     Ok(tagged(answer, &revision))
+}
+
+/// The report of a drawing. As many are made at a time as files of the largest size may be read.
+pub(super) async fn report<T>(view: &Arc<View>, request: &Request<T>) -> Result<Answer, Refused> {
+    let (path, view) = (named(request)?, view.clone());
+    let made = move || {
+        view.fence.place(&path, is_of_ours)?;
+        if FileKind::of_ending(&ending_of(&path)) != Some(FileKind::Drawing) {
+            let sentence = say!(no_drawing_for_a_report);
+            return Err(Refused::new(StatusCode::BAD_REQUEST, sentence));
+        }
+        let file = view.fence.open(&path)?;
+        let length = file.metadata().map_err(Barred::from)?.len();
+        if length > LARGEST {
+            let sentence = say!(it_has_too_many_bytes, length, LARGEST);
+            return Err(Refused(StatusCode::PAYLOAD_TOO_LARGE, sentence));
+        }
+        let _room = room(&view, LARGEST)?;
+        let made = catch_unwind(AssertUnwindSafe(|| view.shelf.report(&path)));
+        let made = made
+            .unwrap_or_else(|_| Err(say!(internal_error_the_document_could_not_be_judged).into()));
+        made.map_err(|sentence| Refused(StatusCode::UNPROCESSABLE_ENTITY, sentence))
+    };
+    let page = beside(made).await?;
+    let mut answer = with(StatusCode::OK, "text/html; charset=utf-8", page.into());
+    // Its styles are its own: it is kept, and not shown among what is served.
+    let kept = HeaderValue::from_static("attachment");
+    answer
+        .headers_mut()
+        .insert(header::CONTENT_DISPOSITION, kept);
+    Ok(answer)
 }
 
 /// What a file must be for another to take its place.

@@ -46,6 +46,8 @@ pub(crate) struct Shown {
     pub(crate) find: fn(&Root) -> Vec<PathBuf>,
     /// Counts the faults of one; the error is a sentence.
     pub(crate) count: fn(&Path, &Fence) -> Result<Counts, String>,
+    /// Makes the report of a drawing, as HTML; the error is a sentence.
+    pub(crate) report: fn(&Path) -> Result<String, String>,
 }
 
 /// What a page is told.
@@ -135,6 +137,10 @@ impl Shelf {
 
     pub(super) fn subscribe(&self) -> broadcast::Receiver<Change> {
         self.changes.subscribe()
+    }
+
+    pub(super) fn report(&self, path: &Path) -> Result<String, String> {
+        (self.shown.report)(path)
     }
 
     pub(super) fn folders(&self) -> &[Root] {

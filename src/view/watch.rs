@@ -186,6 +186,7 @@ mod tests {
             opened: Vec::new(),
             find,
             count: |_, _| Ok(Counts::default()),
+            report: |_| Err(String::new()),
         };
         let fence = Fence::around([folder.path().to_path_buf()]).unwrap();
         let shelf = Shelf::new(shown, fence);

@@ -60,6 +60,11 @@ export async function read(uri: string): Promise<Read> {
   return { bytes: new Uint8Array(await response.arrayBuffer()), revision: response.headers.get("ETag") ?? "" };
 }
 
+/** The report of a drawing as it is on disk, as `wedm report` makes it. */
+export async function report(uri: string): Promise<Uint8Array> {
+  return new Uint8Array(await (await answer(`/api/report?uri=${encodeURIComponent(uri)}`)).arrayBuffer());
+}
+
 /** Null where there is no such file. */
 export async function readIfThere(uri: string): Promise<Read | null> {
   const response = await fetch(addressOf(uri), { cache: "no-store" });

@@ -329,6 +329,9 @@ export class Bench implements Host {
       case "export":
         this.around.exportPicture();
         break;
+      // The page has a toolbar of its own for all drawings: the picture shows no such buttons here.
+      case "fixAll":
+      case "program":
       case "ready":
       case "text":
         break;

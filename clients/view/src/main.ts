@@ -200,13 +200,14 @@ function toolbar(started: Start, language: "en" | "zh", { repairs, programs, for
     const { doc } = there();
     await (doc === null ? undefined : programs.keep(doc));
   }), { id: "keep", class: "primary", hidden: true });
-  const all = button(t("Fix all"), tried(() => repairs.all()), { id: "fix-all", title: t("Make every safe repair") });
+  const all = button(t("Fix all"), tried(() => repairs.all()), { id: "repair-all", title: t("Make every safe repair") });
   const fit = button(t("Fit of the pair"), tried(() => there().fit(!there().isFit)), { id: "fit-pair", "aria-pressed": "false", title: t("Whether punch and plate fit, as the wire leaves them") });
   const program = menu(t("Program"), t("Make the program of the drawing"), () => programs.items().map((item) => ({ ...item, act: tried(async () => { await item.act(); }) })));
-  program.id = "program";
+  program.id = "programs";
   const exported = menu(t("Export"), t("Save the picture as SVG, PNG or PDF"), () => [
     ...(["svg", "png", "pdf"] as const).map((form) => ({ name: form, text: form.toUpperCase(), act: tried(() => programs.picture(form)) })),
     ...(["csv", "dxf"] as const).map((form) => ({ name: `holes-${form}`, text: `${t("Drill list")} (${form.toUpperCase()})`, act: tried(() => programs.holes(form)) })),
+    ...((there().doc?.revision ?? null) === null ? [] : [{ name: "report", text: t("Report"), act: tried(() => programs.report()) }]),
   ]);
   exported.id = "exports";
   const where = menu(t("Repairs go to"), t("Where repairs are written"), () => [

@@ -7,6 +7,7 @@ import { ENDINGS, type Format, TITLES, told } from "../../picture/programs";
 import type { HoleForm, Methods, PictureForm, Settings } from "../../picture/protocol";
 import { PAIR_IS_NOT_SET, SIDE_IS_NOT_KNOWN } from "../../picture/refusals";
 import { t } from "../../picture/words";
+import { report } from "./api";
 import { ask, type Item, say } from "./ask";
 import type { Bench } from "./bench";
 import type { Doc } from "./doc";
@@ -144,6 +145,14 @@ export class Programs {
     if (doc !== null) {
       const { data } = await this.server.request("wedm/holes", { uri: doc.uri, format: form });
       await this.#deliver(doc, `${stemOf(doc.name)}-holes.${form}`, bytesOf(data));
+    }
+  }
+
+  /** Only of a file: it is made of what is on disk. */
+  async report(): Promise<void> {
+    const { doc } = this.bench();
+    if (doc !== null && doc.revision !== null) {
+      await this.#deliver(doc, `${stemOf(doc.name)}-report.html`, await report(doc.uri));
     }
   }
 

@@ -14,6 +14,7 @@ use crate::disk::ending_of;
 use crate::document::FileKind;
 use crate::program::Format;
 use crate::protocol::Against;
+use crate::settings::Settings;
 use clap::Args;
 use page::Page;
 use std::collections::{BTreeSet, HashSet};
@@ -83,7 +84,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         });
         match page {
             Ok(page) => {
-                output::write(Some(&folder.join(&name)), page.html().as_bytes(), true)?;
+                output::write(Some(&folder.join(&name)), page.html(true).as_bytes(), true)?;
                 verdict = verdict.max(Verdict::of_errors(page.has_errors()));
                 lines.push((name, page.line));
             }
@@ -104,6 +105,17 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         output::say(&styled(output::FAINT, say!(judged_against, said)));
     }
     Ok(verdict)
+}
+
+/// The page of one drawing by itself, made as the command makes it; the error is a sentence.
+pub(crate) fn page_of(path: &Path) -> Result<String, String> {
+    let opened = files::open_to_use(path, None, &Common::default(), &Settings::default());
+    let page = opened.and_then(|opened| {
+        let format = ending::of_settings(opened.document.settings());
+        Page::of(opened, format)
+    });
+    page.map(|page| page.html(false))
+        .map_err(|Failure(sentence)| sentence)
 }
 
 const INDEX: &str = "index.html";

@@ -169,16 +169,23 @@ impl Page {
         self.line.errors > 0
     }
 
-    pub(super) fn html(&self) -> String {
+    /// `is_among` where an index beside it lists all pages.
+    pub(super) fn html(&self, is_among: bool) -> String {
+        let index = match is_among {
+            true => format!(
+                "<span class=\"screen\"> · <a href=\"{INDEX}\">{}</a></span>",
+                text(say!(all_drawings))
+            ),
+            false => String::new(),
+        };
         let (name, stem) = (&self.line.name, stem_of(&self.line.name));
         let parts = [
             format!(
-                "<h1>{}</h1>\n{}{}<p class=\"faint\">{}<span class=\"screen\"> · <a href=\"{INDEX}\">{}</a></span></p>\n",
+                "<h1>{}</h1>\n{}{}<p class=\"faint\">{}{index}</p>\n",
                 text(&self.title),
                 self.verdict(),
                 html::fields(&self.head),
                 text(&self.made_with),
-                text(say!(all_drawings))
             ),
             self.picture(),
             of_job::facts(std::slice::from_ref(&self.extents)),

@@ -289,3 +289,31 @@ fn what_the_page_writes_is_told_to_every_page() {
     );
     assert_eq!(changes.next("saved")["uri"], uri);
 }
+
+#[test]
+fn the_report_of_a_drawing_is_that_of_the_command() {
+    let (_folder, path) = folder();
+    std::fs::write(path.join("a.3b"), "DD\n").unwrap();
+    let view = View::of(&path);
+    let report = |name: &str| {
+        let uri = uri_of(&path.join(name));
+        view.get(&format!("/api/report?uri={}", encoded(&uri)))
+    };
+    let made = report("tight.dxf");
+    assert_eq!(made.status, 200, "{}", made.text());
+    let command = Command::new(env!("CARGO_BIN_EXE_wedm"))
+        .arg("report")
+        .arg(path.join("tight.dxf"))
+        .current_dir(&path)
+        .output()
+        .unwrap();
+    assert!(command.status.code() < Some(2), "{command:?}");
+    let written = std::fs::read_to_string(path.join("report/tight.html")).unwrap();
+    // That one is among others, and leads to their index.
+    let link = written.find("<span class=\"screen\"> · <a").unwrap();
+    let end = link + written[link..].find("</a></span>").unwrap() + "</a></span>".len();
+    assert_eq!(made.text(), written[..link].to_owned() + &written[end..]);
+    assert_eq!(report("a.3b").status, 400);
+    assert_eq!(report("nothing.dxf").status, 404);
+    assert_eq!(report("../outside.dxf").status, 403);
+}

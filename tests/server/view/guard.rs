@@ -2,7 +2,7 @@
 
 use super::*;
 
-const PATHS: [&str; 9] = [
+const PATHS: [&str; 10] = [
     "/",
     "/page.js",
     "/page.css",
@@ -11,6 +11,7 @@ const PATHS: [&str; 9] = [
     "/api/files",
     "/api/changes",
     "/api/file?uri=file:///tmp/a.dxf",
+    "/api/report?uri=file:///tmp/a.dxf",
     "/lsp",
 ];
 

@@ -116,8 +116,8 @@ export class Bench {
   }
 
   async program(name: string): Promise<void> {
-    await this.page.locator("#program > button").click();
-    await this.page.locator(`#program [data-name="${name}"]`).click();
+    await this.page.locator("#programs > button").click();
+    await this.page.locator(`#programs [data-name="${name}"]`).click();
   }
 
   async shot(name: string): Promise<void> {

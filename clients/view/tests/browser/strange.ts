@@ -38,7 +38,7 @@ export async function strange(checks: Checks): Promise<void> {
 
   await checks.check("a drawing in GBK is repaired in its own bytes", async () => {
     await bench.open("gbk.dxf");
-    await page.locator("#fix-all").click();
+    await page.locator("#repair-all").click();
     await page.locator("#document", { hasText: "gbk-fixed.dxf" }).waitFor();
     await bench.wedm("fix", "gbk.dxf", "-o", "expected.dxf");
     expectBytes("repaired", await bench.read("gbk-fixed.dxf"), await bench.read("expected.dxf"));
@@ -53,7 +53,7 @@ export async function strange(checks: Checks): Promise<void> {
     }, DIE);
     await page.locator("#document", { hasText: "dropped.dxf" }).waitFor();
     await bench.finding("small-radius").waitFor();
-    await page.locator("#fix-all").click();
+    await page.locator("#repair-all").click();
     await page.locator("#document", { hasText: "dropped-fixed.dxf" }).waitFor();
     const [download] = await Promise.all([page.waitForEvent("download"), page.locator("#keep").click()]);
     await bench.wedm("fix", "die.dxf", "-o", "expected.dxf", "--overwrite");

@@ -88,7 +88,7 @@ export async function work(checks: Checks): Promise<void> {
 
   await checks.check("Fix all writes what wedm fix writes, byte for byte", async () => {
     await bench.open("plate.dxf");
-    await page.locator("#fix-all").click();
+    await page.locator("#repair-all").click();
     await page.locator("#document", { hasText: "plate-fixed.dxf" }).waitFor();
     await bench.wedm("fix", "plate.dxf", "-o", "expected.dxf");
     expectBytes("repaired", await bench.read("plate-fixed.dxf"), await bench.read("expected.dxf"));
@@ -98,7 +98,7 @@ export async function work(checks: Checks): Promise<void> {
     await bench.open("notch.dxf");
     await page.locator("#where-repairs > button").click();
     await page.locator("#where-repairs [data-name=in-place]").click();
-    await page.locator("#fix-all").click();
+    await page.locator("#repair-all").click();
     await bench.notice("notch.dxf: ").waitFor();
     await bench.wedm("fix", "notch.dxf", "--in-place");
     expectEqual("changed", (await bench.read("notch.dxf")).equals(Buffer.from(NOTCH)), false);
@@ -192,14 +192,19 @@ export async function work(checks: Checks): Promise<void> {
     await bench.file("pair-punch.3b").waitFor();
   });
 
-  await checks.check("the picture and the drill list are saved beside the drawing", async () => {
+  await checks.check("the picture and the report are saved beside the drawing", async () => {
     await bench.open("plate-fixed.dxf");
-    for (const [name, file, begin] of [["svg", "plate-fixed.svg", "<svg"], ["pdf", "plate-fixed.pdf", "%PDF"], ["png", "plate-fixed.png", "\u0089PNG"]] as const) {
+    for (const [name, file, begin] of [["report", "plate-fixed-report.html", "<!doctype html>"], ["svg", "plate-fixed.svg", "<svg"], ["pdf", "plate-fixed.pdf", "%PDF"], ["png", "plate-fixed.png", "\u0089PNG"]] as const) {
       await page.locator("#exports > button").click();
       await page.locator(`#exports [data-name=${name}]`).click();
       await bench.notice(`${file} is saved`).waitFor();
       expectEqual(file, (await bench.read(file)).toString("latin1").startsWith(begin), true);
     }
+  });
+
+  await checks.check("no two parts of the page have one name", async () => {
+    const ids = await page.locator("[id]").evaluateAll((all) => all.filter((each) => each.closest("svg") === null).map(({ id }) => id));
+    expectEqual("names", ids.filter((id, index) => ids.indexOf(id) !== index), []);
   });
 
   await checks.check("the browser had nothing to complain of", () => {
