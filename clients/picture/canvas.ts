@@ -123,8 +123,12 @@ export class Canvas {
 
   #arrange(): void {
     const boxes = this.#items.map(({ box }) => box);
-    const [left, top] = [Math.min(...boxes.map(({ x }) => x)), Math.min(...boxes.map(({ y }) => y))];
-    const [right, bottom] = [Math.max(...boxes.map((box) => box.x + box.width)), Math.max(...boxes.map((box) => box.y + box.height))];
+    // There may be more of them than a call takes arguments.
+    let [left, top, right, bottom] = [Infinity, Infinity, -Infinity, -Infinity];
+    for (const { x, y, width, height } of boxes) {
+      [left, top] = [Math.min(left, x), Math.min(top, y)];
+      [right, bottom] = [Math.max(right, x + width), Math.max(bottom, y + height)];
+    }
     this.#extent = { x: left, y: top, width: Math.max(right - left, 1e-9), height: Math.max(bottom - top, 1e-9) };
     this.#grid = new Map();
     this.#batches = [];
@@ -140,7 +144,9 @@ export class Canvas {
         batch.box = joined(batch.box, item.box);
         tiles.set(tile, batch);
       }
-      this.#batches.push(...tiles.values());
+      for (const batch of tiles.values()) {
+        this.#batches.push(batch);
+      }
     }
   }
 

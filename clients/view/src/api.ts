@@ -17,8 +17,8 @@ export interface FileEntry {
   /** null until the file has been looked at. */
   errors: number | null;
   warnings: number | null;
-  /** Why it cannot be looked at. */
-  trouble?: string;
+  /** Why it cannot be looked at; else null. */
+  trouble: string | null;
 }
 
 export interface Files {

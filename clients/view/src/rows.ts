@@ -24,7 +24,7 @@ export function fileRows(files: readonly FileEntry[], searched: string): Row[] {
     if (language === "toml") {
       return 3;
     }
-    return (errors ?? 0) > 0 ? 0 : trouble === undefined ? 2 : 1;
+    return (errors ?? 0) > 0 ? 0 : trouble === null ? 2 : 1;
   };
   const count = (a: number | null, b: number | null): number => (b ?? 0) - (a ?? 0);
   found.sort((a, b) => rank(a) - rank(b) || count(a.errors, b.errors) || count(a.warnings, b.warnings) || a.path.localeCompare(b.path));
@@ -32,9 +32,9 @@ export function fileRows(files: readonly FileEntry[], searched: string): Row[] {
     key: uri,
     text: path,
     kind: `file ${language}`,
-    title: trouble === undefined ? path : `${path}: ${trouble}`,
+    title: trouble === null ? path : `${path}: ${trouble}`,
     badges: [
-      ...(trouble === undefined ? [] : [{ text: "!", kind: "error", title: trouble }]),
+      ...(trouble === null ? [] : [{ text: "!", kind: "error", title: trouble }]),
       ...badge(errors ?? 0, "error", t("{0} errors", errors ?? 0)),
       ...badge(warnings ?? 0, "warning", t("{0} warnings", warnings ?? 0)),
       { text: KINDS[language], kind: "kind" },

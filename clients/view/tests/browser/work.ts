@@ -202,6 +202,10 @@ export async function work(checks: Checks): Promise<void> {
     }
   });
 
+  await checks.check("no file that can be looked at says that it cannot", async () => {
+    expectEqual("marks", await page.locator("#left .badge").filter({ hasText: "!" }).count(), 0);
+  });
+
   await checks.check("no two parts of the page have one name", async () => {
     const ids = await page.locator("[id]").evaluateAll((all) => all.filter((each) => each.closest("svg") === null).map(({ id }) => id));
     expectEqual("names", ids.filter((id, index) => ids.indexOf(id) !== index), []);

@@ -6,7 +6,7 @@ import { difference, keyOf, languageOfFile } from "../../src/doc";
 import { fileRows, findingRows, lineRows } from "../../src/rows";
 
 const file = (path: string, errors: number | null, warnings: number | null, more: Partial<FileEntry> = {}): FileEntry =>
-  ({ uri: `file:///${path}`, path, language: "dxf", bytes: 1, errors, warnings, ...more });
+  ({ uri: `file:///${path}`, path, language: "dxf", trouble: null, bytes: 1, errors, warnings, ...more });
 const fault = (rule: string, handle: string, segment: number, severity: Fault["severity"] = "error"): Fault =>
   ({ rule, handle, segment, severity, message: `${rule} at ${handle}` });
 
