@@ -39,8 +39,7 @@ impl Folders {
             return Beside::Nothing;
         }
         let other = |path: &Path| {
-            let barred = |barred: crate::disk::Barred| barred.to_string();
-            let form = self.fence.open(path).map_err(barred).and_then(|_| {
+            let form = self.fence.open(path).map_err(String::from).and_then(|_| {
                 let opened = files::open(path, common, last);
                 let opened = opened.map_err(|Failure(sentence)| sentence)?;
                 let form = opened.document.form();

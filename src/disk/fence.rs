@@ -43,6 +43,12 @@ impl Display for Barred {
     }
 }
 
+impl From<Barred> for String {
+    fn from(barred: Barred) -> String {
+        barred.to_string()
+    }
+}
+
 impl From<io::Error> for Barred {
     fn from(error: io::Error) -> Barred {
         match error.kind() {

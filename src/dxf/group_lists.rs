@@ -12,7 +12,6 @@ use super::strings;
 use super::value_type::ValueType;
 use crate::drawing::{EntityId, Handle};
 use rustc_hash::FxHashMap;
-use std::ops::Range;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum GroupValue {
@@ -89,22 +88,21 @@ impl Document {
         whole.map(|(id, entity)| (&entity.handle, id))
     }
 
-    fn record_lines(&self, id: EntityId) -> Range<usize> {
-        let count = Lines::new(&self.text).count();
-        let item = self.table.item_of(id);
-        item.map_or(0..0, |item| self.table.lines_of(item, count))
-    }
-
     fn record_text(&self, id: EntityId) -> Option<&[u8]> {
-        let lines = self.record_lines(id);
+        let lines = self.record_lines(id)?;
         let [start, end] = [lines.start, lines.end].map(|line| self.text.line_start(line));
         self.text.slice(start..end)
     }
 
+    /// Its tags, up to the first that belongs to a part of it.
+    fn tags_of(&self, id: EntityId) -> impl Iterator<Item = Tag> {
+        let range = self.record_lines(id).unwrap_or_default();
+        own_tags(Lines::new(&self.text), range)
+    }
+
     fn looks(&self, id: EntityId) -> Vec<(i16, &[u8])> {
         let lines = Lines::new(&self.text);
-        let looks = own_tags(lines, self.record_lines(id));
-        let looks = looks.filter(|tag| LOOKS.contains(&tag.code));
+        let looks = self.tags_of(id).filter(|tag| LOOKS.contains(&tag.code));
         looks
             .map(|tag| (tag.code, lines.trimmed(tag.value_line())))
             .collect()
@@ -117,7 +115,7 @@ impl Document {
 
     fn geometry_groups(&self, id: EntityId) -> Vec<Group> {
         let lines = Lines::new(&self.text);
-        let head: Vec<Tag> = own_tags(lines, self.record_lines(id)).collect();
+        let head: Vec<Tag> = self.tags_of(id).collect();
         let number = |tags: &[Tag], code| number_of(lines, tags, code);
         let kind = self.kind_of(id);
         let mut groups = vec![(0, GroupValue::Text(kind.clone()))];
@@ -160,8 +158,7 @@ impl Document {
     }
 
     fn groups_to_make(&self, id: EntityId) -> Vec<Group> {
-        let lines = Lines::new(&self.text);
-        let tags: Vec<Tag> = own_tags(lines, self.record_lines(id)).collect();
+        let tags: Vec<Tag> = self.tags_of(id).collect();
         let mut groups = vec![(0, GroupValue::Text(self.kind_of(id)))];
         for tag in tags.iter().filter(|tag| !NOT_MADE.contains(&tag.code)) {
             groups.extend(self.group(&tags, *tag, 3));

@@ -91,12 +91,16 @@ impl Document {
             .map(|tag| lines.trimmed_range(tag.value_line()))
     }
 
+    /// The lines of an entity that has a record of its own.
+    pub(crate) fn record_lines(&self, entity: EntityId) -> Option<Range<usize>> {
+        let item = self.table.item_of(entity)?;
+        Some(self.table.lines_of(item, Lines::new(&self.text).count()))
+    }
+
     /// The lines of a vertex: from its first tag to that of the next vertex, or to the end of the entity.
     pub(crate) fn vertex_lines(&self, entity: EntityId, index: usize) -> Option<Range<usize>> {
         let vertices = self.table.vertices.get(&entity)?;
-        let item = self
-            .table
-            .lines_of(self.table.item_of(entity)?, Lines::new(&self.text).count());
+        let item = self.record_lines(entity)?;
         let start = item.start + *vertices.lines.get(index)? as usize;
         let end = vertices
             .lines

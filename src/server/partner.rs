@@ -110,7 +110,7 @@ impl Look {
 
 /// Reads a file that is not open.
 fn form_of_file(path: &Path, fence: &Fence, settings: &Arc<Effective>) -> Result<Form, String> {
-    let file = fence.open(path).map_err(|barred| barred.to_string())?;
+    let file = fence.open(path)?;
     let bytes = disk::read_at_most(&file, LARGEST)?;
     let kind = FileKind::of_ending(&disk::ending_of(path)).unwrap_or(FileKind::Drawing);
     let form = catch_unwind(AssertUnwindSafe(|| {

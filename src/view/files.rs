@@ -10,6 +10,7 @@ use http_body_util::{BodyExt, LengthLimitError, Limited};
 use hyper::body::{Body as _, Bytes, Incoming};
 use hyper::header::{self, HeaderName, HeaderValue};
 use hyper::{Request, StatusCode};
+use std::fs::File;
 use std::io::ErrorKind;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Component, Path, PathBuf};
@@ -101,16 +102,25 @@ fn tagged(mut answer: Answer, revision: &str) -> Answer {
     answer
 }
 
+/// A file that may be read, and its length.
+fn open(view: &View, path: &Path) -> Result<(File, u64), Refused> {
+    view.fence.place(path, is_of_ours)?;
+    let file = view.fence.open(path)?;
+    let length = file.metadata().map_err(Barred::from)?.len();
+    match length > LARGEST {
+        true => Err(too_large(say!(it_has_too_many_bytes, length, LARGEST))),
+        false => Ok((file, length)),
+    }
+}
+
+fn too_large(sentence: impl ToString) -> Refused {
+    Refused::new(StatusCode::PAYLOAD_TOO_LARGE, sentence)
+}
+
 pub(super) async fn read<T>(view: &Arc<View>, request: &Request<T>) -> Result<Answer, Refused> {
     let (path, view) = (named(request)?, view.clone());
     let read = move || {
-        view.fence.place(&path, is_of_ours)?;
-        let file = view.fence.open(&path)?;
-        let length = file.metadata().map_err(Barred::from)?.len();
-        let too_large = |sentence| Refused(StatusCode::PAYLOAD_TOO_LARGE, sentence);
-        if length > LARGEST {
-            return Err(too_large(say!(it_has_too_many_bytes, length, LARGEST)));
-        }
+        let (file, length) = open(&view, &path)?;
         let room = room(&view, length)?;
         let bytes = disk::read_at_most(&file, LARGEST).map_err(too_large)?;
         let revision = disk::revision(&bytes);
@@ -126,16 +136,10 @@ pub(super) async fn read<T>(view: &Arc<View>, request: &Request<T>) -> Result<An
 pub(super) async fn report<T>(view: &Arc<View>, request: &Request<T>) -> Result<Answer, Refused> {
     let (path, view) = (named(request)?, view.clone());
     let made = move || {
-        view.fence.place(&path, is_of_ours)?;
+        open(&view, &path)?;
         if FileKind::of_ending(&ending_of(&path)) != Some(FileKind::Drawing) {
             let sentence = say!(no_drawing_for_a_report);
             return Err(Refused::new(StatusCode::BAD_REQUEST, sentence));
-        }
-        let file = view.fence.open(&path)?;
-        let length = file.metadata().map_err(Barred::from)?.len();
-        if length > LARGEST {
-            let sentence = say!(it_has_too_many_bytes, length, LARGEST);
-            return Err(Refused(StatusCode::PAYLOAD_TOO_LARGE, sentence));
         }
         let _room = room(&view, LARGEST)?;
         let made = catch_unwind(AssertUnwindSafe(|| view.shelf.report(&path)));
@@ -182,10 +186,7 @@ fn condition<T>(request: &Request<T>) -> Result<Condition, Refused> {
 
 pub(super) async fn write(view: &Arc<View>, request: Request<Incoming>) -> Result<Answer, Refused> {
     let (path, condition) = (named(&request)?, condition(&request)?);
-    let too_large = || {
-        let sentence = say!(it_holds_too_many_bytes, LARGEST);
-        Refused(StatusCode::PAYLOAD_TOO_LARGE, sentence)
-    };
+    let too_large = || too_large(say!(it_holds_too_many_bytes, LARGEST));
     let stated = request.body().size_hint().upper();
     if stated.is_some_and(|length| length > LARGEST) {
         return Err(too_large());

@@ -347,7 +347,7 @@ impl Shelf {
         if stamp.bytes > LARGEST {
             return Err(say!(it_has_too_many_bytes, stamp.bytes, LARGEST));
         }
-        self.fence.open(path).map_err(|barred| barred.to_string())?;
+        self.fence.open(path)?;
         let count = || (self.shown.count)(path, &self.fence);
         catch_unwind(AssertUnwindSafe(count))
             .unwrap_or_else(|_| Err(say!(internal_error_the_document_could_not_be_judged).into()))

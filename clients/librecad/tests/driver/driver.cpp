@@ -196,24 +196,19 @@ void Driver::save()
 
 void Driver::acceptFile(const QString &path)
 {
-    QFileDialog *dialog = nullptr;
-    expectSoon("a file is asked for", [&] {
-        dialog = m_main->findChild<QFileDialog *>("wedm_file");
-        return dialog && dialog->isVisible();
-    });
-    if (!dialog)
-        return;
-    for (QLineEdit *edit : dialog->findChildren<QLineEdit *>("fileNameEdit"))
-        edit->setText(path);
-    QMetaObject::invokeMethod(dialog, "accept");
-    QTest::qWait(50);
+    accept("wedm_file", "a file is asked for", path);
 }
 
 void Driver::acceptFolder(const QString &path)
 {
+    accept("wedm_folder", "a folder is asked for", path);
+}
+
+void Driver::accept(const char *name, const QString &what, const QString &path)
+{
     QFileDialog *dialog = nullptr;
-    expectSoon("a folder is asked for", [&] {
-        dialog = m_main->findChild<QFileDialog *>("wedm_folder");
+    expectSoon(what, [&] {
+        dialog = m_main->findChild<QFileDialog *>(name);
         return dialog && dialog->isVisible();
     });
     if (!dialog)

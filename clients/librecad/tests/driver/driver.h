@@ -79,6 +79,7 @@ private:
     void save();
     void acceptFile(const QString &path);
     void acceptFolder(const QString &path);
+    void accept(const char *name, const QString &what, const QString &path);
     /// Presses the button of an open box that bears this text.
     void answer(const char *box, const QString &button);
     void set(const char *combo, const QVariant &value);

@@ -6,12 +6,18 @@
 
 namespace wedm {
 
-inline Entity polyline(quint64 identity, const QVector<Vertex> &vertices, const QString &layer = "DIE")
+inline Entity entityOf(Kind kind, quint64 identity, const QString &layer = "DIE")
 {
     Entity entity;
     entity.identity = identity;
     entity.layer = layer;
-    entity.kind = Kind::Polyline;
+    entity.kind = kind;
+    return entity;
+}
+
+inline Entity polyline(quint64 identity, const QVector<Vertex> &vertices, const QString &layer = "DIE")
+{
+    Entity entity = entityOf(Kind::Polyline, identity, layer);
     entity.closed = true;
     entity.vertices = vertices;
     return entity;
@@ -19,20 +25,14 @@ inline Entity polyline(quint64 identity, const QVector<Vertex> &vertices, const 
 
 inline Entity line(quint64 identity, Vertex start, Vertex end)
 {
-    Entity entity;
-    entity.identity = identity;
-    entity.layer = "DIE";
-    entity.kind = Kind::Line;
+    Entity entity = entityOf(Kind::Line, identity);
     entity.vertices = {start, end};
     return entity;
 }
 
 inline Entity arc(quint64 identity, double x, double y, double radius, double startAngle, double endAngle)
 {
-    Entity entity;
-    entity.identity = identity;
-    entity.layer = "DIE";
-    entity.kind = Kind::Arc;
+    Entity entity = entityOf(Kind::Arc, identity);
     entity.x = x;
     entity.y = y;
     entity.radius = radius;
@@ -43,10 +43,7 @@ inline Entity arc(quint64 identity, double x, double y, double radius, double st
 
 inline Entity circle(quint64 identity, double x, double y, double radius)
 {
-    Entity entity;
-    entity.identity = identity;
-    entity.layer = "DIE";
-    entity.kind = Kind::Circle;
+    Entity entity = entityOf(Kind::Circle, identity);
     entity.x = x;
     entity.y = y;
     entity.radius = radius;

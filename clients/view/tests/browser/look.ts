@@ -3,7 +3,7 @@
 import { readFile } from "node:fs/promises";
 import { join } from "node:path";
 import { Bench } from "./bench";
-import { type Checks, expectEqual, expectSoon } from "./checks";
+import { type PageChecks, expectEqual, expectSoon } from "./checks";
 import { PROJECT } from "./paths";
 
 const picture = (name: string): Promise<string> => readFile(join(PROJECT, "docs/pictures", name), "utf8");
@@ -11,7 +11,7 @@ const PLATE = await readFile(join(PROJECT, "src/cli/demo/plate.dxf"), "utf8");
 const FILES = { "plate.dxf": PLATE, "die.dxf": await picture("die.dxf"), "slot.dxf": await picture("slot.dxf"), "wedm.toml": 'side = "opening"\n[layers]\nPLATE = "ignore"\n' };
 const NARROW = { width: 400, height: 760 };
 
-export async function look(checks: Checks): Promise<void> {
+export async function look(checks: PageChecks): Promise<void> {
   const bench = await Bench.start(FILES, { colorScheme: "light" });
   checks.bench = bench;
   const { page } = bench;

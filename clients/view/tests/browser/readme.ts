@@ -3,13 +3,13 @@
 import { readFile } from "node:fs/promises";
 import { join } from "node:path";
 import { Bench } from "./bench";
-import { type Checks, expectSoon } from "./checks";
+import { type PageChecks, expectSoon } from "./checks";
 import { PROJECT } from "./paths";
 
 const PLATE = await readFile(join(PROJECT, "src/cli/demo/plate.dxf"), "utf8");
 const SETTINGS = 'wire-diameter = 0.18\ngap = 0.01\nside = "opening"\n\n[layers]\nPLATE = "ignore"\n';
 
-export async function readme(checks: Checks): Promise<void> {
+export async function readme(checks: PageChecks): Promise<void> {
   const names = ["die.dxf", "gap.dxf", "notch.dxf", "slot.dxf"];
   const others = await Promise.all(names.map(async (name) => [name, await readFile(join(PROJECT, "docs/pictures", name))] as const));
   const files = { ...Object.fromEntries(others), "plate.dxf": PLATE, "wedm.toml": SETTINGS };

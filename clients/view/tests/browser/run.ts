@@ -1,6 +1,6 @@
 // Runs the scenarios named on the command line, or all, and counts.
 
-import { Checks } from "./checks";
+import { PageChecks } from "./checks";
 import { look } from "./look";
 import { readme } from "./readme";
 import { strange } from "./strange";
@@ -8,8 +8,8 @@ import { work } from "./work";
 
 /** Made when it is asked for by name: it changes a picture that is committed. */
 const ONLY_BY_NAME = "readme";
-const scenarios: Record<string, (checks: Checks) => Promise<void>> = { work, strange, look, [ONLY_BY_NAME]: readme };
-const checks = new Checks();
+const scenarios: Record<string, (checks: PageChecks) => Promise<void>> = { work, strange, look, [ONLY_BY_NAME]: readme };
+const checks = new PageChecks();
 const named = process.argv.slice(2);
 
 for (const [name, scenario] of Object.entries(scenarios)) {

@@ -3,7 +3,7 @@
 import { readFile, unlink } from "node:fs/promises";
 import { join } from "node:path";
 import { Bench } from "./bench";
-import { type Checks, expectBytes, expectEqual, expectSoon } from "./checks";
+import { type PageChecks, expectBytes, expectEqual, expectSoon } from "./checks";
 import { PROJECT } from "./paths";
 
 const DIE = await readFile(join(PROJECT, "docs/pictures/die.dxf"), "utf8");
@@ -12,7 +12,7 @@ const BINARY = Buffer.concat([Buffer.from("AutoCAD Binary DXF\r\n\x1a\0"), Buffe
 /** 凹模, the layer's name in GBK. */
 const LAYER = Buffer.from([0xb0, 0xbc, 0xc4, 0xa3]);
 
-export async function strange(checks: Checks): Promise<void> {
+export async function strange(checks: PageChecks): Promise<void> {
   const [head = "", rest = ""] = DIE.split(/(?<=\n8\n)/, 2);
   const chinese = Buffer.concat([Buffer.from(head), LAYER, Buffer.from(`\n${rest.split("\n").slice(1).join("\n")}`)]);
   const bench = await Bench.start({ "die.dxf": DIE, "binary.dxf": BINARY, "torn.dxf": DIE.slice(0, DIE.length / 2), "gbk.dxf": chinese, "wedm.toml": SETTINGS });

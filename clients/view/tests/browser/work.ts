@@ -3,7 +3,7 @@
 import { readFile } from "node:fs/promises";
 import { join } from "node:path";
 import { Bench } from "./bench";
-import { type Checks, expectBytes, expectEqual, expectSoon } from "./checks";
+import { type PageChecks, expectBytes, expectEqual, expectSoon } from "./checks";
 import { PROJECT } from "./paths";
 
 /** The drawing of the tutorials: an opening of 20 × 10 mm with one fillet of R 0.08. */
@@ -11,7 +11,7 @@ const DIE = await readFile(join(PROJECT, "docs/pictures/die.dxf"), "utf8");
 const NOTCH = await readFile(join(PROJECT, "docs/pictures/notch.dxf"), "utf8");
 const PLATE = await readFile(join(PROJECT, "src/cli/demo/plate.dxf"), "utf8");
 
-export async function work(checks: Checks): Promise<void> {
+export async function work(checks: PageChecks): Promise<void> {
   const bench = await Bench.start({ "die.dxf": DIE, "notch.dxf": NOTCH, "plate.dxf": PLATE });
   checks.bench = bench;
   const { page } = bench;

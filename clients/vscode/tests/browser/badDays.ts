@@ -5,7 +5,7 @@ import { execFile } from "node:child_process";
 import { mkdir, readFile, writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import { promisify } from "node:util";
-import { actUntil, type Checks, expectEqual, expectSoon, PATIENCE } from "./checks";
+import { actUntil, type WindowChecks, expectEqual, expectSoon, PATIENCE } from "./checks";
 import { FILLET, large, lineOf } from "./drawings";
 import { Host } from "./host";
 import { FAKE_SERVER, WEDM } from "./paths";
@@ -13,13 +13,13 @@ import { Window } from "./window";
 
 const BULGE = "0.41421356237309503";
 
-export async function badDays(checks: Checks): Promise<void> {
+export async function badDays(checks: WindowChecks): Promise<void> {
   await missing(checks);
   await killed(checks);
 }
 
 /** No server anywhere, then one of another version, then the right one: each by a change of the setting. */
-async function missing(checks: Checks): Promise<void> {
+async function missing(checks: WindowChecks): Promise<void> {
   const host = await Host.start({}, { "plate.dxf": FILLET }, { path: "/usr/bin:/bin" });
   const window = new Window(host.page);
   checks.page = host.page;
@@ -84,7 +84,7 @@ async function missing(checks: Checks): Promise<void> {
   }
 }
 
-async function killed(checks: Checks): Promise<void> {
+async function killed(checks: WindowChecks): Promise<void> {
   const big = large(51 * 1024 * 1024);
   const host = await Host.start({ "wedm.server.path": WEDM, "workbench.editorLargeFileConfirmation": 1024 }, { "plate.dxf": FILLET, "second.dxf": FILLET, "large.dxf": big });
   const window = new Window(host.page);

@@ -1,8 +1,11 @@
-// Counts what holds and what does not.
+// What holds of the window, and what does not.
 
 import { join } from "node:path";
 import type { Page } from "playwright-core";
+import { Checks, type Holds, type Seen, until } from "../../../checks";
 import { ARTIFACTS } from "./paths";
+
+export { expectEqual } from "../../../checks";
 
 /** Longer than anything here takes on a busy machine, ms. */
 export const PATIENCE = Number(process.env["PATIENCE"] ?? 300_000);
@@ -10,27 +13,12 @@ export const PATIENCE = Number(process.env["PATIENCE"] ?? 300_000);
 /** How long VS Code takes to show a notice in full, ms. */
 const FADING = 400;
 
-export class Checks {
-  passed = 0;
-  failed = 0;
+export class WindowChecks extends Checks {
   page: Page | undefined;
 
-  async check(name: string, act: () => Promise<void>): Promise<void> {
-    const began = Date.now();
-    try {
-      await act();
-      this.passed += 1;
-      console.log(`  ok      ${name} (${Date.now() - began} ms)`);
-    } catch (error) {
-      await this.fail(name, error);
-    }
-  }
-
-  async fail(name: string, error: unknown): Promise<void> {
-    this.failed += 1;
-    console.log(`  FAILED  ${name}: ${error instanceof Error ? (error.stack ?? error.message) : String(error)}`);
+  protected async keep(name: string): Promise<void> {
     console.log(`  what stands there: ${JSON.stringify(await this.#said())}`);
-    await this.shot(`failed-${name.replaceAll(/\W+/g, "-")}`);
+    await this.shot(name);
   }
 
   /** What the window says to its user: notices, the question that is asked, the tab in front. */
@@ -46,21 +34,8 @@ export class Checks {
   }
 }
 
-type Holds = () => Promise<boolean>;
-type Seen = () => Promise<string>;
-
-/** Waits until something holds; `seen` tells what is there instead. */
-export async function expectSoon(what: string, holds: Holds, seen: Seen = () => Promise.resolve("not so"), patience = PATIENCE): Promise<void> {
-  const deadline = Date.now() + patience;
-  for (;;) {
-    if (await holds().catch(() => false)) {
-      return;
-    }
-    if (Date.now() > deadline) {
-      throw new Error(`expected ${what}, seen: ${await seen().catch(String)}`);
-    }
-    await new Promise((resolve) => setTimeout(resolve, 50));
-  }
+export async function expectSoon(what: string, holds: Holds, seen?: Seen, patience = PATIENCE): Promise<void> {
+  await until(patience, what, holds, seen);
 }
 
 /** Acts until something holds: a window that is laid out anew just then loses a key or a click, and a person does it again. */
@@ -77,12 +52,5 @@ export async function actUntil(what: string, act: () => Promise<unknown>, holds:
         throw error;
       }
     }
-  }
-}
-
-export function expectEqual(what: string, seen: unknown, expected: unknown): void {
-  const [a, b] = [JSON.stringify(seen), JSON.stringify(expected)];
-  if (a !== b) {
-    throw new Error(`${what}: expected ${b}, seen ${a}`);
   }
 }

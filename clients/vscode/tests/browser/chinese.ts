@@ -5,7 +5,7 @@ import { mkdir, mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { promisify } from "node:util";
-import { actUntil, type Checks, expectEqual, expectSoon } from "./checks";
+import { actUntil, type WindowChecks, expectEqual, expectSoon } from "./checks";
 import { Host } from "./host";
 import { EXTENSION, PROJECT, WEDM } from "./paths";
 import { Window } from "./window";
@@ -35,7 +35,7 @@ async function languagePack(folder: string): Promise<string> {
   return pack;
 }
 
-export async function chinese(checks: Checks): Promise<void> {
+export async function chinese(checks: WindowChecks): Promise<void> {
   const folder = await mkdtemp(join(tmpdir(), "chinese-"));
   const language = { locale: "zh-cn", extensions: [await languagePack(join(folder, "pack"))] };
   const settings = { "wedm.server.path": WEDM, "wedm.correction": 0.1, "workbench.editorAssociations": {} };

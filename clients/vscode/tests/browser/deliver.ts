@@ -2,7 +2,7 @@
 
 import { readdir, readFile, writeFile } from "node:fs/promises";
 import { join } from "node:path";
-import { type Checks, expectEqual, expectSoon } from "./checks";
+import { type WindowChecks, expectEqual, expectSoon } from "./checks";
 import { drawn, FILLET } from "./drawings";
 import { Host } from "./host";
 import { PROJECT, WEDM } from "./paths";
@@ -13,7 +13,7 @@ const WASHER = drawn("0", "CIRCLE", "5", "2A", "8", "WASHER", "10", "0", "20", "
 const DIE = await readFile(join(PROJECT, "docs/pictures/die.dxf"), "utf8");
 const PAIR = 'wire-diameter = 0.18\ngap = 0.01\n[pair]\ndrawn-as = "plate"\nclearance = 0.02\n';
 
-export async function deliver(checks: Checks): Promise<void> {
+export async function deliver(checks: WindowChecks): Promise<void> {
   const host = await Host.start({ "wedm.server.path": WEDM }, { "washer.dxf": WASHER, "tight.dxf": FILLET, "die.dxf": DIE });
   const window = new Window(host.page);
   checks.page = host.page;

@@ -2,7 +2,7 @@
 
 import { readFile } from "node:fs/promises";
 import { join } from "node:path";
-import { actUntil, type Checks, expectEqual, expectSoon } from "./checks";
+import { actUntil, type WindowChecks, expectEqual, expectSoon } from "./checks";
 import { PLATE } from "./drawings";
 import { Host } from "./host";
 import { PROJECT, WEDM } from "./paths";
@@ -10,7 +10,7 @@ import { Window } from "./window";
 
 const SMALL = await readFile(join(PROJECT, "docs/pictures/small-radius.dxf"), "utf8");
 
-export async function drawing(checks: Checks): Promise<void> {
+export async function drawing(checks: WindowChecks): Promise<void> {
   const settings = { "wedm.server.path": WEDM, "wedm.correction": 0.1, "workbench.editorAssociations": {} };
   const host = await Host.start(settings, { "plate.dxf": PLATE, "small-radius.dxf": SMALL });
   const window = new Window(host.page);

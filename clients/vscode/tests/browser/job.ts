@@ -2,7 +2,7 @@
 
 import { readFile } from "node:fs/promises";
 import { join } from "node:path";
-import { type Checks, expectEqual, expectSoon } from "./checks";
+import { type WindowChecks, expectEqual, expectSoon } from "./checks";
 import { drawn, PLATE } from "./drawings";
 import { Host } from "./host";
 import { WEDM } from "./paths";
@@ -13,7 +13,7 @@ const SLOT = drawn("0", "LINE", "5", "2A", "8", "SLOT", "10", "0", "20", "0", "1
 const POCKET = drawn("0", "CIRCLE", "5", "2A", "8", "POCKET", "10", "10", "20", "5", "40", "3");
 const ELECTRODE = "[milling]\ntool-diameter = 1.0\ngap = 0.05\nlayer = 0.05\ndepth = 0.2\nwear = 0.001\n";
 
-export async function job(checks: Checks): Promise<void> {
+export async function job(checks: WindowChecks): Promise<void> {
   const files = { "plate.dxf": PLATE, "way.dxf": WAY, "slot.dxf": SLOT, "pocket.dxf": POCKET };
   const host = await Host.start({ "wedm.server.path": WEDM }, files);
   const window = new Window(host.page);

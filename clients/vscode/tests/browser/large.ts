@@ -6,7 +6,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { promisify } from "node:util";
 import { openAlone, shown, tell } from "./alone";
-import { type Checks, expectEqual, expectSoon } from "./checks";
+import { type WindowChecks, expectEqual, expectSoon } from "./checks";
 import { WEDM } from "./paths";
 import { startBrowser } from "./start";
 
@@ -28,7 +28,7 @@ function plates(): string {
   return `0\nSECTION\n2\nENTITIES\n${contours.join("")}0\nENDSEC\n0\nEOF\n`;
 }
 
-export async function large(checks: Checks): Promise<void> {
+export async function large(checks: WindowChecks): Promise<void> {
   const folder = await mkdtemp(join(tmpdir(), "large-"));
   const browser = await startBrowser();
   try {

@@ -2,7 +2,7 @@
 
 import { readFile, rm, writeFile } from "node:fs/promises";
 import { join } from "node:path";
-import { actUntil, type Checks, expectEqual, expectSoon } from "./checks";
+import { actUntil, type WindowChecks, expectEqual, expectSoon } from "./checks";
 import { FILLET, lineOf, PLATE } from "./drawings";
 import { Host } from "./host";
 import { PROJECT, WEDM } from "./paths";
@@ -10,7 +10,7 @@ import { Window } from "./window";
 
 const SMALL = await readFile(join(PROJECT, "docs/pictures/small-radius.dxf"), "utf8");
 
-export async function picture(checks: Checks): Promise<void> {
+export async function picture(checks: WindowChecks): Promise<void> {
   const host = await Host.start({ "wedm.server.path": WEDM, "wedm.correction": 0.1 }, { "plate.dxf": FILLET, "plate-with-hole.dxf": PLATE, "small-radius.dxf": SMALL });
   const window = new Window(host.page);
   checks.page = host.page;

@@ -4,7 +4,7 @@ import { execFile } from "node:child_process";
 import { readFile } from "node:fs/promises";
 import { join } from "node:path";
 import { promisify } from "node:util";
-import { actUntil, type Checks, expectEqual, expectSoon } from "./checks";
+import { actUntil, type WindowChecks, expectEqual, expectSoon } from "./checks";
 import { HOLE } from "./drawings";
 import { Host } from "./host";
 import { WEDM } from "./paths";
@@ -19,7 +19,7 @@ const LOOSE = HOLE.toLowerCase().replaceAll("b", " b ");
 const BROKEN_ISO = "%\nG21\nG90\nG92 X0 Y0\nG01 X5.000 Y0.000\nG02 X9.000 Y3.000 I5.000 J0.000\nM02\n%\n";
 const SETTINGS = '[program]\nlayout = "compact"\n';
 
-export async function program(checks: Checks): Promise<void> {
+export async function program(checks: WindowChecks): Promise<void> {
   const host = await Host.start({ "wedm.server.path": WEDM }, { "hole.3b": HOLE, "broken.3b": "B1000B0B1000GXL1\nQQQ\nDD\n", "broken.iso": BROKEN_ISO, "fixable.3b": FIXABLE, "loose.3b": LOOSE, "wedm.toml": SETTINGS });
   const window = new Window(host.page);
   checks.page = host.page;

@@ -2,7 +2,7 @@
 
 import { readFile } from "node:fs/promises";
 import { join } from "node:path";
-import { type Checks, expectSoon } from "./checks";
+import { type WindowChecks, expectSoon } from "./checks";
 import { lineOf } from "./drawings";
 import { Host } from "./host";
 import { PROJECT, WEDM } from "./paths";
@@ -12,7 +12,7 @@ import { Window } from "./window";
 const BULGE = "0.4142135624";
 const PICTURE = join(PROJECT, "docs/pictures/vscode.png");
 
-export async function readme(checks: Checks): Promise<void> {
+export async function readme(checks: WindowChecks): Promise<void> {
   const plate = await readFile(join(PROJECT, "src/cli/demo/plate.dxf"), "utf8");
   const settings = {
     "wedm.server.path": WEDM,

@@ -1,6 +1,6 @@
 // Runs the scenarios named on the command line, or all, and counts.
 
-import { Checks } from "./checks";
+import { WindowChecks } from "./checks";
 import { badDays } from "./badDays";
 import { chinese } from "./chinese";
 import { deliver } from "./deliver";
@@ -18,12 +18,12 @@ import { withServer } from "./withServer";
 
 /** Made when it is asked for by name: it changes a picture that is committed. */
 const ONLY_BY_NAME = "readme";
-type Scenario = (checks: Checks) => Promise<void>;
+type Scenario = (checks: WindowChecks) => Promise<void>;
 const pages = { states, large, themes, chinese };
 const jobs = { program, job, deliver };
 const sights = { picture, drawing, views };
 const scenarios: Record<string, Scenario> = { text, ...sights, ...jobs, ...pages, badDays, withServer, [ONLY_BY_NAME]: readme };
-const checks = new Checks();
+const checks = new WindowChecks();
 const named = process.argv.slice(2);
 
 const isWanted = (name: string): boolean => (named.length === 0 ? name !== ONLY_BY_NAME : named.includes(name));

@@ -6,12 +6,12 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { promisify } from "node:util";
 import { openAlone, shown, tell } from "./alone";
-import { type Checks, expectEqual, expectSoon } from "./checks";
+import { type WindowChecks, expectEqual, expectSoon } from "./checks";
 import { PLATE } from "./drawings";
 import { WEDM } from "./paths";
 import { startBrowser } from "./start";
 
-export async function states(checks: Checks): Promise<void> {
+export async function states(checks: WindowChecks): Promise<void> {
   const folder = await mkdtemp(join(tmpdir(), "states-"));
   const browser = await startBrowser();
   try {

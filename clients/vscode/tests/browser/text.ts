@@ -2,14 +2,14 @@
 
 import { mkdir, readFile, writeFile } from "node:fs/promises";
 import { join } from "node:path";
-import { actUntil, type Checks, expectEqual, expectSoon } from "./checks";
+import { actUntil, type WindowChecks, expectEqual, expectSoon } from "./checks";
 import { FILLET, lineOf } from "./drawings";
 import { Host } from "./host";
 import { Window } from "./window";
 
 const BULGE = "0.41421356237309503";
 
-export async function text(checks: Checks): Promise<void> {
+export async function text(checks: WindowChecks): Promise<void> {
   // As the README has it installed.
   const host = await Host.start({ "wedm.side": "opening" }, { "plate.dxf": FILLET }, { path: "/usr/bin:/bin", isInstalled: true });
   const window = new Window(host.page);

@@ -2,7 +2,7 @@
 
 import { readFile } from "node:fs/promises";
 import { join } from "node:path";
-import { type Checks, expectSoon } from "./checks";
+import { type WindowChecks, expectSoon } from "./checks";
 import { PLATE } from "./drawings";
 import { Host } from "./host";
 import { PROJECT, WEDM } from "./paths";
@@ -69,7 +69,7 @@ async function faint(page: Frame): Promise<string[]> {
   );
 }
 
-export async function themes(checks: Checks): Promise<void> {
+export async function themes(checks: WindowChecks): Promise<void> {
   for (const [name, theme] of Object.entries(THEMES)) {
     const settings = { "wedm.server.path": WEDM, "wedm.correction": 0.1, "wedm.wireDiameter": 0.18, "wedm.gap": 0.01, "workbench.colorTheme": theme };
     const pair = { "wedm.pair.drawnAs": "punch", "wedm.pair.clearance": 0.005 };

@@ -4,7 +4,7 @@
 import { readFile, rm, writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import type { Frame } from "playwright-core";
-import { actUntil, type Checks, expectEqual, expectSoon } from "./checks";
+import { actUntil, type WindowChecks, expectEqual, expectSoon } from "./checks";
 import { binary, dxb, PLATE } from "./drawings";
 import { Host } from "./host";
 import { PROJECT, WEDM } from "./paths";
@@ -13,7 +13,7 @@ import { Window } from "./window";
 const SMALL = await readFile(join(PROJECT, "docs/pictures/small-radius.dxf"), "utf8");
 const RADII = ["0.080", "0.040", "0.060", "0.050"];
 
-export async function views(checks: Checks): Promise<void> {
+export async function views(checks: WindowChecks): Promise<void> {
   const settings = { "wedm.server.path": WEDM, "wedm.correction": 0.1, "workbench.editorAssociations": {} };
   const files = { "small-radius.dxf": SMALL, "plate.dxf": PLATE, "broken.dxf": "  0\nSECTION\n  2\nENTITIES\nnothing\n", "binary.dxf": binary(SMALL), "plate.dxb": dxb() };
   const host = await Host.start(settings, files);

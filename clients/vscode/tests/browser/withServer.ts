@@ -1,11 +1,11 @@
 // The VSIX that has the server in it, on a machine on which nothing else is: no setting, nothing on the PATH.
 
-import type { Checks } from "./checks";
+import type { WindowChecks } from "./checks";
 import { FILLET } from "./drawings";
 import { Host } from "./host";
 import { Window } from "./window";
 
-export async function withServer(checks: Checks): Promise<void> {
+export async function withServer(checks: WindowChecks): Promise<void> {
   const host = await Host.start({}, { "plate.dxf": FILLET }, { path: "/usr/bin:/bin", withServer: true });
   const window = new Window(host.page);
   checks.page = host.page;
