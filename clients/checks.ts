@@ -4,12 +4,15 @@ export abstract class Checks {
   passed = 0;
   failed = 0;
 
+  /** `scenario` stands before the name of each check: scenarios may run beside each other. */
+  constructor(private readonly scenario: string) {}
+
   async check(name: string, act: () => Promise<void>): Promise<void> {
     const began = Date.now();
     try {
       await act();
       this.passed += 1;
-      console.log(`  ok      ${name} (${Date.now() - began} ms)`);
+      console.log(`  ok      ${this.scenario}: ${name} (${Date.now() - began} ms)`);
     } catch (error) {
       await this.fail(name, error);
     }
@@ -17,12 +20,43 @@ export abstract class Checks {
 
   async fail(name: string, error: unknown): Promise<void> {
     this.failed += 1;
-    console.log(`  FAILED  ${name}: ${error instanceof Error ? (error.stack ?? error.message) : String(error)}`);
-    await this.keep(`failed-${name.replaceAll(/\W+/g, "-")}`);
+    console.log(`  FAILED  ${this.scenario}: ${name}: ${error instanceof Error ? (error.stack ?? error.message) : String(error)}`);
+    await this.keep(`failed-${this.scenario}-${name.replaceAll(/\W+/g, "-")}`);
   }
 
   /** Keeps what is seen when a check has failed. */
   protected abstract keep(name: string): Promise<void>;
+
+  /** Closes what a scenario has left open. */
+  async end(): Promise<void> {}
+}
+
+/**
+ * Runs the scenarios that the command line names, without a name all that are not `onlyByName`, so many at a time; prints their sum,
+ * which is the exit code, too.
+ */
+export async function runScenarios<C extends Checks>(
+  scenarios: Record<string, (checks: C) => Promise<void>>,
+  begin: (scenario: string) => C,
+  onlyByName: string,
+  atOnce: number,
+): Promise<void> {
+  const named = process.argv.slice(2);
+  const waiting = Object.entries(scenarios).filter(([name]) => (named.length === 0 ? name !== onlyByName : named.includes(name)));
+  let [passed, failed] = [0, 0];
+  const runNext = async (): Promise<void> => {
+    for (let next = waiting.shift(); next !== undefined; next = waiting.shift()) {
+      const [name, scenario] = next;
+      const checks = begin(name);
+      await scenario(checks).catch((error: unknown) => checks.fail("it starts and ends", error));
+      await checks.end();
+      passed += checks.passed;
+      failed += checks.failed;
+    }
+  };
+  await Promise.all(Array.from({ length: atOnce }, runNext));
+  console.log(`${passed} passed, ${failed} failed`);
+  process.exitCode = failed === 0 ? 0 : 1;
 }
 
 export type Holds = () => Promise<boolean>;

@@ -12,6 +12,10 @@ export class PageChecks extends Checks {
   protected async keep(name: string): Promise<void> {
     await this.bench?.shot(name).catch(() => undefined);
   }
+
+  override async end(): Promise<void> {
+    await this.bench?.stop();
+  }
 }
 
 export async function expectSoon(what: string, holds: Holds, seen?: Seen): Promise<void> {

@@ -1,5 +1,6 @@
 // Runs the scenarios named on the command line, or all, and counts.
 
+import { runScenarios } from "../../../checks";
 import { PageChecks } from "./checks";
 import { look } from "./look";
 import { readme } from "./readme";
@@ -9,16 +10,4 @@ import { work } from "./work";
 /** Made when it is asked for by name: it changes a picture that is committed. */
 const ONLY_BY_NAME = "readme";
 const scenarios: Record<string, (checks: PageChecks) => Promise<void>> = { work, strange, look, [ONLY_BY_NAME]: readme };
-const checks = new PageChecks();
-const named = process.argv.slice(2);
-
-for (const [name, scenario] of Object.entries(scenarios)) {
-  if (named.length === 0 ? name !== ONLY_BY_NAME : named.includes(name)) {
-    console.log(`${name}:`);
-    await scenario(checks).catch((error: unknown) => checks.fail(`${name} starts and ends`, error));
-    await checks.bench?.stop();
-    checks.bench = undefined;
-  }
-}
-console.log(`${checks.passed} passed, ${checks.failed} failed`);
-process.exitCode = checks.failed === 0 ? 0 : 1;
+await runScenarios(scenarios, (name) => new PageChecks(name), ONLY_BY_NAME, 1);

@@ -1,6 +1,7 @@
 // A real VS Code with the packed extension in it, served to a real browser.
 
 import { type ChildProcess, execFile, spawn } from "node:child_process";
+import { rmSync } from "node:fs";
 import { mkdir, mkdtemp, readdir, readFile, rm, symlink, writeFile } from "node:fs/promises";
 import { createServer } from "node:net";
 import { tmpdir } from "node:os";
@@ -57,7 +58,7 @@ export class Host {
     const { path = process.env["PATH"] ?? "", view = {}, withServer = false, isInstalled = false, locale, extensions: others = [] } = machine;
     const root = await mkdtemp(join(tmpdir(), "vscode-test-"));
     const folder = join(root, "work");
-    const [data, extensions] = [join(root, "data"), join(root, "extensions")];
+    const data = join(root, "data");
     await mkdir(folder, { recursive: true });
     await mkdir(join(data, "User"), { recursive: true });
     await mkdir(ARTIFACTS, { recursive: true });
@@ -68,7 +69,6 @@ export class Host {
     for (const [name, content] of Object.entries(files)) {
       await writeFile(join(folder, name), content);
     }
-    const places = ["--user-data-dir", data, "--extensions-dir", extensions];
     if (isInstalled) {
       await mkdir(join(root, ".cargo/bin"), { recursive: true });
       await symlink(WEDM, join(root, ".cargo/bin/wedm"));
@@ -77,8 +77,8 @@ export class Host {
     await mkdir(own, { mode: 0o700 });
     const folders = { HOME: root, TMPDIR: own, XDG_RUNTIME_DIR: own, XDG_DATA_HOME: root, XDG_CONFIG_HOME: root };
     const environment = { ...process.env, ...folders, PATH: path };
-    const wanted = [await vsix(withServer), ...others].flatMap((extension) => ["--install-extension", extension]);
-    await promisify(execFile)(process.execPath, [CODE_SERVER, ...places, ...wanted], { env: environment });
+    const extensions = await installed([await vsix(withServer), ...others]);
+    const places = ["--user-data-dir", data, "--extensions-dir", extensions];
     if (locale !== undefined) {
       await keepLanguagePack(data, extensions, locale);
     }
@@ -104,6 +104,28 @@ export class Host {
     }
     await rm(this.root, { recursive: true, force: true, maxRetries: 5, retryDelay: 200 });
   }
+}
+
+/** The folders in which extensions are installed, by what is in them: each set is installed once. */
+const installations = new Map<string, Promise<string>>();
+
+function installed(extensions: readonly string[]): Promise<string> {
+  const key = extensions.join("\n");
+  const known = installations.get(key) ?? install(extensions);
+  installations.set(key, known);
+  return known;
+}
+
+async function install(extensions: readonly string[]): Promise<string> {
+  const root = await mkdtemp(join(tmpdir(), "vscode-extensions-"));
+  process.once("exit", () => {
+    rmSync(root, { recursive: true, force: true });
+  });
+  const [data, folder] = [join(root, "data"), join(root, "extensions")];
+  const wanted = extensions.flatMap((extension) => ["--install-extension", extension]);
+  const environment = { ...process.env, HOME: root };
+  await promisify(execFile)(process.execPath, [CODE_SERVER, "--user-data-dir", data, "--extensions-dir", folder, ...wanted], { env: environment });
+  return folder;
 }
 
 async function vsix(withServer: boolean): Promise<string> {

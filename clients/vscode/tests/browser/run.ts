@@ -1,5 +1,6 @@
 // Runs the scenarios named on the command line, or all, and counts.
 
+import { runScenarios } from "../../../checks";
 import { WindowChecks } from "./checks";
 import { badDays } from "./badDays";
 import { chinese } from "./chinese";
@@ -18,19 +19,12 @@ import { withServer } from "./withServer";
 
 /** Made when it is asked for by name: it changes a picture that is committed. */
 const ONLY_BY_NAME = "readme";
+/** Windows that stand open at a time: mostly they wait for each other's parts, not for the processor. */
+const AT_ONCE = 2;
 type Scenario = (checks: WindowChecks) => Promise<void>;
 const pages = { states, large, themes, chinese };
-const jobs = { program, job, deliver };
+const jobs = { program, job };
 const sights = { picture, drawing, views };
-const scenarios: Record<string, Scenario> = { text, ...sights, ...jobs, ...pages, badDays, withServer, [ONLY_BY_NAME]: readme };
-const checks = new WindowChecks();
-const named = process.argv.slice(2);
-
-const isWanted = (name: string): boolean => (named.length === 0 ? name !== ONLY_BY_NAME : named.includes(name));
-
-for (const [name, scenario] of Object.entries(scenarios).filter(([name]) => isWanted(name))) {
-  console.log(`${name}:`);
-  await scenario(checks).catch((error: unknown) => checks.fail(`${name} starts and ends`, error));
-}
-console.log(`${checks.passed} passed, ${checks.failed} failed`);
-process.exitCode = checks.failed === 0 ? 0 : 1;
+// The longest first, so that it is not the one that is left at the end.
+const scenarios: Record<string, Scenario> = { deliver, text, ...sights, ...jobs, ...pages, badDays, withServer, [ONLY_BY_NAME]: readme };
+await runScenarios(scenarios, (name) => new WindowChecks(name), ONLY_BY_NAME, AT_ONCE);
