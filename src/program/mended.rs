@@ -331,7 +331,13 @@ fn spoils(finding: &Finding, was: &[Found], is: &[Found]) -> bool {
         .iter()
         .any(|rule| count(is, *rule) > count(was, *rule));
     let [gap_before, gap] = [was, is].map(|all| all.iter().map(|own| own.gap).sum::<f64>());
-    let is_wider = gap > gap_before && count(is, Rule::NotClosed) == count(was, Rule::NotClosed);
+    // Where closing is the repair, it has to come nearer: else the same gap is only found at another block.
+    let is_too_wide = if finding.rule == Rule::NotClosed {
+        gap >= gap_before
+    } else {
+        gap > gap_before
+    };
+    let is_wider = is_too_wide && count(is, Rule::NotClosed) == count(was, Rule::NotClosed);
     (has_come || is_wider) && !is_of_writing(finding.rule)
 }
 
