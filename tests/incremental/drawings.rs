@@ -1,6 +1,7 @@
 //! Drawings and their contours.
 
 use super::*;
+use crate::size::by_day;
 
 #[test]
 fn what_was_drawn_later_in_between_is_told_as_if_it_had_always_stood_there() {
@@ -71,7 +72,7 @@ fn contours(drawing: &Drawing, chains: &Chains) -> Vec<Contour> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: cases(300), failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: cases(by_day(120, 300)), failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn many_entities_that_move_at_once_are_chained_as_if_afresh(
@@ -229,7 +230,7 @@ fn what_is_typed_behind_a_damaged_polyline_is_read_as_if_afresh() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: cases(300), failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: cases(by_day(120, 300)), failure_persistence: None, ..ProptestConfig::default() })]
 
     /// Somebody types in the tags of one vertex, now and then elsewhere: a number or a code is none for a while, and is one again.
     #[test]

@@ -1,6 +1,7 @@
 //! Many lone lines side by side, which are asked together what they face, and one by one after an edit.
 
 use super::*;
+use crate::size::by_day;
 
 fn turned(x: f64, y: f64, angle: f64) -> Point {
     Point::new(
@@ -10,7 +11,7 @@ fn turned(x: f64, y: f64, angle: f64) -> Point {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: cases(60), failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: cases(by_day(25, 60)), failure_persistence: None, ..ProptestConfig::default() })]
 
     /// Lines of a hatch within a plate, whose edges may be long ones of many teeth, some of which end beside another line or an open outline.
     #[test]

@@ -2,6 +2,7 @@
 
 use super::drawings::shown;
 use super::*;
+use crate::size::by_day;
 
 /// What is found, entities by their place in the machining order: that of another drawing with the same entities is the same.
 fn found(drawing: &Drawing, mut analysis: Analysis) -> Vec<String> {
@@ -30,7 +31,7 @@ fn found(drawing: &Drawing, mut analysis: Analysis) -> Vec<String> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: cases(300), failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: cases(by_day(100, 300)), failure_persistence: None, ..ProptestConfig::default() })]
 
     /// More lies on and across each other than is compared: what is left out depends on the drawing alone.
     #[test]
@@ -64,7 +65,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: cases(20), failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: cases(by_day(8, 20)), failure_persistence: None, ..ProptestConfig::default() })]
 
     /// A comb finer than the wire, in which enough is seen near its beginning: an edit after that looks at no more than itself.
     #[test]

@@ -1,6 +1,7 @@
 //! Pairs of contours so long that only a stretch of them is looked at again.
 
 use super::*;
+use crate::size::by_day;
 use wedm::finding::Rule;
 
 /// One corner: how far it stands out, and the bulge after it.
@@ -52,7 +53,7 @@ fn vertex((away, bulge): Corner, share: f64, count: usize, outside: f64) -> Vert
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: cases(60), failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: cases(by_day(20, 60)), failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn long_pairs_are_held_against_each_other_as_if_afresh(

@@ -1,9 +1,10 @@
 //! Random edits.
 
 use super::*;
+use crate::size::by_day;
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: cases(1000), failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: cases(by_day(400, 1000)), failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn incremental_equals_fresh(
@@ -41,7 +42,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: cases(200), failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: cases(by_day(80, 200)), failure_persistence: None, ..ProptestConfig::default() })]
 
     /// Pairs: of contours that are cut twice, and of two workpieces that are drawn in one place, entities that go from the one to the other.
     #[test]

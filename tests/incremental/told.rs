@@ -385,7 +385,7 @@ fn a_contour_that_goes_back_on_itself_has_no_side_wherever_its_area_is_summed_fr
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: cases(400), failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: cases(by_day(150, 400)), failure_persistence: None, ..ProptestConfig::default() })]
 
     /// Whether an arc that is too tight can be replaced depends on all of its run, and on what the run meets.
     #[test]

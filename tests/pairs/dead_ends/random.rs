@@ -1,6 +1,7 @@
 //! Random openings.
 
 use super::*;
+use crate::size::by_day;
 
 /// What pokes into the side of a part, as the vertices from its right mouth to its left one.
 type Feature = Vec<(f64, f64, f64)>;
@@ -251,7 +252,7 @@ fn cases(usual: u32) -> u32 {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: cases(60), failure_persistence: None, rng_seed: RngSeed::Fixed(20261122), ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: cases(by_day(20, 60)), failure_persistence: None, rng_seed: RngSeed::Fixed(20261122), ..ProptestConfig::default() })]
 
     #[test]
     fn what_is_left_beyond_a_dead_end_is_told(
