@@ -7,13 +7,14 @@ use super::drawings::{self, Sent, SentChanges};
 use super::errors::internal;
 use super::handlers::*;
 use super::state::{Mailbox, Reply, State};
-use super::transport::AsWritten;
+use super::transport::Written;
 use super::{parent, texts};
 use crate::protocol::RulePageText;
 use crate::protocol::method::{Message, SCALE_COMMAND, messages};
 use crate::rule::Rule;
 use ls_types::request::*;
 use ls_types::*;
+use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 use std::sync::Arc;
@@ -346,16 +347,14 @@ impl Backend {
     }
 
     /// Answers with text, which replaces the framework's empty result.
-    async fn answer<P: Send + 'static, R: AsWritten + 'static, T: Default>(
+    async fn answer<P: Send + 'static, R: Serialize + 'static, T: Default>(
         &self,
         method: Method<P, R>,
         about: About,
         params: P,
     ) -> Result<T> {
-        let written = |result: Result<R>| {
-            let answer = result?.written();
-            answer.map_err(|error| internal(error.to_string()))
-        };
+        let written =
+            |result: Result<R>| Written::of(&result?).map_err(|error| internal(error.to_string()));
         self.perform(method, about, params, written).await?.leave();
         Ok(T::default())
     }

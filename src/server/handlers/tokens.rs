@@ -1,14 +1,13 @@
-//! `textDocument/semanticTokens`: of the whole text, of the changes in it, and of the visible lines. The answers leave
-//! as JSON text: the tokens of a large text take only eight bytes each.
+//! `textDocument/semanticTokens`: of the whole text, of the changes in it, and of the visible lines.
 
 use crate::ide::{Token, TokenKind, tokens_in};
 use crate::server::context::RequestContext;
-use crate::server::token_memory::{Difference, Fields, Packed};
-use crate::server::transport::Written;
 use crate::text::{Encoding, SourceText};
 use ls_types::{
-    Range, SemanticTokenType, SemanticTokensDeltaParams, SemanticTokensParams,
-    SemanticTokensRangeParams,
+    Range, SemanticToken, SemanticTokenType, SemanticTokens, SemanticTokensDelta,
+    SemanticTokensDeltaParams, SemanticTokensEdit, SemanticTokensFullDeltaResult,
+    SemanticTokensParams, SemanticTokensRangeParams, SemanticTokensRangeResult,
+    SemanticTokensResult,
 };
 use std::sync::Arc;
 use tower_lsp::jsonrpc::Result;
@@ -41,82 +40,62 @@ fn type_of(kind: TokenKind) -> SemanticTokenType {
 pub(in crate::server) fn full(
     context: &RequestContext,
     _: SemanticTokensParams,
-) -> Result<Written> {
+) -> Result<Option<SemanticTokensResult>> {
     let Some(tokens) = all(context)? else {
-        return Ok(Written::null());
+        return Ok(None);
     };
-    let (result_id, _) = kept(context, None, &tokens);
-    Ok(whole(result_id, &tokens))
+    keep(context, None, &tokens);
+    Ok(Some(named(context, &tokens).into()))
 }
 
 /// Answers with the difference to the answer that the client names, if that is known, else with all tokens.
 pub(in crate::server) fn delta(
     context: &RequestContext,
     params: SemanticTokensDeltaParams,
-) -> Result<Written> {
+) -> Result<Option<SemanticTokensFullDeltaResult>> {
     let previous = params.previous_result_id;
+    let edits = |edits: Vec<SemanticTokensEdit>| SemanticTokensDelta {
+        result_id: Some(context.stamp.to_string()),
+        edits,
+    };
     if context.abilities.token_deltas && context.tokens.is_current(&previous, context.stamp) {
-        return Ok(edits(Some(previous), None));
+        return Ok(Some(edits(Vec::new()).into()));
     }
     let Some(tokens) = all(context)? else {
-        return Ok(Written::null());
+        return Ok(None);
     };
-    Ok(match kept(context, Some(&previous), &tokens) {
-        (result_id, Some(edit)) => edits(result_id, Some((edit, &tokens))),
-        (result_id, None) => whole(result_id, &tokens),
-    })
+    Ok(Some(match keep(context, Some(&previous), &tokens) {
+        Some(edit) => edits(vec![edit]).into(),
+        None => named(context, &tokens).into(),
+    }))
 }
 
-/// Remembers the tokens sent, where the client asks for differences; returns the name of the answer, and the difference
-/// to `previous`.
-fn kept(
+/// Remembers the tokens sent, where the client asks for differences; returns the difference to `previous`.
+fn keep(
     context: &RequestContext,
     previous: Option<&str>,
-    tokens: &Arc<Packed>,
-) -> (Option<String>, Option<Difference>) {
-    if context.abilities.token_deltas {
-        context.tokens.replace(previous, context.stamp, tokens)
-    } else {
-        (None, None)
+    tokens: &Arc<Vec<SemanticToken>>,
+) -> Option<SemanticTokensEdit> {
+    let is_asked_for = context.abilities.token_deltas;
+    is_asked_for.then(|| context.tokens.replace(previous, context.stamp, tokens))?
+}
+
+/// All tokens, with a name where the client asks for differences to them.
+fn named(context: &RequestContext, tokens: &[SemanticToken]) -> SemanticTokens {
+    let is_named = context.abilities.token_deltas;
+    SemanticTokens {
+        result_id: is_named.then(|| context.stamp.to_string()),
+        data: tokens.to_vec(),
     }
-}
-
-/// `SemanticTokens`. The name of an answer is a number.
-fn whole(result_id: Option<String>, tokens: &Packed) -> Written {
-    let mut json = named(result_id);
-    json.extend_from_slice(b"\"data\":");
-    tokens.write(0..tokens.len(), &mut json);
-    json.push(b'}');
-    json.into()
-}
-
-/// `SemanticTokensDelta` of at most one edit.
-fn edits(result_id: Option<String>, edit: Option<(Difference, &Packed)>) -> Written {
-    let mut json = named(result_id);
-    json.extend_from_slice(b"\"edits\":[");
-    if let Some((edit, tokens)) = edit {
-        let (start, count) = (edit.start, edit.delete_count);
-        let head = format!("{{\"start\":{start},\"deleteCount\":{count},\"data\":");
-        json.extend_from_slice(head.as_bytes());
-        tokens.write(edit.tokens, &mut json);
-        json.push(b'}');
-    }
-    json.extend_from_slice(b"]}");
-    json.into()
-}
-
-fn named(result_id: Option<String>) -> Vec<u8> {
-    let id = result_id.map(|id| format!("\"resultId\":\"{id}\","));
-    format!("{{{}", id.unwrap_or_default()).into_bytes()
 }
 
 /// All tokens, up to [`LIMIT`]; `None` where the document has none.
-fn all(context: &RequestContext) -> Result<Option<Arc<Packed>>> {
+fn all(context: &RequestContext) -> Result<Option<Arc<Vec<SemanticToken>>>> {
     let Some(whole) = context.whole() else {
         return Ok(None);
     };
     let text = whole.text();
-    let mut encoder = Encoder::new(text, context.encoding, text.line_count().min(LIMIT));
+    let mut encoder = Encoder::new(text, context.encoding);
     whole.tokens(LIMIT, &|| context.is_cancelled(), |token| {
         encoder.push(token)
     })?;
@@ -133,20 +112,22 @@ fn all(context: &RequestContext) -> Result<Option<Arc<Packed>>> {
 pub(in crate::server) fn range(
     context: &RequestContext,
     params: SemanticTokensRangeParams,
-) -> Result<Written> {
+) -> Result<Option<SemanticTokensRangeResult>> {
     let Range { start, end } = params.range;
     let first = start.line as usize;
     // A range that ends at the beginning of a line does not touch it.
     let end = end.line as usize + usize::from(end.character > 0);
     let lines = first..end.min(first.saturating_add(LINES));
     let Some((document, text)) = context.document_and_text() else {
-        return Ok(Written::null());
+        return Ok(None);
     };
-    let mut encoder = Encoder::new(text, context.encoding, 0);
+    let mut encoder = Encoder::new(text, context.encoding);
     for token in tokens_in(document, lines) {
         encoder.push(token);
     }
-    Ok(whole(None, &encoder.tokens))
+    let data = encoder.tokens;
+    let result_id = None;
+    Ok(Some(SemanticTokens { result_id, data }.into()))
 }
 
 /// Counts tokens as the client does, each from the one before.
@@ -161,11 +142,11 @@ struct Encoder<'a> {
     /// A byte of the line and its character, so that nothing is counted twice: a whole program may be one line.
     known: usize,
     counted: usize,
-    tokens: Packed,
+    tokens: Vec<SemanticToken>,
 }
 
 impl<'a> Encoder<'a> {
-    fn new(text: &'a SourceText, encoding: Encoding, capacity: usize) -> Encoder<'a> {
+    fn new(text: &'a SourceText, encoding: Encoding) -> Encoder<'a> {
         Encoder {
             text,
             encoding,
@@ -174,7 +155,7 @@ impl<'a> Encoder<'a> {
             character: 0,
             known: 0,
             counted: 0,
-            tokens: Packed::with_capacity(capacity),
+            tokens: Vec::new(),
         }
     }
 
@@ -197,13 +178,13 @@ impl<'a> Encoder<'a> {
         let from = self.counted + before;
         let length = self.text.counted(at, end, self.encoding).1;
         let number = |number: usize| u32::try_from(number).unwrap_or(u32::MAX);
-        let fields: Fields = [
-            number(delta_line),
-            number(from.saturating_sub(self.character)),
-            number(length),
-            token.kind as u32,
-        ];
-        self.tokens.push(fields);
+        self.tokens.push(SemanticToken {
+            delta_line: number(delta_line),
+            delta_start: number(from.saturating_sub(self.character)),
+            length: number(length),
+            token_type: token.kind as u32,
+            token_modifiers_bitset: 0,
+        });
         (self.known, self.counted, self.character) = (at, from, from);
     }
 }

@@ -20,7 +20,7 @@ pub(crate) use lost::LostChange;
 pub(crate) use memory::give_back;
 pub(crate) use whole::{FromClient, ToClient};
 pub(crate) use writer::{Publish, Writer};
-pub(crate) use written::{AsWritten, Written};
+pub(crate) use written::Written;
 
 #[cfg_attr(not(feature = "testing"), allow(unreachable_pub))]
 pub use frame::{Frame, Frames};

@@ -24,36 +24,7 @@ impl Default for Written {
     }
 }
 
-impl From<Vec<u8>> for Written {
-    /// Takes finished JSON.
-    fn from(json: Vec<u8>) -> Written {
-        Written(json)
-    }
-}
-
-/// The JSON text of a handler's result.
-pub(crate) trait AsWritten {
-    fn written(self) -> serde_json::Result<Written>;
-}
-
-impl<T: Serialize> AsWritten for T {
-    fn written(self) -> serde_json::Result<Written> {
-        Written::of(&self)
-    }
-}
-
-/// Text that the handler has made itself.
-impl AsWritten for Written {
-    fn written(self) -> serde_json::Result<Written> {
-        Ok(self)
-    }
-}
-
 impl Written {
-    pub(crate) fn null() -> Written {
-        Written(b"null".to_vec())
-    }
-
     pub(crate) fn of(result: &impl Serialize) -> serde_json::Result<Written> {
         serde_json::to_vec(result).map(Written)
     }
