@@ -54,10 +54,10 @@ impl Document {
             // Unreadable text may have hidden something.
             let may_hide = finding.rule == Rule::Syntax && !invents(&fix.kind);
             let verdict = match spoils(finding, &made.was.0, &made.is.0) {
-                _ if made.leaves(finding) => Verdict::Not,
+                _ if made.leaves(finding, &fix.edit) => Verdict::Not,
                 true if may_hide => Verdict::InPart,
                 true => Verdict::Not,
-                false => made.verdict(finding, &lines),
+                false => made.verdict(finding, &fix.edit, &lines),
             };
             if verdict != Verdict::Repaired || invents(&fix.kind) {
                 refuse(&mut fix);
@@ -129,7 +129,9 @@ impl Document {
             let repaired: Vec<&Finding> = fixes.iter().map(|(finding, ..)| *finding).collect();
             let tried = Tried::of(self, found, &repaired, &edits);
             let count = fixes.len();
-            fixes.retain(|(finding, _, lines)| tried.verdict(finding, lines) == Verdict::Repaired);
+            fixes.retain(|(finding, fix, lines)| {
+                tried.verdict(finding, &fix.edit, lines) == Verdict::Repaired
+            });
             if fixes.len() == count {
                 let after = tried.after;
                 return Some((edits, after));
@@ -276,23 +278,26 @@ impl<'a> Tried<'a> {
         }
     }
 
-    /// Whether a finding is still there.
-    fn leaves(&self, finding: &Finding) -> bool {
+    /// Whether a finding is still there, or where its repair has edited: two blocks that are exchanged take it along.
+    fn leaves(&self, finding: &Finding, edits: &[TextEdit]) -> bool {
         finding.place.in_text().is_none_or(|range| {
-            let now = self.moved.range(range);
-            self.left.has_at(finding.rule, &now, &self.unrepaired)
+            let mut places = edits.iter().map(|edit| &edit.range).chain([range]);
+            places.any(|place| {
+                let now = self.moved.range(place);
+                self.left.has_at(finding.rule, &now, &self.unrepaired)
+            })
         })
     }
 
-    /// What is left of a finding, and in the lines of its cut before the edits.
-    fn verdict(&self, finding: &Finding, lines: &Range<usize>) -> Verdict {
+    /// What is left of a finding after its repair by `edits`, and in the lines of its cut before them.
+    fn verdict(&self, finding: &Finding, edits: &[TextEdit], lines: &Range<usize>) -> Verdict {
         let last = lines.end.saturating_sub(1).max(lines.start);
         let bytes = self.text.line_start(lines.start)..self.text.line_range(last).end;
         let bytes = self.moved.range(&bytes);
         let text = self.after.text();
         let now = text.line_of(bytes.start)..text.line_of(bytes.end) + 1;
         let (was, is) = (self.was.within(lines), self.is.within(&now));
-        if self.leaves(finding) || spoils(finding, was, is) {
+        if self.leaves(finding, edits) || spoils(finding, was, is) {
             return Verdict::Not;
         }
         let is_open = is.iter().any(|own| own.rule == Rule::NotClosed);
