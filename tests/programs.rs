@@ -8,12 +8,14 @@ mod refactorings;
 
 use expect_test::expect_file;
 use proptest::prelude::*;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use wedm::document::{Document, Source};
-use wedm::finding::{Edit, Place, Severity};
+use wedm::finding::{Edit, Place, Rule, Severity};
 use wedm::program::{self, Language};
 use wedm::settings::{Effective, Layout};
+use wedm::text::TextEdit;
 
 fn folder(name: &str) -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -181,6 +183,20 @@ fn counts(document: &mut Document) -> std::collections::BTreeMap<&'static str, u
     counts
 }
 
+/// The lines that cannot be read.
+fn unread_lines(document: &mut Document) -> Vec<Range<usize>> {
+    let findings = document.findings(usize::MAX).0;
+    let unread = findings.iter().filter(|it| it.rule == Rule::Syntax);
+    let start = |place: &Place| match place {
+        Place::Text { range } => Some(range.start),
+        _ => None,
+    };
+    let starts: Vec<usize> = unread.filter_map(|it| start(&it.place)).collect();
+    let text = document.text().unwrap();
+    let line = |at: usize| text.line_range(text.line_of(at));
+    starts.into_iter().map(line).collect()
+}
+
 #[test]
 fn every_fix_that_is_offered_repairs_and_makes_nothing_worse() {
     let mut failures: Vec<String> = Vec::new();
@@ -188,11 +204,25 @@ fn every_fix_that_is_offered_repairs_and_makes_nothing_worse() {
         let bytes = std::fs::read(&path).unwrap();
         let mut document = read(language_of(&path).unwrap(), bytes.clone());
         let before = counts(&mut document);
+        let unread = unread_lines(&mut document);
         for finding in document.findings(usize::MAX).0 {
             for fix in document.fixes(&finding) {
                 let Edit::Text(edits) = fix.edit else {
                     panic!("a fix of a program edits its text")
                 };
+                // Of a line that cannot be read nothing is known to be a number.
+                let is_in_unread = |edit: &TextEdit| {
+                    let mut lines = unread.iter();
+                    lines.any(|line| line.start < edit.range.end && edit.range.start < line.end)
+                };
+                if finding.rule != Rule::Syntax && edits.iter().any(is_in_unread) {
+                    failures.push(format!(
+                        "{}: {} by {:?} edits what cannot be read: {edits:?}",
+                        path.display(),
+                        finding.rule.name(),
+                        fix.kind
+                    ));
+                }
                 let mut repaired = bytes.clone();
                 for edit in edits.iter().rev() {
                     repaired.splice(edit.range.clone(), edit.text.bytes());

@@ -203,6 +203,13 @@ impl Cut for Suspect<'_> {
 
     fn exchanged(&self, index: usize) -> Option<Slip> {
         let (row, next) = (self.way.at[index], *self.way.at.get(index + 1)?);
+        // What is wrong with a block goes along with it.
+        if [row, next]
+            .iter()
+            .any(|row| self.way.rows[*row].line.block.broken)
+        {
+            return None;
+        }
         let lines = self.exchanged_lines(self.way.first + row);
         let lines: Vec<Line> = lines.iter().map(|line| self.read(line)).collect();
         let is_other =

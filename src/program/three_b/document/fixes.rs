@@ -250,7 +250,10 @@ impl Document {
         let edit = |at: At, number: u32| {
             self.with_number(self.digits_before(at), self.range_of(at).start, number)
         };
-        let own = meant.map(|meant| (meant, edit(at, meant)));
+        // Where the number of an unreadable block stands is not known: digits before what is wrong with it may be those of X.
+        let is_read = |at: At| self.entry(at).is_some_and(|own| own.what != What::Unread);
+        let own = meant.filter(|_| is_read(at));
+        let own = own.map(|meant| (meant, edit(at, meant)));
         if renumbering == Renumbering::LeftOut {
             return Some(numbering::fixes(own, None));
         }
@@ -260,7 +263,8 @@ impl Document {
             let step = second.saturating_sub(first).max(1);
             let edits = places.iter().enumerate().filter_map(|(index, at)| {
                 let number = first.saturating_add(step.saturating_mul(u32::try_from(index).ok()?));
-                (self.entry(*at)?.number() != Some(number)).then(|| edit(*at, number))
+                let is_other = self.entry(*at)?.number() != Some(number);
+                (is_other && is_read(*at)).then(|| edit(*at, number))
             });
             ([first, step], edits.collect())
         });
