@@ -9,7 +9,7 @@ use super::clearance::Walls;
 use super::cores::each;
 use super::corners::{AT_A_TIME, Element, Raw, between, close_up};
 use super::proof::Proof;
-use crate::geometry::{Point, Segment};
+use crate::geometry::{Bounds, Grid, Point, Segment};
 use rustc_hash::FxHashMap;
 
 /// A stretch of a raw element that keeps clear of all walls, between two nodes.
@@ -41,10 +41,9 @@ const STEP: usize = 256;
 
 pub(super) fn find(proof: &Proof, raw_elements: &Raw, goes_on: &dyn Fn() -> bool) -> Found {
     let mut nodes = Nodes {
-        cell: 8.0 * proof.rounding,
         near: 0.2 * proof.rounding,
         points: Vec::new(),
-        cells: FxHashMap::default(),
+        by_place: Grid::default(),
     };
     let mut stretches: Vec<Stretch> = Vec::new();
     let clear = |point: Point| {
@@ -234,37 +233,24 @@ fn append(
 
 /// Points that are only distinct when they are further from each other than rounding.
 struct Nodes {
-    cell: f64,
     near: f64,
     points: Vec<Point>,
-    cells: FxHashMap<(i64, i64), Vec<usize>>,
+    by_place: Grid<usize>,
 }
 
 impl Nodes {
     fn at(&mut self, point: Point) -> usize {
-        let place = |offset: f64| {
-            (
-                ((point.x + offset) / self.cell).floor() as i64,
-                ((point.y + offset) / self.cell).floor() as i64,
-            )
-        };
-        let (low, high) = (place(-self.near), place(self.near));
-        for x in low.0..=high.0 {
-            for y in low.1..=high.1 {
-                let known = self.cells.get(&(x, y)).into_iter().flatten();
-                if let Some(&node) = known
-                    .into_iter()
-                    .find(|&&node| (self.points[node] - point).norm() <= self.near)
-                {
-                    return node;
-                }
+        let mut known: Option<usize> = None;
+        (self.by_place).near(&Bounds::of_disc(point, self.near), |node, _| {
+            if (self.points[node] - point).norm() <= self.near {
+                known = Some(known.map_or(node, |known| known.min(node)));
             }
-        }
-        self.points.push(point);
-        self.cells
-            .entry(place(0.0))
-            .or_default()
-            .push(self.points.len() - 1);
-        self.points.len() - 1
+        });
+        known.unwrap_or_else(|| {
+            let node = self.points.len();
+            self.points.push(point);
+            self.by_place.insert(node, Bounds::of_points(&[point]));
+            node
+        })
     }
 }

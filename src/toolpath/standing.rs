@@ -14,9 +14,8 @@ use super::offset::normal;
 use super::path::{PathSegment, Source, WirePath};
 use crate::drawing::{Drawing, Outline};
 use crate::finding::{Finding, Rule, Severity};
-use crate::geometry::{Point, Segment, Vector, cross};
+use crate::geometry::{Bounds, Grid, Point, Segment, Vector, cross};
 use crate::settings::Effective;
-use rustc_hash::FxHashMap;
 
 /// A neck below this share of its tab is a warning.
 const THIN: f64 = 1.0 / 3.0;
@@ -398,18 +397,11 @@ fn loose(settings: &Effective, unit_mm: f64, path: &WirePath) -> Option<Loose> {
         let more = (hole - first.radius).max(0.0);
         spots.iter().for_each(|spot| look(first, spot, more));
     }
-    let cell = |at: Point| {
-        let of = |number: f64| (number / (2.0 * wide)).floor() as i64;
-        (of(at.x), of(at.y))
-    };
-    let mut cells: FxHashMap<(i64, i64), Vec<usize>> = FxHashMap::default();
+    let mut before = Grid::default();
     for (nth, spot) in spots.iter().enumerate() {
-        let (x, y) = cell(spot.at);
-        for near in (x - 1..=x + 1).flat_map(|x| (y - 1..=y + 1).map(move |y| (x, y))) {
-            let before = cells.get(&near).into_iter().flatten();
-            before.for_each(|&before| look(&spots[before], spot, 0.0));
-        }
-        cells.entry((x, y)).or_default().push(nth);
+        let cut = Bounds::of_disc(spot.at, wide);
+        before.near(&cut, |nth: usize, _| look(&spots[nth], spot, 0.0));
+        before.insert(nth, cut);
     }
     let (area, spot) = worst?;
     let area = area * unit_mm * unit_mm;
