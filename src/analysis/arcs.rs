@@ -113,10 +113,8 @@ impl Analysis {
             let Some(edit) = small_radius::drawing_edit(drawing, together) else {
                 return Tried::Worse;
             };
-            let enlarges = |it: &Analysis, drawing: &Drawing, edit: &DrawingEdit| {
-                Tried::of(it.enlarges(drawing, edit, None, &mut 0).then_some(()))
-            };
-            (self.made_of(drawing, &edit, wanted, enlarges)).map(|()| edit)
+            let enlarges = self.enlarges(drawing, &edit, None, &mut 0);
+            Tried::of(enlarges.then_some(edit))
         })
     }
 

@@ -18,7 +18,6 @@ mod known;
 mod largest_wire;
 mod learn;
 mod misfits;
-mod nearby;
 mod notable;
 mod observations;
 mod own_walls;
@@ -37,6 +36,9 @@ mod together;
 mod told;
 mod twice;
 mod within;
+
+#[cfg(test)]
+mod tests;
 
 #[cfg(test)]
 pub(crate) use contours::is_cut;

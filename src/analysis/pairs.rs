@@ -183,11 +183,6 @@ impl Pairs {
             .collect()
     }
 
-    /// The contours of which a run touches an area; each as often as runs do.
-    pub(super) fn each_near(&self, area: &Bounds, mut found: impl FnMut(ContourKey)) {
-        self.grid.near(area, |(key, _), _| found(key));
-    }
-
     /// Whether runs of other contours come near these bounds of one.
     pub(crate) fn comes_near_others(&self, key: ContourKey, bounds: &Bounds) -> bool {
         let area = bounds.grown(self.reach);
