@@ -257,9 +257,7 @@ impl Analysis {
             });
         let run = near.find_map(|at| small_radius::run_of(&travel, at, &limits));
         let arcs = run.and_then(|run| {
-            let replacement = small_radius::refillet(&travel, &run, &limits)
-                .outcome
-                .ok()?;
+            let replacement = small_radius::refillet(&travel, &run, &limits).ok()?;
             small_radius::drawing_edit(drawing, &[(travel, replacement)])
         });
         match arcs {

@@ -159,8 +159,8 @@ impl Analysis {
         let is_recounted = before.count() != geometry.segment_count();
         if is_recounted {
             self.chains.recount(drawing, entity);
-            self.answers.retain(|(other, _), _| *other != key);
         }
+        self.answers.retain(|(other, _), _| *other != key);
         self.lost.remove(&key);
         let edited = self.chains.piece_of(entity).filter(|_| !is_recounted);
         let edited = edited.zip(vertices).map(|(piece, vertices)| {
@@ -247,20 +247,10 @@ impl Analysis {
             }
         }
         for range in ranges {
-            let mut changed = known.index.bounds_about(range.clone());
             let runs = known.index.runs_over(range.clone());
             (known.index).look_again(drawing, contour, self.tight_below(), runs);
-            changed.merge(&known.index.bounds_about(range.clone()));
-            known.check(
-                drawing,
-                contour,
-                &self.limits,
-                &self.settings,
-                range.clone(),
-                None,
-            );
-            self.answers
-                .retain(|(other, _), (_, region)| *other != key || !region.touches(&changed));
+            let (limits, settings) = (&self.limits, &self.settings);
+            known.check(drawing, contour, limits, settings, range, None);
         }
         self.enter_known(key, Arc::new(known));
         self.note(drawing, key);

@@ -97,8 +97,8 @@ pub struct Analysis {
     /// of it is kept until the next change. Nothing of it shows, since it is not in the drawing.
     suspended: Option<Suspended>,
     pairs: Pairs,
-    /// Whether a fix was found for a fault, and the region on which that depends.
-    answers: FxHashMap<(ContourKey, usize), (Option<NoFix>, Bounds)>,
+    /// Why no fix was found for a fault of a contour, or that one was.
+    answers: FxHashMap<(ContourKey, usize), Option<NoFix>>,
     /// What the path along a contour loses, for a side and with or without a neck.
     lost: FxHashMap<ContourKey, Loss>,
     /// What was found between partners, or for a contour that is cut twice.
