@@ -60,7 +60,6 @@ impl Pairs {
     /// To be called when the segments of a contour from `first` on have other indices, which lie in these runs, and nothing
     /// is known of the segment before them.
     fn shift(&mut self, key: ContourKey, runs: Range<u32>, first: usize, by: isize) {
-        self.told = None;
         for run in runs.clone() {
             let partners: Vec<RunId> = self.partners_of((key, run)).collect();
             for partner in partners {

@@ -7,15 +7,9 @@ use crate::rules::{Outlook, PAIR_RULES};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
 
-/// The findings of the observed pairs, valid while no pair comes or goes and the wire stays on its sides.
+/// The findings of the observed pairs.
 #[derive(Debug, Default)]
 pub(super) struct Told {
-    /// The side of the wire at each of the contours.
-    pub(super) sides: FxHashMap<ContourKey, Option<Side>>,
-    /// Contours that lie on one another with the wire on different sides, and whether one takes of the part of the other.
-    pub(super) meeting: FxHashMap<[ContourKey; 2], bool>,
-    /// The place of the first run that has not been compared.
-    pub(super) uncompared: Option<Place>,
     /// In the order of the rules, and in the machining order of the entities.
     pub(super) pairs: Vec<ToldPair>,
     /// The number of each rule and severity.
@@ -131,21 +125,6 @@ impl Doubles {
 
     pub(super) fn detail(&self) -> Detail {
         Detail::DuplicateEntity { count: self.count }
-    }
-}
-
-impl Told {
-    pub(super) fn holds(
-        &self,
-        outlook: Outlooks,
-        wire_side: &dyn Fn(ContourKey) -> Option<Side>,
-    ) -> bool {
-        self.sides
-            .iter()
-            .all(|(&key, &side)| wire_side(key) == side)
-            && self.meeting.iter().all(|(&[one, other], &takes)| {
-                takes_of_the_other(outlook, [one, other], wire_side) == takes
-            })
     }
 }
 
