@@ -130,17 +130,17 @@ fn lies_beside(line: &Line, other: &Line, reach: f64) -> bool {
 }
 
 /// A cache of the walls of some runs, which their neighbours need repeatedly.
-pub(crate) struct Kept<'a, 'b> {
+pub(crate) struct RunsAtHand<'a, 'b> {
     pub(crate) outlook: Outlooks<'a, 'b>,
-    walls: FxHashMap<RunId, Rc<Walls<'b>>>,
+    walls: FxHashMap<RunId, Rc<RunWalls<'b>>>,
     /// The runs that are kept, the oldest first, and how many segments they have.
     order: VecDeque<RunId>,
     segments: usize,
 }
 
-impl<'a, 'b> Kept<'a, 'b> {
-    pub(crate) fn new(outlook: Outlooks<'a, 'b>) -> Kept<'a, 'b> {
-        Kept {
+impl<'a, 'b> RunsAtHand<'a, 'b> {
+    pub(crate) fn new(outlook: Outlooks<'a, 'b>) -> RunsAtHand<'a, 'b> {
+        RunsAtHand {
             outlook,
             walls: FxHashMap::default(),
             order: VecDeque::new(),
@@ -148,11 +148,11 @@ impl<'a, 'b> Kept<'a, 'b> {
         }
     }
 
-    pub(crate) fn walls_of(&mut self, run: RunId) -> Option<Rc<Walls<'b>>> {
+    pub(crate) fn walls_of(&mut self, run: RunId) -> Option<Rc<RunWalls<'b>>> {
         if let Some(walls) = self.walls.get(&run) {
             return Some(walls.clone());
         }
-        let walls = Rc::new(Walls::of(&(self.outlook)(run.0)?, run.1));
+        let walls = Rc::new(RunWalls::of(&(self.outlook)(run.0)?, run.1));
         self.segments += walls.each.len();
         while self.segments > KEPT
             && let Some(oldest) = self.order.pop_front()
@@ -170,15 +170,15 @@ impl<'a, 'b> Kept<'a, 'b> {
 pub(crate) type Walled<'a> = (Wall<'a>, Bounds);
 
 /// The segments of a run.
-pub(crate) struct Walls<'a> {
+pub(crate) struct RunWalls<'a> {
     pub(crate) each: Vec<Walled<'a>>,
     /// The box of each [`GROUP`] of them, and that of all.
     pub(crate) groups: Vec<Bounds>,
     pub(crate) all: Bounds,
 }
 
-impl<'a> Walls<'a> {
-    pub(crate) fn of(outlook: &Outlook<'a>, run: u32) -> Walls<'a> {
+impl<'a> RunWalls<'a> {
+    pub(crate) fn of(outlook: &Outlook<'a>, run: u32) -> RunWalls<'a> {
         let range = outlook.index.range_of(run as usize);
         let first = range.start;
         let segments = outlook
@@ -205,7 +205,7 @@ impl<'a> Walls<'a> {
             bounds
         });
         let groups = groups.collect();
-        Walls { each, groups, all }
+        RunWalls { each, groups, all }
     }
 
     /// True when a segment comes nearer to `center` than `radius`; `area` is the box of that disc.
@@ -232,7 +232,7 @@ pub(crate) struct Comparison<'a> {
 
 impl Comparison<'_> {
     /// The pairs within one run. Returns how many looks it took, as [`Comparison::between`] does.
-    pub(crate) fn within(&self, walls: &Walls, found: &mut Vec<Observed>) -> u64 {
+    pub(crate) fn within(&self, walls: &RunWalls, found: &mut Vec<Observed>) -> u64 {
         let mut looks = (walls.each.len() * walls.groups.len()) as u64;
         for (at, one) in walls.each.iter().enumerate() {
             let area = one.1.grown(self.reach);
@@ -261,7 +261,12 @@ impl Comparison<'_> {
         looks
     }
 
-    pub(crate) fn between(&self, walls: &Walls, others: &Walls, found: &mut Vec<Observed>) -> u64 {
+    pub(crate) fn between(
+        &self,
+        walls: &RunWalls,
+        others: &RunWalls,
+        found: &mut Vec<Observed>,
+    ) -> u64 {
         let mut looks = (walls.each.len() + others.each.len()) as u64;
         for one in &walls.each {
             let area = one.1.grown(self.reach);

@@ -4,7 +4,8 @@ use super::compare::{Observed, Outlooks, SegmentId};
 use super::pairs::Pairs;
 use super::report::Report;
 use super::told::{
-    Doubles, Told, ToldPair, gather_crossings, is_without_room, merged, reaches, takes_of_the_other,
+    DoublesOfContour, PairFinding, PairFindings, gather_crossings, is_without_room, merged,
+    reaches, takes_of_the_other,
 };
 use super::twice::Twice;
 use crate::drawing::{ContourKey, Drawing, EntityId};
@@ -167,7 +168,7 @@ impl Pairs {
         outlook: Outlooks,
         wire_side: &dyn Fn(ContourKey) -> Option<Side>,
         report: &Report,
-    ) -> Told {
+    ) -> PairFindings {
         let mut sides = FxHashMap::default();
         for key in (self.seen.told()).flat_map(|each| [each.one.0, each.other.0]) {
             sides.entry(key).or_insert_with(|| wire_side(key));
@@ -188,7 +189,7 @@ impl Pairs {
         let merged = merged(&seen.iter().map(|it| it.each).collect::<Vec<_>>(), &|key| {
             outlook(key).map(|it| it.contour.len())
         });
-        let mut told = Told::default();
+        let mut told = PairFindings::default();
         for (at, it) in seen.iter().enumerate() {
             if merged.contains(&at) || in_one_place.is_silent(it) {
                 continue;
@@ -210,7 +211,7 @@ impl Pairs {
                 *told.absorbed.entry((it.each.rule, mildest)).or_default() += 1;
                 continue;
             }
-            told.pairs.push(ToldPair {
+            told.pairs.push(PairFinding {
                 rule: it.each.rule,
                 mildest,
                 kind: 0,
@@ -220,7 +221,7 @@ impl Pairs {
                 crossings: None,
             });
         }
-        let of_pair = |pair: &ToldPair| {
+        let of_pair = |pair: &PairFinding| {
             let first = outlook(pair.one.0).and_then(|it| it.segment_id(pair.one.1));
             (pair.rule, first.map(rank))
         };
@@ -267,14 +268,14 @@ struct InOnePlace {
     later: FxHashSet<EntityId>,
     all: FxHashSet<EntityId>,
     /// Of each contour those that lie on the first of them, until they have been reported.
-    others: FxHashMap<(ContourKey, bool), Doubles>,
+    others: FxHashMap<(ContourKey, bool), DoublesOfContour>,
 }
 
 impl InOnePlace {
     fn among(seen: &[Seen], telling: &Telling) -> InOnePlace {
         let doubles = || (seen.iter()).filter(|it| it.rule() == Rule::DuplicateEntity);
         let later: FxHashSet<EntityId> = doubles().map(|it| it.other.0).collect();
-        let mut others: FxHashMap<(ContourKey, bool), Doubles> = FxHashMap::default();
+        let mut others: FxHashMap<(ContourKey, bool), DoublesOfContour> = FxHashMap::default();
         for it in doubles().filter(|it| !later.contains(&it.one.0)) {
             let (key, index) = it.each.other;
             if let Some(place) = (telling.outlook)(key).and_then(|it| it.place(index)) {

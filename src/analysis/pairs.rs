@@ -1,7 +1,7 @@
 //! The observations of the rules on pairs of segments, by the runs of the two segments.
 
 use super::again::Again;
-use super::compare::{Kept, LOOKS_OF_A_PAIR, Observed, Outlooks, RunId, ordered};
+use super::compare::{LOOKS_OF_A_PAIR, Observed, Outlooks, RunId, RunsAtHand, ordered};
 use super::observations::Observations;
 use super::search::{BOXES_OF_A_LOOK, MANY_RUNS, Search, shells_where_crowded};
 use crate::drawing::{ContourIndex, ContourKey};
@@ -240,7 +240,7 @@ impl Pairs {
             new: &new,
             are_parts: self.are_parts,
         };
-        let mut kept = Kept::new(outlook);
+        let mut kept = RunsAtHand::new(outlook);
         let compared = search.compared(&mut kept, runs, (self.left, self.seen_count));
         (self.left, self.seen_count) = (compared.left, compared.count);
         if is_again {
@@ -290,7 +290,12 @@ impl Pairs {
 
     /// Checks whether the discs of the stale runs' observations are empty, while looks are left.
     /// Those whose discs remain unchecked give no findings.
-    fn ask_again(&mut self, kept: &mut Kept, limits: &Limits, shells: Option<&Shells<RunId>>) {
+    fn ask_again(
+        &mut self,
+        kept: &mut RunsAtHand,
+        limits: &Limits,
+        shells: Option<&Shells<RunId>>,
+    ) {
         let mut left = self.left_to_ask;
         let stale = std::mem::take(&mut self.stale);
         let partners = stale
@@ -339,7 +344,7 @@ impl Pairs {
     /// True when some segment, of one contour alone or of all of its workpiece, reaches into a disc by more than rounding.
     fn reaches_into(
         &self,
-        (kept, shells): (&mut Kept, Option<&Shells<RunId>>),
+        (kept, shells): (&mut RunsAtHand, Option<&Shells<RunId>>),
         limits: &Limits,
         (center, radius): (Point, f64),
         (of, is_own): (ContourKey, bool),

