@@ -5,7 +5,7 @@ use super::notable::TightArc;
 use super::repair::{self, Tried, Wanted};
 use crate::drawing::{ContourKey, ContourSegment, Drawing, DrawingEdit, EntityId, Kind};
 use crate::finding::{Fix, FixKind, NoFix, Place, Rule, Side, SmallRadius};
-use crate::rules::small_radius::{self, Attempt, Replacement, Travel};
+use crate::rules::small_radius::{self, Replacement, Travel};
 use crate::settings::Compensation;
 use rustc_hash::FxHashSet;
 use std::sync::Arc;
@@ -35,8 +35,8 @@ impl Analysis {
         key: ContourKey,
         index: usize,
     ) -> Option<Fix> {
-        let (travel, attempt) = self.attempt(drawing, key, index)?;
-        let replacement = attempt.outcome.ok()?;
+        let (travel, replacement) = self.attempt(drawing, key, index)?;
+        let replacement = replacement.ok()?;
         let kind = FixKind::Refillet {
             radius: replacement.arc.radius,
             arcs: replacement.arcs,
@@ -60,7 +60,7 @@ impl Analysis {
         let of_contour = |(key, wire_side): (ContourKey, Option<Side>)| {
             let mut accepted: Vec<(Stretch, Travel, Replacement)> = Vec::new();
             for index in self.tight_in_entity_order(key) {
-                let is_answered = matches!(self.answers.get(&(key, index)), Some((Some(_), _)));
+                let is_answered = matches!(self.answers.get(&(key, index)), Some(Some(_)));
                 let fault = if is_answered {
                     None
                 } else {
@@ -73,14 +73,7 @@ impl Analysis {
                 if fault.as_ref().is_none_or(is_let_stand) {
                     continue;
                 }
-                let Some((
-                    travel,
-                    Attempt {
-                        outcome: Ok(replacement),
-                        ..
-                    },
-                )) = self.attempt(drawing, key, index)
-                else {
+                let Some((travel, Ok(replacement))) = self.attempt(drawing, key, index) else {
                     continue;
                 };
                 let stretch = Stretch::of(&travel, &replacement);
@@ -113,10 +106,8 @@ impl Analysis {
             let Some(edit) = small_radius::drawing_edit(drawing, together) else {
                 return Tried::Worse;
             };
-            let enlarges = |it: &Analysis, drawing: &Drawing, edit: &DrawingEdit| {
-                Tried::of(it.enlarges(drawing, edit, None, &mut 0).then_some(()))
-            };
-            (self.made_of(drawing, &edit, wanted, enlarges)).map(|()| edit)
+            let enlarges = self.enlarges(drawing, &edit, None, &mut 0);
+            Tried::of(enlarges.then_some(edit))
         })
     }
 
@@ -251,7 +242,7 @@ impl Analysis {
         drawing: &'a Drawing,
         key: ContourKey,
         index: usize,
-    ) -> Option<(Travel<'a>, Attempt)> {
+    ) -> Option<(Travel<'a>, Result<Replacement, NoFix>)> {
         let contour = self.chains.get(key)?;
         let segment = contour.segment(drawing, index)?;
         let arc = *segment.geometry.as_arc()?;
@@ -263,54 +254,42 @@ impl Analysis {
         };
         if !drawing.is_editable(segment.entity) {
             // No search: its result could not be applied, and a fitted curve may have a million tight arcs.
-            return Some((
-                travel,
-                Attempt {
-                    outcome: Err(NoFix::NotEditable),
-                    region: segment.geometry.bounds(),
-                },
-            ));
+            return Some((travel, Err(NoFix::NotEditable)));
         }
         let position = travel.position_of(index);
         let run = small_radius::run_of(&travel, position, &self.limits)?;
-        let mut attempt = small_radius::refillet(&travel, &run, &self.limits);
+        let mut found = small_radius::refillet(&travel, &run, &self.limits);
         // An arc that was drawn in two pieces and rounded is one run all the same.
-        if attempt.outcome.is_err()
+        if found.is_err()
             && let Some(longer) = small_radius::rounded_run_of(&travel, position, &self.limits)
                 .filter(|longer| *longer != run)
         {
-            let again = small_radius::refillet(&travel, &longer, &self.limits);
-            let mut region = attempt.region;
-            region.merge(&again.region);
-            attempt = Attempt {
-                outcome: again.outcome.or(attempt.outcome),
-                region,
-            };
+            found = small_radius::refillet(&travel, &longer, &self.limits).or(found);
         }
-        if let Ok(replacement) = &attempt.outcome
+        if let Ok(replacement) = &found
             && !(replacement.before..=replacement.after).all(|position| {
                 travel
                     .segment(position)
                     .is_none_or(|segment| drawing.is_editable(segment.entity))
             })
         {
-            attempt.outcome = Err(NoFix::NotEditable);
+            found = Err(NoFix::NotEditable);
         }
-        Some((travel, attempt))
+        Some((travel, found))
     }
 
-    /// Why a fault has no fix, `None` where it has one; stored until something near it changes.
+    /// Why a fault has no fix, `None` where it has one; stored until the contour changes.
     pub(super) fn answer(
         &mut self,
         drawing: &Drawing,
         key: ContourKey,
         index: usize,
     ) -> Option<NoFix> {
-        if let Some((answer, _)) = self.answers.get(&(key, index)) {
+        if let Some(answer) = self.answers.get(&(key, index)) {
             return *answer;
         }
-        let (travel, attempt) = self.attempt(drawing, key, index)?;
-        let answer = (attempt.outcome.err(), attempt.region);
+        let (travel, replacement) = self.attempt(drawing, key, index)?;
+        let answer = replacement.err();
         let is_editable = |index: usize| {
             let segment = travel.contour.segment_id(drawing, index);
             segment.is_some_and(|(entity, _)| drawing.is_editable(entity))
@@ -327,7 +306,7 @@ impl Analysis {
         self.answers.insert((key, index), answer);
         let alike = alike.into_iter().map(|index| ((key, index), answer));
         self.answers.extend(alike);
-        answer.0
+        answer
     }
 
     /// The number of arcs below the correction in some entities.

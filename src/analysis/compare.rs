@@ -130,17 +130,17 @@ fn lies_beside(line: &Line, other: &Line, reach: f64) -> bool {
 }
 
 /// A cache of the walls of some runs, which their neighbours need repeatedly.
-pub(crate) struct Kept<'a, 'b> {
+pub(crate) struct RunsAtHand<'a, 'b> {
     pub(crate) outlook: Outlooks<'a, 'b>,
-    walls: FxHashMap<RunId, Rc<Walls<'b>>>,
+    walls: FxHashMap<RunId, Rc<RunWalls<'b>>>,
     /// The runs that are kept, the oldest first, and how many segments they have.
     order: VecDeque<RunId>,
     segments: usize,
 }
 
-impl<'a, 'b> Kept<'a, 'b> {
-    pub(crate) fn new(outlook: Outlooks<'a, 'b>) -> Kept<'a, 'b> {
-        Kept {
+impl<'a, 'b> RunsAtHand<'a, 'b> {
+    pub(crate) fn new(outlook: Outlooks<'a, 'b>) -> RunsAtHand<'a, 'b> {
+        RunsAtHand {
             outlook,
             walls: FxHashMap::default(),
             order: VecDeque::new(),
@@ -148,11 +148,11 @@ impl<'a, 'b> Kept<'a, 'b> {
         }
     }
 
-    pub(crate) fn walls_of(&mut self, run: RunId) -> Option<Rc<Walls<'b>>> {
+    pub(crate) fn walls_of(&mut self, run: RunId) -> Option<Rc<RunWalls<'b>>> {
         if let Some(walls) = self.walls.get(&run) {
             return Some(walls.clone());
         }
-        let walls = Rc::new(Walls::of(&(self.outlook)(run.0)?, run.1));
+        let walls = Rc::new(RunWalls::of(&(self.outlook)(run.0)?, run.1));
         self.segments += walls.each.len();
         while self.segments > KEPT
             && let Some(oldest) = self.order.pop_front()
@@ -169,38 +169,18 @@ impl<'a, 'b> Kept<'a, 'b> {
 /// A segment of a run with its box.
 pub(crate) type Walled<'a> = (Wall<'a>, Bounds);
 
-/// The segments of a run, or those of them that come near something.
-pub(crate) struct Walls<'a> {
+/// The segments of a run.
+pub(crate) struct RunWalls<'a> {
     pub(crate) each: Vec<Walled<'a>>,
-    /// The number of all segments.
-    count: usize,
     /// The box of each [`GROUP`] of them, and that of all.
     pub(crate) groups: Vec<Bounds>,
     pub(crate) all: Bounds,
 }
 
-impl<'a> Walls<'a> {
-    pub(crate) fn of(outlook: &Outlook<'a>, run: u32) -> Walls<'a> {
-        Walls::of_those(outlook, run, |_, _| true)
-    }
-
-    /// Those that may come nearer to one of some others than `reach`.
-    pub(crate) fn near(outlook: &Outlook<'a>, run: u32, to: &[&Walled], reach: f64) -> Walls<'a> {
-        Walls::of_those(outlook, run, |segment, bounds| {
-            to.iter().any(|(wall, own)| {
-                own.grown(reach).touches(bounds)
-                    && may_meet((wall.geometry(), own), (segment, bounds), reach)
-            })
-        })
-    }
-
-    fn of_those(
-        outlook: &Outlook<'a>,
-        run: u32,
-        is_one: impl Fn(&Segment, &Bounds) -> bool,
-    ) -> Walls<'a> {
+impl<'a> RunWalls<'a> {
+    pub(crate) fn of(outlook: &Outlook<'a>, run: u32) -> RunWalls<'a> {
         let range = outlook.index.range_of(run as usize);
-        let (first, count) = (range.start, range.len());
+        let first = range.start;
         let segments = outlook
             .contour
             .segments_in(outlook.drawing, range)
@@ -211,13 +191,12 @@ impl<'a> Walls<'a> {
         let wall = |(along, segment): (usize, ContourSegment)| {
             let before = before.replace(segment.geometry);
             let bounds = segment.geometry.bounds();
-            is_one(&segment.geometry, &bounds).then(|| {
-                let wall = Wall::behind(before, outlook, first + along, segment);
-                (wall, bounds)
-            })
+            (
+                Wall::behind(before, outlook, first + along, segment),
+                bounds,
+            )
         };
-        let mut each: Vec<Walled> = Vec::with_capacity(count);
-        each.extend(segments.filter_map(wall));
+        let each: Vec<Walled> = segments.map(wall).collect();
         let mut all = Bounds::EMPTY;
         let groups = each.chunks(GROUP).map(|group| {
             let mut bounds = Bounds::EMPTY;
@@ -226,12 +205,7 @@ impl<'a> Walls<'a> {
             bounds
         });
         let groups = groups.collect();
-        Walls {
-            each,
-            count,
-            groups,
-            all,
-        }
+        RunWalls { each, groups, all }
     }
 
     /// True when a segment comes nearer to `center` than `radius`; `area` is the box of that disc.
@@ -258,7 +232,7 @@ pub(crate) struct Comparison<'a> {
 
 impl Comparison<'_> {
     /// The pairs within one run. Returns how many looks it took, as [`Comparison::between`] does.
-    pub(crate) fn within(&self, walls: &Walls, found: &mut Vec<Observed>) -> u64 {
+    pub(crate) fn within(&self, walls: &RunWalls, found: &mut Vec<Observed>) -> u64 {
         let mut looks = (walls.each.len() * walls.groups.len()) as u64;
         for (at, one) in walls.each.iter().enumerate() {
             let area = one.1.grown(self.reach);
@@ -287,14 +261,19 @@ impl Comparison<'_> {
         looks
     }
 
-    pub(crate) fn between(&self, walls: &Walls, others: &Walls, found: &mut Vec<Observed>) -> u64 {
-        let mut looks = (walls.count + others.count) as u64;
+    pub(crate) fn between(
+        &self,
+        walls: &RunWalls,
+        others: &RunWalls,
+        found: &mut Vec<Observed>,
+    ) -> u64 {
+        let mut looks = (walls.each.len() + others.each.len()) as u64;
         for one in &walls.each {
             let area = one.1.grown(self.reach);
             if !(area.touches(&others.all) && passes(one.0.geometry(), &others.all, self.reach)) {
                 continue;
             }
-            looks += others.count.div_ceil(GROUP) as u64;
+            looks += others.groups.len() as u64;
             for (group, _) in others
                 .each
                 .chunks(GROUP)

@@ -21,7 +21,7 @@ use std::ops::Bound;
 type Farthest = (u64, usize, bool);
 
 /// A dead end as it is reported. Of several at one place it is the least deep one, then the one with the first walls.
-struct Told {
+struct ReportedEnd {
     order: (Farthest, u64, [usize; 2]),
     of: ContourKey,
     /// It is known on which side of the contour the wire runs.
@@ -33,7 +33,7 @@ struct Told {
 struct Around<'a> {
     outlook: Outlook<'a>,
     side: Option<Side>,
-    slots: Option<Slots>,
+    slots: Option<SlotsBySide>,
 }
 
 impl Analysis {
@@ -56,7 +56,7 @@ impl Analysis {
         self.pairs = pairs;
         // The wire follows a contour that is its own path.
         let mildest = report.is_for_a_path().then_some(Severity::Warning);
-        let (known, unknown): (Vec<Told>, Vec<Told>) =
+        let (known, unknown): (Vec<ReportedEnd>, Vec<ReportedEnd>) =
             told.into_iter().partition(|told| told.has_side);
         self.report_ends(drawing, &known, mildest, report);
         self.report_ends(drawing, &unknown, Some(Severity::Warning), report);
@@ -65,14 +65,14 @@ impl Analysis {
     fn report_ends(
         &self,
         drawing: &Drawing,
-        told: &[Told],
+        told: &[ReportedEnd],
         mildest: Option<Severity>,
         report: &mut Report,
     ) {
         report.count(Rule::LostPocket, mildest, told.len());
         // Only the first ones are reported.
         let most = report.room(Rule::LostPocket, mildest);
-        for Told {
+        for ReportedEnd {
             order, of, left, ..
         } in told.iter().take(most)
         {
@@ -114,14 +114,14 @@ impl Analysis {
         drawing: &Drawing,
         pairs: &mut Pairs,
         side_of: &dyn Fn(&Analysis, ContourKey) -> Option<Side>,
-    ) -> Vec<Told> {
+    ) -> Vec<ReportedEnd> {
         let mut slots = pairs.slots();
         let crossed: FxHashSet<ContourKey> = pairs.seen.crossings.keys().copied().collect();
         // A tangle may have as many dead ends as pairs of segments.
         let mut around = |key: ContourKey| {
             let outlook = self.outlook(drawing, key);
             let outlook = outlook.filter(|_| !crossed.contains(&key))?;
-            let slots = slots.remove(&key).map(|slots| Slots::of(&slots));
+            let slots = slots.remove(&key).map(|slots| SlotsBySide::of(&slots));
             let side = side_of(self, key);
             Some(Around {
                 outlook,
@@ -134,7 +134,7 @@ impl Analysis {
             let around = all.entry(each.one.0).or_insert_with_key(|&key| around(key));
             around.as_ref()?.told(each)
         });
-        let mut told: Vec<Told> = told.collect();
+        let mut told: Vec<ReportedEnd> = told.collect();
         told.sort_unstable_by_key(|told| told.order);
         told.dedup_by_key(|told| told.order.0);
         told
@@ -143,7 +143,7 @@ impl Analysis {
 
 impl Around<'_> {
     /// What is reported of a dead end, which is worked out if necessary.
-    fn told(&self, each: &mut Observed) -> Option<Told> {
+    fn told(&self, each: &mut Observed) -> Option<ReportedEnd> {
         let outlook = &self.outlook;
         let ((Some(side), _), Some((center, _))) = (each.sides, each.disc) else {
             return None;
@@ -162,7 +162,7 @@ impl Around<'_> {
             }
         });
         let (walls, left) = (ended.walls, ended.left?);
-        let is_slot = |slots: &Slots| slots.lie_between(walls, outlook.contour.len(), side);
+        let is_slot = |slots: &SlotsBySide| slots.lie_between(walls, outlook.contour.len(), side);
         if self.slots.as_ref().is_some_and(is_slot) {
             return None;
         }
@@ -171,7 +171,7 @@ impl Around<'_> {
         // Depths are not negative: their bits are in their order.
         let order = (place, left.depth.to_bits(), walls);
         let of = each.one.0;
-        Some(Told {
+        Some(ReportedEnd {
             order,
             of,
             has_side: self.side.is_some(),
@@ -200,11 +200,11 @@ fn reaches_into(index: &ContourIndex, [from, to]: [usize; 2], runs: &BTreeSet<u3
 
 /// The slots between walls of one contour, for the wire on either side: the two walls, in the order of the first, each
 /// with the least second wall from it on.
-struct Slots([Vec<([usize; 2], usize)>; 2]);
+struct SlotsBySide([Vec<([usize; 2], usize)>; 2]);
 
-impl Slots {
-    fn of(slots: &[FacingWalls]) -> Slots {
-        Slots([Side::Left, Side::Right].map(|on| {
+impl SlotsBySide {
+    fn of(slots: &[FacingWalls]) -> SlotsBySide {
+        SlotsBySide([Side::Left, Side::Right].map(|on| {
             let on_side = slots
                 .iter()
                 .filter(|(_, side)| side.is_none_or(|side| side == on));

@@ -13,7 +13,7 @@ use super::contours::{role_of, set_aside};
 use super::end_index::{EndIndex, SHARE};
 use super::report::Report;
 use super::runs::{MANY_RUNS, Runs, boxes_of, is_flat};
-use crate::drawing::{ContourIndex, ContourKey, Drawing, EntityId, Role};
+use crate::drawing::{ContourKey, Drawing, EntityId, Role};
 use crate::finding::{Aside, Detail, MOST_HANDLES, Place, Rule, SetAside};
 use crate::geometry::{
     Bounds, Boxes, Grid, Line, Point, Segment, Vector, cross, line_line, meetings,
@@ -160,7 +160,6 @@ impl Analysis {
         if keys.is_empty() {
             return Vec::new();
         }
-        self.know_vicinity();
         let is_closed = |key: &ContourKey| self.chains.get(*key).is_some_and(|it| it.closed);
         let sorted = self.sorted_runs(keys.len());
         let holds = |lone: &Lone, other: ContourKey| {
@@ -187,7 +186,7 @@ impl Analysis {
             !closed.any_near(&lone.reach, |key| is_there(key) && holds(lone, key))
                 || closed.any_near(&lone.reach, |key| is_there(key) && is_met(lone, key))
         };
-        let faced = OnceLock::new();
+        let (faced, boxes) = (OnceLock::new(), OnceLock::new());
         let is_sorted = keys.len() > MANY && keys.len() * FEW_OF_ALL > self.lone.len();
         let judge = |&key: &ContourKey| {
             let lone = self.lone.get(&key)?;
@@ -206,7 +205,9 @@ impl Analysis {
                     !faced.any_near(&lone.line, self.reaches_of(lone), is_faced),
                 ));
             }
-            let near = self.contours_near(drawing, &lone.reach);
+            let boxes = boxes.get_or_init(|| self.boxes_by_place(drawing));
+            let mut near = Vec::new();
+            boxes.near(&lone.reach, |key, _| near.push(key));
             let is_aside = near.iter().any(|&other| holds(lone, other))
                 && !near.iter().any(|&other| is_met(lone, other))
                 && !near
@@ -233,68 +234,18 @@ impl Analysis {
         long.map(|(&key, of)| (key, boxes_of(&of.index))).collect()
     }
 
-    /// The contours of a drawing whose boxes, or reaches of lone lines, touch an area.
-    fn contours_near(&self, drawing: &Drawing, area: &Bounds) -> Vec<ContourKey> {
-        let mut near = Vec::new();
-        // A contour of one run lies where its run does.
-        self.pairs.grid.near(area, |(key, _), _| {
-            if !self.lone.contains_key(&key) {
-                near.push(key);
-            }
-        });
-        if let Some(vicinity) = &self.vicinity {
-            vicinity.near(area, |key, _| near.push(key));
-        }
-        near.sort_unstable();
-        near.dedup();
-        near.retain(|key| self.lone.contains_key(key) || self.is_there(drawing, *key));
-        near
-    }
-
-    /// Sorts what may be near single lines by place, unless that is done.
-    pub(super) fn know_vicinity(&mut self) {
-        if self.vicinity.is_some() {
-            return;
-        }
-        let mut vicinity = Grid::default();
+    /// The boxes of the contours of a drawing, and the reaches of lone lines.
+    fn boxes_by_place(&self, drawing: &Drawing) -> Grid<ContourKey> {
+        let mut boxes = Grid::default();
         for (&key, lone) in &self.lone {
-            vicinity.insert(key, lone.reach);
+            boxes.insert(key, lone.reach);
         }
         for (&key, known) in &self.known {
-            if known.index.run_count() > 1 && !self.lone.contains_key(&key) {
-                vicinity.insert(key, known.index.bounds());
+            if !self.lone.contains_key(&key) && self.is_there(drawing, key) {
+                boxes.insert(key, known.index.bounds());
             }
         }
-        self.vicinity = Some(vicinity);
-    }
-
-    /// Records that a contour is known.
-    pub(super) fn enter_vicinity(&mut self, key: ContourKey, index: &ContourIndex) {
-        if let Some(vicinity) = &mut self.vicinity
-            && index.run_count() > 1
-            && !self.lone.contains_key(&key)
-        {
-            vicinity.insert(key, index.bounds());
-        }
-    }
-
-    /// Records that it is no longer known.
-    pub(super) fn leave_vicinity(&mut self, key: ContourKey, index: &ContourIndex) {
-        if let Some(vicinity) = &mut self.vicinity
-            && index.run_count() > 1
-            && !self.lone.contains_key(&key)
-        {
-            vicinity.remove(key, &index.bounds());
-        }
-    }
-
-    /// Forgets a lone line.
-    pub(super) fn forget_lone(&mut self, key: ContourKey) {
-        if let Some(lone) = self.lone.remove(&key)
-            && let Some(vicinity) = &mut self.vicinity
-        {
-            vicinity.remove(key, &lone.reach);
-        }
+        boxes
     }
 
     /// True where an end of the line faces one of another contour.
@@ -404,24 +355,10 @@ impl Analysis {
 
     /// The lines whose answer may depend on something within these boxes.
     pub(super) fn lone_near(&self, changed: &[Bounds]) -> Vec<ContourKey> {
-        let mut keys: Vec<ContourKey> = match &self.vicinity {
-            Some(vicinity) => {
-                let mut near = Vec::new();
-                for bounds in changed {
-                    vicinity.near(bounds, |key, _| near.push(key));
-                }
-                near.retain(|key| self.lone.contains_key(key));
-                near
-            }
-            None => {
-                let touched =
-                    |lone: &Lone| changed.iter().any(|bounds| bounds.touches(&lone.reach));
-                let touched = self.lone.iter().filter(|(_, lone)| touched(lone));
-                touched.map(|(&key, _)| key).collect()
-            }
-        };
+        let touched = |lone: &Lone| changed.iter().any(|bounds| bounds.touches(&lone.reach));
+        let touched = self.lone.iter().filter(|(_, lone)| touched(lone));
+        let mut keys: Vec<ContourKey> = touched.map(|(&key, _)| key).collect();
         keys.sort_unstable();
-        keys.dedup();
         keys
     }
 
@@ -443,9 +380,6 @@ impl Analysis {
         for key in keys {
             match self.as_lone(drawing, key) {
                 Some(line) => {
-                    if let Some(vicinity) = &mut self.vicinity {
-                        vicinity.insert(key, line.reach);
-                    }
                     self.lone.insert(key, line);
                     lone.push(key);
                 }

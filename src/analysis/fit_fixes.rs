@@ -1,7 +1,7 @@
 //! Repairs of corners in which a punch and its plate bind.
 
 use super::Analysis;
-use super::fits::Answer;
+use super::fits::KnownFit;
 use crate::drawing::{ContourSegment, Drawing, DrawingEdit};
 use crate::finding::{Detail, Finding, Fix, FixKind, Place, Side};
 use crate::fit::{Fitted, SegmentOf, Sharper, Spot};
@@ -28,7 +28,7 @@ impl Analysis {
         if turn <= 0.0 {
             return None;
         }
-        let corner = Corner {
+        let corner = BindingCorner {
             binding: self.binding_about(drawing, &spot),
             spot: &spot,
             clearance: clearance / self.limits.unit_mm,
@@ -153,7 +153,7 @@ impl Analysis {
         let outlines = self.outlines(drawing);
         let keys = self.in_machining_order(drawing);
         let answer = self.fits.get(&(keys[both[0]], keys[both[1]]));
-        if let Some(known) = answer.and_then(Answer::holds) {
+        if let Some(known) = answer.and_then(KnownFit::holds) {
             return known.clone();
         }
         let both = both.map(|index| (keys[index], &outlines[index]));
@@ -175,7 +175,7 @@ impl Analysis {
     fn with_corner(
         &self,
         drawing: &Drawing,
-        corner: &Corner,
+        corner: &BindingCorner,
         radius: f64,
     ) -> Option<(DrawingEdit, f64)> {
         let of = |at: SegmentOf, radius: f64| self.corner_edits(drawing, corner, at, radius);
@@ -217,7 +217,7 @@ impl Analysis {
     fn corner_edits(
         &self,
         drawing: &Drawing,
-        corner: &Corner,
+        corner: &BindingCorner,
         (entity, segment): SegmentOf,
         radius: f64,
     ) -> Vec<DrawingEdit> {
@@ -257,9 +257,7 @@ impl Analysis {
             });
         let run = near.find_map(|at| small_radius::run_of(&travel, at, &limits));
         let arcs = run.and_then(|run| {
-            let replacement = small_radius::refillet(&travel, &run, &limits)
-                .outcome
-                .ok()?;
+            let replacement = small_radius::refillet(&travel, &run, &limits).ok()?;
             small_radius::drawing_edit(drawing, &[(travel, replacement)])
         });
         match arcs {
@@ -284,7 +282,12 @@ impl Analysis {
         }
     }
 
-    fn left_behind(&self, drawing: &Drawing, corner: &Corner, edit: &DrawingEdit) -> Option<f64> {
+    fn left_behind(
+        &self,
+        drawing: &Drawing,
+        corner: &BindingCorner,
+        edit: &DrawingEdit,
+    ) -> Option<f64> {
         let mut edited = drawing.clone();
         let delta = edited.apply(edit).ok()?;
         let mut after = self.updated(&edited, &delta);
@@ -303,7 +306,7 @@ impl Analysis {
 }
 
 /// A corner in which two parts bind.
-struct Corner<'a> {
+struct BindingCorner<'a> {
     /// In how many places its pairs bind before it is mended.
     binding: usize,
     spot: &'a Spot,
@@ -312,7 +315,7 @@ struct Corner<'a> {
     is_drawn: bool,
 }
 
-impl Corner<'_> {
+impl BindingCorner<'_> {
     /// The corner of the punch is too sharp, not that of the plate: where a wire has turned, that of the part that it has not spoiled.
     fn sharper_is_punch(&self) -> bool {
         let spot = self.spot;

@@ -17,17 +17,17 @@ const MOST_SEGMENTS: usize = 100_000;
 
 /// The knowledge of two contours, or of one that is cut twice.
 #[derive(Clone, Debug)]
-pub(crate) struct Answer {
+pub(crate) struct KnownFit {
     /// `None` where one of the two has no path, which other findings report.
     known: Option<Arc<Fitted>>,
     /// Where each of the two has been edited since.
     edited: [Edited; 2],
 }
 
-impl Answer {
-    fn new(known: Option<Arc<Fitted>>) -> Answer {
+impl KnownFit {
+    fn new(known: Option<Arc<Fitted>>) -> KnownFit {
         let edited = [Edited::not(), Edited::not()];
-        Answer { known, edited }
+        KnownFit { known, edited }
     }
 
     /// What is known, where neither of the two has been edited.
@@ -267,7 +267,7 @@ impl Analysis {
             return None;
         }
         let [(one, punch), (other, plate)] = both;
-        if let Some(known) = self.fits.get(&(one, other)).and_then(Answer::holds) {
+        if let Some(known) = self.fits.get(&(one, other)).and_then(KnownFit::holds) {
             return known.clone();
         }
         let is_small = punch.contour.len().max(plate.contour.len()) <= MOST_SEGMENTS;
@@ -288,7 +288,7 @@ impl Analysis {
         }
         let fitted = || self.fitted(drawing, both, unedited);
         let known = is_small.then(fitted).flatten().map(Arc::new);
-        (self.fits).insert((one, other), Answer::new(known.clone()));
+        (self.fits).insert((one, other), KnownFit::new(known.clone()));
         known
     }
 
@@ -297,7 +297,7 @@ impl Analysis {
         &mut self,
         drawing: &Drawing,
         both: [(ContourKey, &Outline); 2],
-        Answer { known, edited }: Answer,
+        KnownFit { known, edited }: KnownFit,
     ) -> Option<Arc<Fitted>> {
         let outlines = [
             (both[0].1, edited[0].within()?),
@@ -313,7 +313,7 @@ impl Analysis {
             return None;
         }
         let known = Some(Arc::new(fitted));
-        self.fits.insert(keys, Answer::new(known.clone()));
+        self.fits.insert(keys, KnownFit::new(known.clone()));
         known
     }
 

@@ -29,7 +29,7 @@ impl Analysis {
         let mut fixes = Vec::new();
         let found = self
             .attempt(drawing, key, index)
-            .and_then(|(_, attempt)| attempt.outcome.ok());
+            .and_then(|(_, replacement)| replacement.ok());
         let old = self
             .chains
             .get(key)

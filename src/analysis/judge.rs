@@ -1,6 +1,6 @@
 //! All findings of a drawing, put together from the observations for each report.
 
-use super::notable::{Counted, Kind, Notability, TightArc};
+use super::notable::{Counted, Kind, Notability, Sums, TightArc};
 use super::report::{Report, Tally};
 use super::{Analysis, electrode, together};
 use crate::drawing::{ContourKey, Drawing, EntityId, Role};
@@ -101,16 +101,14 @@ impl Analysis {
         };
         let side_of =
             |analysis: &Analysis, key: ContourKey| analysis.wire_side(key, role_of(analysis, key));
-        self.report_notable(drawing, nested.is_none(), &side_of, &mut report);
+        self.report_notable(drawing, &side_of, &mut report);
         self.report_size(drawing, &mut report);
-        let mut pairs = std::mem::take(&mut self.pairs);
-        pairs.report(
+        self.pairs.report(
             drawing,
             &|key| self.outlook(drawing, key),
             &|key| side_of(self, key),
             &mut report,
         );
-        self.pairs = pairs;
         self.report_fits(drawing, &mut report);
         self.report_dead_ends(drawing, &side_of, &mut report);
         self.report_set_aside(drawing, &mut report);
@@ -148,31 +146,37 @@ impl Analysis {
         report
     }
 
-    /// The contours' own findings. Where `sides_stay`, the side of each contour depends on nothing else.
+    /// The contours' own findings.
     fn report_notable(
         &mut self,
         drawing: &Drawing,
-        sides_stay: bool,
         side_of: &dyn Fn(&Analysis, ContourKey) -> Option<Side>,
         report: &mut Report,
     ) {
         let mut notable = std::mem::take(&mut self.notable);
-        // What is suspended is not in the drawing.
-        let suspended = self.suspended.as_ref();
-        let suspended = suspended.and_then(|it| self.chains.contour_of(it.entity));
         let open_is_an_error = report.open_is_an_error();
-        let sums = notable.sums(
-            sides_stay,
-            suspended,
-            |key| side_of(self, key),
-            |key, what, side| self.count(drawing, key, (what, side), open_is_an_error),
-        );
-        notable.put_in_order(|id| drawing.rank(id));
-        let told = notable
-            .in_order()
-            .iter()
-            .filter(|&&key| Some(key) != suspended);
-        let told = told.filter_map(|&key| Some((key, notable.get(key)?.counted.as_ref()?)));
+        // What is suspended is not in the drawing.
+        let suspended = self.suspended.and_then(|it| self.chains.contour_of(it));
+        let mut sums = Sums::default();
+        let mut told: Vec<(ContourKey, EntityId, &Counted)> = Vec::new();
+        for (&key, notable) in &mut notable {
+            if Some(key) == suspended {
+                continue;
+            }
+            let side = side_of(self, key);
+            if notable.counted.as_ref().is_none_or(|it| it.side != side) {
+                let counted = self.count(drawing, key, (notable.what, side), open_is_an_error);
+                notable.counted = Some(counted);
+            }
+            if let Some(counted) = &notable.counted {
+                sums.add(counted);
+                told.push((key, notable.first, counted));
+            }
+        }
+        if report.shows_findings() {
+            told.sort_by_cached_key(|&(key, first, _)| (drawing.rank(first), key));
+        }
+        let told = told.iter().map(|&(key, _, counted)| (key, counted));
         let of_arcs = told.clone().map(|(key, it)| (key, it, &it.counts.arcs[..]));
         tell(&sums.arcs, of_arcs, report, |key, counted, report| {
             self.report_small_radii(drawing, key, counted, report)

@@ -25,17 +25,9 @@ pub(crate) struct Known {
     pub(crate) stated: Option<Role>,
     /// The number of its workpiece.
     pub(crate) part: u16,
-    /// What each local rule has seen; empty where none has seen anything, as in most contours.
-    by_rule: Box<[Seen]>,
-}
-
-/// The observations of one local rule.
-#[derive(Clone, Debug, Default)]
-struct Seen {
-    /// For each run of the index; empty without any.
-    observations: Vec<Vec<Observation>>,
-    /// Their numbers by side.
-    counts: Counts,
+    /// What each local rule has seen, for each run of the index: empty where a rule, or none of them as in most
+    /// contours, has seen anything.
+    by_rule: Box<[Vec<Vec<Observation>>]>,
 }
 
 impl Known {
@@ -112,20 +104,15 @@ impl Known {
                 seen.clear();
                 (LOCAL_RULES[number].check)(&outlook, self.index.range_of(run), &mut seen);
                 let known = self.by_rule.get(number);
-                if seen.is_empty() && known.is_none_or(|known| known.observations.is_empty()) {
+                if seen.is_empty() && known.is_none_or(Vec::is_empty) {
                     continue;
                 }
                 if self.by_rule.is_empty() {
-                    self.by_rule = vec![Seen::default(); LOCAL_RULES.len()].into();
+                    self.by_rule = vec![Vec::new(); LOCAL_RULES.len()].into();
                 }
                 let known = &mut self.by_rule[number];
-                known.observations.resize(runs, Vec::new());
-                let counts = &mut known.counts;
-                known.observations[run]
-                    .iter()
-                    .for_each(|gone| counts.take(gone));
-                seen.iter().for_each(|new| counts.add(new));
-                known.observations[run] = seen.as_slice().into();
+                known.resize(runs, Vec::new());
+                known[run] = seen.as_slice().into();
             }
         }
     }
@@ -133,7 +120,7 @@ impl Known {
     /// Records that the segments of the runs from `behind` on have indices larger by so many.
     pub(crate) fn shift(&mut self, behind: usize, by: isize) {
         let of_runs = self.by_rule.iter_mut();
-        let later = of_runs.flat_map(|seen| seen.observations.iter_mut().skip(behind));
+        let later = of_runs.flat_map(|seen| seen.iter_mut().skip(behind));
         for observation in later.flatten() {
             observation.index = (observation.index as usize).wrapping_add_signed(by) as u32;
         }
@@ -141,8 +128,7 @@ impl Known {
 
     /// True when a local rule has an observation.
     pub(crate) fn has_observations(&self) -> bool {
-        let mut observations = self.by_rule.iter().flat_map(|seen| &seen.observations);
-        !observations.all(Vec::is_empty)
+        !self.by_rule.iter().flatten().all(Vec::is_empty)
     }
 
     /// The number of findings of each kind, rule by rule; and of those that another one of the contour stands for.
@@ -250,34 +236,23 @@ impl Known {
         // closed.
         let waits = !outlook.contour.closed && wire_side.is_none() && open_is_an_error;
         let of_rules = LOCAL_RULES.iter().zip(&self.by_rule);
-        of_rules.map(
-            move |(
+        of_rules.map(move |(rule, observations)| {
+            let concerned = observations.iter().flatten();
+            let concerned =
+                concerned.filter(|one| is_of(wire_side, one) && holds(rule, outlook, one));
+            let is_one = rule.one_hint_when_side_unknown && wire_side.is_none();
+            OfRule {
                 rule,
-                Seen {
-                    observations,
-                    counts,
+                mildest: if is_one || waits {
+                    Some(Severity::Hint)
+                } else {
+                    rule.mildest
                 },
-            )| {
-                let at_the_beginning = observations.first().into_iter().flatten();
-                let fallen = at_the_beginning
-                    .filter(|observation| {
-                        is_of(wire_side, observation) && !holds(rule, outlook, observation)
-                    })
-                    .count();
-                let is_one = rule.one_hint_when_side_unknown && wire_side.is_none();
-                OfRule {
-                    rule,
-                    mildest: if is_one || waits {
-                        Some(Severity::Hint)
-                    } else {
-                        rule.mildest
-                    },
-                    count: counts.of(wire_side) - fallen,
-                    is_one,
-                    observations,
-                }
-            },
-        )
+                count: concerned.count(),
+                is_one,
+                observations,
+            }
+        })
     }
 }
 
@@ -301,44 +276,5 @@ fn is_of(wire_side: Option<Side>, observation: &Observation) -> bool {
     match wire_side {
         Some(_) => observation.side.is_none() || observation.side == wire_side,
         None => !observation.needs_side,
-    }
-}
-
-/// The number of observations, by side and by whether they need one.
-#[derive(Clone, Debug, Default)]
-struct Counts {
-    of: [[usize; 2]; 3],
-}
-
-impl Counts {
-    fn place(&mut self, observation: &Observation) -> &mut usize {
-        &mut self.of[row_of(observation.side)][usize::from(observation.needs_side)]
-    }
-
-    fn add(&mut self, observation: &Observation) {
-        *self.place(observation) += 1;
-    }
-
-    fn take(&mut self, observation: &Observation) {
-        *self.place(observation) -= 1;
-    }
-
-    /// The number for which [`is_of`] this side holds.
-    fn of(&self, wire_side: Option<Side>) -> usize {
-        match wire_side {
-            Some(_) => [None, wire_side]
-                .iter()
-                .flat_map(|&side| self.of[row_of(side)])
-                .sum(),
-            None => self.of.iter().map(|[freely, _]| freely).sum(),
-        }
-    }
-}
-
-fn row_of(side: Option<Side>) -> usize {
-    match side {
-        None => 0,
-        Some(Side::Left) => 1,
-        Some(Side::Right) => 2,
     }
 }

@@ -18,7 +18,6 @@ impl Analysis {
     fn enter_known(&mut self, key: ContourKey, known: Arc<Known>) {
         self.segments += known.index.len();
         self.stated += usize::from(known.stated.is_some());
-        self.enter_vicinity(key, &known.index);
         self.known.insert(key, known);
     }
 
@@ -26,7 +25,6 @@ impl Analysis {
         let known = self.known.remove(&key)?;
         self.segments -= known.index.len();
         self.stated -= usize::from(known.stated.is_some());
-        self.leave_vicinity(key, &known.index);
         Some(known)
     }
 
@@ -55,16 +53,14 @@ impl Analysis {
         match what.zip(self.chains.first_of(key)) {
             Some((what, first)) => {
                 let counted = None;
-                self.notable.insert(
-                    key,
-                    Notable {
-                        first,
-                        what,
-                        counted,
-                    },
-                )
+                let notable = Notable {
+                    first,
+                    what,
+                    counted,
+                };
+                self.notable.insert(key, notable);
             }
-            None => self.notable.remove(key),
+            None => drop(self.notable.remove(&key)),
         }
         match is_vast {
             true => self.vast.insert(key),
@@ -159,8 +155,8 @@ impl Analysis {
         let is_recounted = before.count() != geometry.segment_count();
         if is_recounted {
             self.chains.recount(drawing, entity);
-            self.answers.retain(|(other, _), _| *other != key);
         }
+        self.answers.retain(|(other, _), _| *other != key);
         self.lost.remove(&key);
         let edited = self.chains.piece_of(entity).filter(|_| !is_recounted);
         let edited = edited.zip(vertices).map(|(piece, vertices)| {
@@ -179,7 +175,6 @@ impl Analysis {
             .filter(|_| is_recounted)
             .and_then(|vertices| self.splice(drawing, key, &mut known, vertices, &mut forgotten));
         if is_recounted && spliced.is_none() {
-            self.pairs.renumber();
             self.pairs.forget(key, &known.index);
             self.learn(drawing, &[key]);
             return true;
@@ -207,30 +202,16 @@ impl Analysis {
             // no other comes near its ends.
             let is_end = nth >= changed && is_all;
             let bounds_of = |index: usize| known.index.bounds_of_run(known.index.run_of(index));
-            if is_end && !self.pairs.comes_near_others(key, &bounds_of(range.start)) {
-                continue;
-            }
-            let (index, count) = (&known.index, contour.len());
-            let from = range.start.saturating_sub(NEIGHBOURS);
-            runs.extend(index.runs_over(from..(range.end + NEIGHBOURS).min(count)));
-            if contour.closed && range.start < NEIGHBOURS {
-                runs.extend(index.runs_over(count.saturating_sub(NEIGHBOURS)..count));
-            }
-            if contour.closed && range.end + NEIGHBOURS > count {
-                runs.extend(index.runs_over(0..NEIGHBOURS.min(count)));
+            if !is_end || self.pairs.comes_near_others(key, &bounds_of(range.start)) {
+                runs.extend(runs_about(&known.index, contour.closed, range));
             }
         }
         // Two closed outlines that lie on each other may begin anywhere: what is known of both is kept where one of them begins.
         let is_ring = geometry.is_closed() && known.index.run_count() > 1;
-        let beside = if is_ring {
-            self.pairs.beside(key, known.index.run_count())
-        } else {
-            FxHashSet::default()
+        let beginnings = match is_ring {
+            true => self.beginnings_beside(drawing, key, known.index.run_count()),
+            false => Vec::new(),
         };
-        let beginnings: Vec<RunId> = beside
-            .into_iter()
-            .filter_map(|other| self.beginning_of(drawing, other))
-            .collect();
         for &(other, run) in &beginnings {
             if let Some(bounds) = self
                 .known
@@ -247,20 +228,10 @@ impl Analysis {
             }
         }
         for range in ranges {
-            let mut changed = known.index.bounds_about(range.clone());
             let runs = known.index.runs_over(range.clone());
             (known.index).look_again(drawing, contour, self.tight_below(), runs);
-            changed.merge(&known.index.bounds_about(range.clone()));
-            known.check(
-                drawing,
-                contour,
-                &self.limits,
-                &self.settings,
-                range.clone(),
-                None,
-            );
-            self.answers
-                .retain(|(other, _), (_, region)| *other != key || !region.touches(&changed));
+            let (limits, settings) = (&self.limits, &self.settings);
+            known.check(drawing, contour, limits, settings, range, None);
         }
         self.enter_known(key, Arc::new(known));
         self.note(drawing, key);
@@ -270,17 +241,37 @@ impl Analysis {
         true
     }
 
-    /// The run with the first segment of a contour that is one closed entity.
-    fn beginning_of(&self, drawing: &Drawing, key: ContourKey) -> Option<RunId> {
-        let first = self.chains.first_of(key).filter(|&first| {
-            drawing
-                .get(first)
-                .is_some_and(|entity| entity.geometry.is_closed())
-        })?;
-        let index = self.chains.piece_of(first)?.first();
-        let run = self.known.get(&key)?.index.run_of(index);
-        Some((key, run as u32))
+    /// Of the contours that are seen beside one, and are one closed entity each, the run with the first segment.
+    fn beginnings_beside(&self, drawing: &Drawing, key: ContourKey, runs: usize) -> Vec<RunId> {
+        let beginning = |key: ContourKey| {
+            let first = self.chains.first_of(key)?;
+            drawing.get(first)?.geometry.is_closed().then_some(())?;
+            let index = self.chains.piece_of(first)?.first();
+            let run = self.known.get(&key)?.index.run_of(index);
+            Some((key, run as u32))
+        };
+        let beside = self.pairs.beside(key, runs).into_iter();
+        beside.filter_map(beginning).collect()
     }
+}
+
+/// The runs of a contour with these segments and those that a rule on pairs looks at beside them.
+fn runs_about(
+    index: &ContourIndex,
+    closed: bool,
+    segments: &Range<usize>,
+) -> impl Iterator<Item = usize> + use<> {
+    let count = index.len();
+    let (from, to) = (
+        segments.start.saturating_sub(NEIGHBOURS),
+        segments.end + NEIGHBOURS,
+    );
+    let before = (closed && segments.start < NEIGHBOURS)
+        .then(|| index.runs_over(count.saturating_sub(NEIGHBOURS)..count));
+    let behind = (closed && to > count).then(|| index.runs_over(0..NEIGHBOURS.min(count)));
+    let own = index.runs_over(from..to.min(count));
+    own.chain(before.into_iter().flatten())
+        .chain(behind.into_iter().flatten())
 }
 
 /// Asks a question of each contour; of many contours on several threads.

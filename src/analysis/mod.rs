@@ -18,7 +18,6 @@ mod known;
 mod largest_wire;
 mod learn;
 mod misfits;
-mod nearby;
 mod notable;
 mod observations;
 mod own_walls;
@@ -39,6 +38,9 @@ mod twice;
 mod within;
 
 #[cfg(test)]
+mod tests;
+
+#[cfg(test)]
 pub(crate) use contours::is_cut;
 pub use largest_wire::{largest_wire, work};
 
@@ -46,14 +48,14 @@ use crate::drawing::{
     Chains, Contour, ContourKey, Delta, Drawing, EntityId, Outline, RUN, Touched,
 };
 use crate::finding::{Finding, NoFix};
-use crate::geometry::{Bounds, Grid};
+use crate::geometry::Bounds;
 use crate::rules::{Limits, Outlook};
 use crate::settings::Effective;
 use contours::set_aside;
 use drafting::{AsideEntities, LoneLines};
 use fitting::Fitting;
 use known::Known;
-use notable::Notables;
+use notable::Notable;
 use pairs::Pairs;
 use pockets::Loss;
 use report::Tally;
@@ -61,7 +63,6 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
 use suppressed::Judged;
-use told::Told;
 
 /// Up to this many touched places are checked one by one, however small the drawing is.
 const FEW: usize = 16;
@@ -77,7 +78,7 @@ pub struct Analysis {
     /// Shared with copies, which are made for tentative repairs.
     known: FxHashMap<ContourKey, Arc<Known>>,
     /// Contours with findings that do not depend on others: most have none.
-    notable: Notables,
+    notable: FxHashMap<ContourKey, Notable>,
     /// Contours larger than any machine.
     vast: FxHashSet<ContourKey>,
     /// The number of segments of the known contours.
@@ -86,21 +87,19 @@ pub struct Analysis {
     stated: usize,
     /// Lines that stand alone, and which of them are not cut: nothing else is kept of those.
     lone: LoneLines,
-    /// The reaches of single lines, and the boxes of known contours of several runs; there once the neighbours of a
-    /// single line have been asked for.
-    vicinity: Option<Grid<ContourKey>>,
     /// Entities that are not cut because of their linetype or layer.
     aside: AsideEntities,
     /// A removed entity that may come back nearly unchanged, as while a number of it is being typed: all that is known
-    /// of it is kept until the next change. Nothing of it shows, since it is not in the drawing.
-    suspended: Option<Suspended>,
+    /// of it is kept until the next change: looked at again, a polyline of 140,000 vertices takes fifteen times as long. Nothing of it shows,
+    /// since it is not in the drawing.
+    suspended: Option<EntityId>,
     pairs: Pairs,
-    /// Whether a fix was found for a fault, and the region on which that depends.
-    answers: FxHashMap<(ContourKey, usize), (Option<NoFix>, Bounds)>,
+    /// Why no fix was found for a fault of a contour, or that one was.
+    answers: FxHashMap<(ContourKey, usize), Option<NoFix>>,
     /// What the path along a contour loses, for a side and with or without a neck.
     lost: FxHashMap<ContourKey, Loss>,
     /// What was found between partners, or for a contour that is cut twice.
-    fits: BTreeMap<(ContourKey, ContourKey), fits::Answer>,
+    fits: BTreeMap<(ContourKey, ContourKey), fits::KnownFit>,
     /// The segments of contours that may belong to a pair, for questions about what is near.
     walls: FxHashMap<ContourKey, own_walls::Own>,
     /// Which contours run beside each other, each time the smaller one first.
@@ -111,14 +110,6 @@ pub struct Analysis {
     tally: OnceLock<Tally>,
     /// How well pairs fit, once that has been asked for.
     fitting: OnceLock<Option<Fitting>>,
-}
-
-/// A removed entity of which everything is still known, and the findings about pairs while it was
-/// there.
-#[derive(Clone, Debug)]
-struct Suspended {
-    entity: EntityId,
-    told: Option<Arc<Told>>,
 }
 
 impl Analysis {
@@ -132,12 +123,11 @@ impl Analysis {
             limits,
             chains,
             known: FxHashMap::default(),
-            notable: Notables::default(),
+            notable: FxHashMap::default(),
             vast: FxHashSet::default(),
             segments: 0,
             stated: 0,
             lone: LoneLines::default(),
-            vicinity: None,
             aside: AsideEntities::default(),
             suspended: None,
             pairs: Pairs::default(),
@@ -181,7 +171,6 @@ impl Analysis {
     /// Makes ready what the first edit needs.
     pub(crate) fn make_ready(&mut self) {
         self.chains.make_ready();
-        self.know_vicinity();
     }
 
     /// Checks again what `delta` touched. The result is that of a fresh [`Analysis::new`].
@@ -208,23 +197,16 @@ impl Analysis {
         }
         let mut moved = Vec::new();
         match (self.suspended.take(), delta.touched.as_slice()) {
-            (Some(suspended), []) => {
-                self.suspended = Some(suspended);
+            (Some(entity), []) => {
+                self.suspended = Some(entity);
                 return;
             }
-            (Some(Suspended { entity, told }), [Touched::Vertices { entity: woken, .. }])
-                if *woken == entity =>
-            {
-                self.pairs.told = told;
+            (Some(entity), [Touched::Vertices { entity: woken, .. }]) if *woken == entity => {
                 self.order = OnceLock::new()
             }
-            (Some(Suspended { entity, .. }), _) => {
-                self.pairs.renumber();
-                moved.push(entity);
-            }
+            (Some(entity), _) => moved.push(entity),
             (None, &[Touched::Removed { entity }]) if self.may_be_suspended(entity) => {
-                let told = self.pairs.told.take();
-                self.suspended = Some(Suspended { entity, told });
+                self.suspended = Some(entity);
                 self.order = OnceLock::new();
                 return;
             }
@@ -265,7 +247,6 @@ impl Analysis {
             return;
         }
         self.order = OnceLock::new();
-        self.pairs.renumber();
         let settings = self.settings.clone();
         let rechained = self.chains.update_parts(drawing, &moved, &|id| {
             contours::part_of(drawing, &settings, id)
@@ -280,7 +261,7 @@ impl Analysis {
         for key in &rechained.gone {
             changed.extend(self.box_of(*key).filter(|_| !self.lone.is_empty()));
             self.forget(*key);
-            self.forget_lone(*key);
+            self.lone.remove(key);
         }
         let gone: FxHashSet<ContourKey> = rechained.gone.into_iter().collect();
         self.answers.retain(|(key, _), _| !gone.contains(key));
@@ -297,7 +278,7 @@ impl Analysis {
     fn forget(&mut self, key: ContourKey) {
         self.lost.remove(&key);
         self.forget_fits(key);
-        self.notable.remove(key);
+        self.notable.remove(&key);
         self.vast.remove(&key);
         if let Some(known) = self.take_known(key) {
             self.pairs.forget(key, &known.index);

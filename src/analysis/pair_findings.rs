@@ -4,7 +4,8 @@ use super::compare::{Observed, Outlooks, SegmentId};
 use super::pairs::Pairs;
 use super::report::Report;
 use super::told::{
-    Doubles, Told, ToldPair, gather_crossings, is_without_room, merged, reaches, takes_of_the_other,
+    DoublesOfContour, PairFinding, PairFindings, gather_crossings, is_without_room, merged,
+    reaches, takes_of_the_other,
 };
 use super::twice::Twice;
 use crate::drawing::{ContourKey, Drawing, EntityId};
@@ -12,7 +13,6 @@ use crate::finding::{Detail, NotJudged, Place, Rule, Severity, Side};
 use crate::geometry::Point;
 use crate::rules::{PAIR_RULES, Wall};
 use rustc_hash::{FxHashMap, FxHashSet};
-use std::sync::Arc;
 
 /// Two segments of a contour that form a slot, and the disc between them.
 pub(crate) type Slot = ([usize; 2], Option<(Point, f64)>);
@@ -90,23 +90,16 @@ impl Pairs {
 
     /// Adds the findings, in the machining order of their entities.
     pub(crate) fn report(
-        &mut self,
+        &self,
         drawing: &Drawing,
         outlook: Outlooks,
         wire_side: &dyn Fn(ContourKey) -> Option<Side>,
         report: &mut Report,
     ) {
-        let told = match self
-            .told
-            .take()
-            .filter(|told| told.holds(outlook, wire_side))
-        {
-            Some(told) => told,
-            None => Arc::new(self.tell(drawing, outlook, wire_side, report)),
-        };
+        let told = self.tell(drawing, outlook, wire_side, report);
         if !self.uncompared.is_empty()
             && report.counts(Rule::NotJudged, None)
-            && let Some(place) = told.uncompared.clone()
+            && let Some(place) = self.first_uncompared(drawing, outlook)
         {
             let left_out = NotJudged::Pairs {
                 count: self.uncompared.len(),
@@ -166,7 +159,6 @@ impl Pairs {
                 report.add(rule.rule, mildest, place, detail, related);
             }
         }
-        self.told = Some(told);
     }
 
     /// The findings of all observations.
@@ -176,141 +168,60 @@ impl Pairs {
         outlook: Outlooks,
         wire_side: &dyn Fn(ContourKey) -> Option<Side>,
         report: &Report,
-    ) -> Told {
-        let is_for_a_path = report.is_for_a_path();
-        type Ends = ((EntityId, usize), (EntityId, usize));
-        let mut told = Told {
-            uncompared: self.first_uncompared(drawing, outlook),
-            ..Told::default()
+    ) -> PairFindings {
+        let mut sides = FxHashMap::default();
+        for key in (self.seen.told()).flat_map(|each| [each.one.0, each.other.0]) {
+            sides.entry(key).or_insert_with(|| wire_side(key));
+        }
+        let telling = Telling {
+            drawing,
+            outlook,
+            sides,
+            is_for_a_path: report.is_for_a_path(),
+            open_is_an_error: report.open_is_an_error(),
         };
-        let keys = self.seen.told();
-        for key in keys.flat_map(|each| [each.one.0, each.other.0]) {
-            told.sides.entry(key).or_insert_with(|| wire_side(key));
-        }
-        let side_of = |key: ContourKey| told.sides.get(&key).copied().flatten();
-        let is_middle = |key: ContourKey| outlook(key).is_some_and(|it| it.is_middle());
-        let mut meeting: FxHashMap<[ContourKey; 2], bool> = FxHashMap::default();
-        let mut seen: Vec<(usize, Ends, &Observed)> = Vec::new();
-        for each in self.seen.told() {
-            let ends = |(key, index): SegmentId| outlook(key)?.segment_id(index);
-            if !each.blocked
-                && reaches(each, outlook, &side_of)
-                && let (Some(one), Some(other)) = (ends(each.one), ends(each.other))
-            {
-                // Walls on one another: a fault where one wire takes of what the other leaves.
-                if is_without_room(each) {
-                    let keys = [each.one.0, each.other.0];
-                    let takes = meeting
-                        .entry(keys)
-                        .or_insert_with(|| takes_of_the_other(outlook, keys, &side_of));
-                    if !*takes || is_for_a_path {
-                        continue;
-                    }
-                }
-                seen.push((each.rule, (one, other), each));
-            }
-        }
-        let twice = Twice::among(drawing, outlook, seen.iter().map(|(_, _, each)| *each));
-        seen.retain(|(_, _, each)| !twice.are_one(each.one.0, each.other.0));
+        let mut seen = telling.seen(self.seen.told());
+        let twice = Twice::among(drawing, outlook, seen.iter().map(|it| it.each));
+        seen.retain(|it| !twice.are_one(it.each.one.0, it.each.other.0));
         let rank = |(entity, segment): (EntityId, usize)| (drawing.rank(entity), segment);
-        seen.sort_unstable_by_key(|(rule, ends, _)| (*rule, rank(ends.0), rank(ends.1)));
-        let is_double =
-            |each: &&(usize, Ends, &Observed)| PAIR_RULES[each.0].rule == Rule::DuplicateEntity;
-        let doubles: FxHashSet<(EntityId, EntityId)> = seen
-            .iter()
-            .filter(is_double)
-            .map(|(_, ends, _)| (ends.0.0, ends.1.0))
-            .collect();
-        // All entities that lie in one place, and all such duplicates of a contour, are one
-        // finding, at the first of them; those that can be deleted are separate from those that
-        // cannot.
-        let later: FxHashSet<EntityId> = doubles.iter().map(|(_, other)| *other).collect();
-        let outline = |ends: &Ends, each: &Observed| (each.one.0, drawing.is_editable(ends.1.0));
-        let mut others: FxHashMap<(ContourKey, bool), Doubles> = FxHashMap::default();
-        for (_, ends, each) in seen.iter().filter(is_double) {
-            if !later.contains(&ends.0.0)
-                && let Some(place) = outlook(each.other.0).and_then(|it| it.place(each.other.1))
-            {
-                let doubles = others.entry(outline(ends, each)).or_default();
-                doubles.add(ends.0.0, ends.1.0, place);
-            }
-        }
-        let merged = merged(
-            &seen.iter().map(|(_, _, each)| *each).collect::<Vec<_>>(),
-            &|key| outlook(key).map(|it| it.contour.len()),
-        );
-        // An open contour is not cut, and is an error of its own: how near it comes to others, and
-        // what it touches or crosses, is checked once it is closed; overlaps among open contours
-        // are hints until then, since they have a fix.
-        let doubled: FxHashSet<EntityId> = doubles
-            .iter()
-            .flat_map(|(one, other)| [*one, *other])
-            .collect();
-        let is_told_open = |key: ContourKey| {
-            let contour = outlook(key).map(|it| it.contour);
-            let contour = contour.filter(|_| side_of(key).is_none());
-            contour.is_some_and(|it| {
-                !it.closed
-                    && !it
-                        .pieces
-                        .iter()
-                        .all(|piece| doubled.contains(&piece.entity))
-            })
-        };
-        let open_is_an_error = report.open_is_an_error();
-        for (at, (number, ends, each)) in seen.iter().enumerate() {
-            let rule = &PAIR_RULES[*number];
-            if (rule.silent_for_doubles || is_without_room(each))
-                && doubles.contains(&(ends.0.0, ends.1.0))
-                || merged.contains(&at)
-            {
+        seen.sort_by_cached_key(|it| (it.each.rule, rank(it.one), rank(it.other)));
+        let mut in_one_place = InOnePlace::among(&seen, &telling);
+        let merged = merged(&seen.iter().map(|it| it.each).collect::<Vec<_>>(), &|key| {
+            outlook(key).map(|it| it.contour.len())
+        });
+        let mut told = PairFindings::default();
+        for (at, it) in seen.iter().enumerate() {
+            if merged.contains(&at) || in_one_place.is_silent(it) {
                 continue;
             }
-            let others = match rule.rule {
-                Rule::DuplicateEntity if later.contains(&ends.0.0) => continue,
-                Rule::DuplicateEntity => match others.remove(&outline(ends, each)) {
-                    Some(others) => Some(others),
-                    None => {
-                        let kind = (*number, each.mildest);
-                        *told.absorbed.entry(kind).or_default() += 1;
-                        continue;
-                    }
-                },
-                _ => None,
+            let is_double = it.rule() == Rule::DuplicateEntity;
+            let others = match is_double {
+                true => in_one_place.others.remove(&it.outline(drawing)),
+                false => None,
             };
-            // What is milled along its middle has no side.
-            let is_unknown = |key: ContourKey| side_of(key).is_none() && !is_middle(key);
-            let unknown = rule.warning_when_side_unknown
-                && (is_unknown(each.one.0) || is_unknown(each.other.0));
-            let [one_is_open, other_is_open] =
-                [each.one.0, each.other.0].map(|key| open_is_an_error && is_told_open(key));
-            let mildest = match rule.rule {
-                Rule::Overlap | Rule::DuplicateEntity if one_is_open && other_is_open => {
-                    Some(Severity::Hint)
-                }
-                // Where the contour is the wire's own path it may well touch and cross itself: leads do.
-                _ if unknown || is_for_a_path => Some(Severity::Warning),
-                _ => each.mildest,
+            let is_open = telling.are_open(it, &in_one_place);
+            let (mildest, is_absorbed) = match is_double && others.is_none() {
+                true => (it.each.mildest, true),
+                false => (
+                    telling.mildest(it, is_open),
+                    telling.waits_until_closed(it, is_open),
+                ),
             };
-            let is_absorbed = (one_is_open || other_is_open)
-                && each.one.0 != each.other.0
-                && matches!(rule.rule, Rule::SelfIntersection | Rule::NarrowSlot);
             if is_absorbed {
-                *told.absorbed.entry((*number, mildest)).or_default() += 1;
+                *told.absorbed.entry((it.each.rule, mildest)).or_default() += 1;
                 continue;
             }
-            told.pairs.push(ToldPair {
-                rule: *number,
+            told.pairs.push(PairFinding {
+                rule: it.each.rule,
                 mildest,
                 kind: 0,
-                one: each.one,
-                other: each.other,
+                one: it.each.one,
+                other: it.each.other,
                 others,
                 crossings: None,
             });
         }
-        told.meeting = meeting;
-        let of_pair = |pair: &ToldPair| {
+        let of_pair = |pair: &PairFinding| {
             let first = outlook(pair.one.0).and_then(|it| it.segment_id(pair.one.1));
             (pair.rule, first.map(rank))
         };
@@ -329,5 +240,141 @@ impl Pairs {
             pair.kind = told.counts.range(..(pair.rule, pair.mildest)).count();
         }
         told
+    }
+}
+
+/// An observation, with the segments of the two entities.
+struct Seen<'a> {
+    one: (EntityId, usize),
+    other: (EntityId, usize),
+    each: &'a Observed,
+}
+
+impl Seen<'_> {
+    fn rule(&self) -> Rule {
+        PAIR_RULES[self.each.rule].rule
+    }
+
+    /// All duplicates of a contour are one finding; those that can be deleted are separate from those that cannot.
+    fn outline(&self, drawing: &Drawing) -> (ContourKey, bool) {
+        (self.each.one.0, drawing.is_editable(self.other.0))
+    }
+}
+
+/// Entities that lie in one place.
+struct InOnePlace {
+    pairs: FxHashSet<(EntityId, EntityId)>,
+    /// Those that lie on an earlier one.
+    later: FxHashSet<EntityId>,
+    all: FxHashSet<EntityId>,
+    /// Of each contour those that lie on the first of them, until they have been reported.
+    others: FxHashMap<(ContourKey, bool), DoublesOfContour>,
+}
+
+impl InOnePlace {
+    fn among(seen: &[Seen], telling: &Telling) -> InOnePlace {
+        let doubles = || (seen.iter()).filter(|it| it.rule() == Rule::DuplicateEntity);
+        let later: FxHashSet<EntityId> = doubles().map(|it| it.other.0).collect();
+        let mut others: FxHashMap<(ContourKey, bool), DoublesOfContour> = FxHashMap::default();
+        for it in doubles().filter(|it| !later.contains(&it.one.0)) {
+            let (key, index) = it.each.other;
+            if let Some(place) = (telling.outlook)(key).and_then(|it| it.place(index)) {
+                let doubles = others.entry(it.outline(telling.drawing)).or_default();
+                doubles.add(it.one.0, it.other.0, place);
+            }
+        }
+        InOnePlace {
+            pairs: doubles().map(|it| (it.one.0, it.other.0)).collect(),
+            all: doubles().flat_map(|it| [it.one.0, it.other.0]).collect(),
+            later,
+            others,
+        }
+    }
+
+    /// True for what another finding about the two entities stands for.
+    fn is_silent(&self, it: &Seen) -> bool {
+        let rule = &PAIR_RULES[it.each.rule];
+        let are_doubles = || self.pairs.contains(&(it.one.0, it.other.0));
+        (rule.silent_for_doubles || is_without_room(it.each)) && are_doubles()
+            || rule.rule == Rule::DuplicateEntity && self.later.contains(&it.one.0)
+    }
+}
+
+/// What the findings of observations depend on.
+struct Telling<'a, 'b> {
+    drawing: &'a Drawing,
+    outlook: Outlooks<'a, 'b>,
+    /// On which side of each contour the wire runs.
+    sides: FxHashMap<ContourKey, Option<Side>>,
+    is_for_a_path: bool,
+    open_is_an_error: bool,
+}
+
+impl Telling<'_, '_> {
+    fn side_of(&self, key: ContourKey) -> Option<Side> {
+        self.sides.get(&key).copied().flatten()
+    }
+
+    /// The observations that concern the wire on its sides.
+    fn seen<'s>(&self, all: impl Iterator<Item = &'s Observed>) -> Vec<Seen<'s>> {
+        let side_of = |key| self.side_of(key);
+        let ends = |(key, index): SegmentId| (self.outlook)(key)?.segment_id(index);
+        let mut meeting: FxHashMap<[ContourKey; 2], bool> = FxHashMap::default();
+        let mut seen = Vec::new();
+        for each in all {
+            if !each.blocked
+                && reaches(each, self.outlook, &side_of)
+                && let (Some(one), Some(other)) = (ends(each.one), ends(each.other))
+            {
+                // Walls on one another: a fault where one wire takes of what the other leaves.
+                if is_without_room(each) {
+                    let keys = [each.one.0, each.other.0];
+                    let takes = meeting
+                        .entry(keys)
+                        .or_insert_with(|| takes_of_the_other(self.outlook, keys, &side_of));
+                    if !*takes || self.is_for_a_path {
+                        continue;
+                    }
+                }
+                seen.push(Seen { one, other, each });
+            }
+        }
+        seen
+    }
+
+    /// Which of the two contours are reported as open: those without a side that are not drawn twice as a whole.
+    fn are_open(&self, it: &Seen, in_one_place: &InOnePlace) -> [bool; 2] {
+        [it.each.one.0, it.each.other.0].map(|key| {
+            let contour = (self.outlook)(key).map(|it| it.contour);
+            let contour = contour.filter(|_| self.open_is_an_error && self.side_of(key).is_none());
+            contour.is_some_and(|it| {
+                let mut pieces = it.pieces.iter();
+                !it.closed && !pieces.all(|piece| in_one_place.all.contains(&piece.entity))
+            })
+        })
+    }
+
+    /// An open contour is not cut, and is an error of its own: how near it comes to others, and what it touches or crosses, is
+    /// checked once it is closed.
+    fn waits_until_closed(&self, it: &Seen, is_open: [bool; 2]) -> bool {
+        is_open.contains(&true)
+            && it.each.one.0 != it.each.other.0
+            && matches!(it.rule(), Rule::SelfIntersection | Rule::NarrowSlot)
+    }
+
+    fn mildest(&self, it: &Seen, is_open: [bool; 2]) -> Option<Severity> {
+        // What is milled along its middle has no side.
+        let is_unknown = |key: ContourKey| {
+            self.side_of(key).is_none() && !(self.outlook)(key).is_some_and(|it| it.is_middle())
+        };
+        let unknown = PAIR_RULES[it.each.rule].warning_when_side_unknown
+            && (is_unknown(it.each.one.0) || is_unknown(it.each.other.0));
+        match it.rule() {
+            // Overlaps among open contours have a fix, which may be what closes them.
+            Rule::Overlap | Rule::DuplicateEntity if is_open == [true; 2] => Some(Severity::Hint),
+            // Where the contour is the wire's own path it may well touch and cross itself: leads do.
+            _ if unknown || self.is_for_a_path => Some(Severity::Warning),
+            _ => it.each.mildest,
+        }
     }
 }

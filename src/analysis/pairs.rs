@@ -1,29 +1,15 @@
 //! The observations of the rules on pairs of segments, by the runs of the two segments.
 
 use super::again::Again;
-use super::compare::{Kept, LOOKS_OF_A_PAIR, Observed, Outlooks, RunId, ordered};
+use super::compare::{LOOKS_OF_A_PAIR, Observed, Outlooks, RunId, RunsAtHand, ordered};
 use super::observations::Observations;
-use super::search::{BOXES_OF_A_LOOK, Looked, Search, shells_where_crowded};
-use super::told::Told;
+use super::search::{BOXES_OF_A_LOOK, MANY_RUNS, Search, shells_where_crowded};
 use crate::drawing::{ContourIndex, ContourKey};
 use crate::finding::Rule;
 use crate::geometry::{Bounds, Grid, Point, Shell, Shells};
 use crate::rules::{Limits, PAIR_RULES, PairRule};
 use crate::settings::{Budget, Effective};
-use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering::Relaxed};
-
-/// Runs that are compared in parallel: results beyond the bounds are dropped.
-const BATCH: usize = 8192;
-/// From this many runs on, what has been seen is checked in one pass, and the walls are kept.
-const MANY_RUNS: usize = 512;
-/// From this many runs on, several threads are worth while.
-const SEVERAL_RUNS: usize = if cfg!(test) { 2 } else { 64 };
-/// Runs per task, of many and of fewer.
-const SHARE: usize = 64;
-const SMALL_SHARE: usize = 8;
 
 /// The runs of all contours by place, and the observations between them.
 #[derive(Clone, Debug, Default)]
@@ -51,8 +37,6 @@ pub(crate) struct Pairs {
     is_disturbed: bool,
     /// The other forgotten runs, where the limit was reached.
     again: Again,
-    /// The findings of the observed pairs, while these stay.
-    pub(super) told: Option<Arc<Told>>,
     /// The runs that are not what they were when the dead ends were last looked at.
     pub(super) changed: FxHashSet<RunId>,
     /// There are workpieces, which are not compared with each other.
@@ -85,11 +69,6 @@ impl Pairs {
     /// True while the observations, edit by edit, equal those of a full comparison.
     pub(crate) fn is_as_fresh(&self) -> bool {
         self.is_within_budget() || self.is_settled()
-    }
-
-    /// To be called when segments have other indices, or entities another order.
-    pub(crate) fn renumber(&mut self) {
-        self.told = None;
     }
 
     /// To be called when everything has been compared, in the order of the drawing.
@@ -164,9 +143,6 @@ impl Pairs {
         for partner in self.partners.remove(&run).unwrap_or_default() {
             let gone = self.seen.remove(&ordered(run, partner)).unwrap_or_default();
             self.seen_count -= gone.len();
-            if gone.iter().any(Observed::is_told) {
-                self.told = None;
-            }
             if let Some(of_partner) = self.partners.get_mut(&partner) {
                 of_partner.retain(|other| *other != run);
             }
@@ -181,11 +157,6 @@ impl Pairs {
             .map(|other| other.0)
             .filter(|other| *other != key)
             .collect()
-    }
-
-    /// The contours of which a run touches an area; each as often as runs do.
-    pub(super) fn each_near(&self, area: &Bounds, mut found: impl FnMut(ContourKey)) {
-        self.grid.near(area, |(key, _), _| found(key));
     }
 
     /// Whether runs of other contours come near these bounds of one.
@@ -250,21 +221,52 @@ impl Pairs {
         settings: &Effective,
         runs: &[RunId],
     ) {
-        let doubles_matter = PAIR_RULES
-            .iter()
-            .any(|rule| rule.silent_for_doubles && settings.severity(rule.rule).is_some());
-        let is_on = |rule: &PairRule| {
-            settings.severity(rule.rule).is_some()
-                || (rule.rule == Rule::DuplicateEntity && doubles_matter)
-        };
-        let rules: Vec<(usize, f64)> = PAIR_RULES
-            .iter()
-            .enumerate()
-            .filter(|(_, rule)| is_on(rule))
-            .map(|(at, rule)| (at, (rule.reach)(limits)))
-            .collect();
+        let rules = rules_on(limits, settings);
         self.are_parts = !settings.workpieces.is_empty();
         self.reach = rules.iter().map(|(_, reach)| *reach).fold(0.0, f64::max);
+        // Their order is that of the contours, whatever their keys.
+        let new: FxHashMap<RunId, u32> = (0..).zip(runs).map(|(at, &run)| (run, at)).collect();
+        // A new run may or may not be after the end of the comparison.
+        let is_again = runs.iter().all(|run| self.again.holds(run));
+        self.enter(outlook, runs, &new);
+        let shells = shells_where_crowded(&self.grid, self.reach, outlook, runs);
+        let search = Search {
+            grid: &self.grid,
+            shells: shells.as_ref(),
+            rules: &rules,
+            reach: self.reach,
+            // Runs that had been compared are compared again completely.
+            most_seen: self.most_seen.saturating_mul(1 + usize::from(is_again)),
+            new: &new,
+            are_parts: self.are_parts,
+        };
+        let mut kept = RunsAtHand::new(outlook);
+        let compared = search.compared(&mut kept, runs, (self.left, self.seen_count));
+        (self.left, self.seen_count) = (compared.left, compared.count);
+        if is_again {
+            let ends_there = self.again.compared(runs, compared.count);
+            self.is_disturbed |= !ends_there || !compared.cut_short.is_empty();
+        }
+        self.uncompared.extend(compared.cut_short);
+        for (run, other, found) in compared.seen {
+            if found.iter().any(|seen| seen.disc.is_some()) {
+                self.stale.insert(run);
+            }
+            self.seen.insert(ordered(run, other), found);
+            self.partners.entry(run).or_default().push(other);
+            if other != run {
+                self.partners.entry(other).or_default().push(run);
+            }
+        }
+        // A long line that comes or goes may mark many runs as stale that it comes nowhere near.
+        let stale: Vec<RunId> = self.stale.iter().copied().collect();
+        let shells =
+            shells.or_else(|| shells_where_crowded(&self.grid, self.reach, outlook, &stale));
+        self.ask_again(&mut kept, limits, shells.as_ref());
+    }
+
+    /// Enters runs by place, and marks what they come near.
+    fn enter(&mut self, outlook: Outlooks, runs: &[RunId], new: &FxHashMap<RunId, u32>) {
         self.grid.reserve(runs.len());
         for &run in runs {
             if let Some(outlook) = outlook(run.0) {
@@ -275,114 +277,25 @@ impl Pairs {
                 }
             }
         }
-        // A new run may or may not be after the end of the comparison.
-        let is_again = runs.iter().all(|run| self.again.holds(run));
         let is_known = |run| self.untold.contains(run) || self.again.holds(run);
         self.is_disturbed |= !runs.iter().all(is_known);
-        // Runs that had been compared are compared again completely.
-        let most_seen = self.most_seen.saturating_mul(1 + usize::from(is_again));
         for run in runs {
             self.disturb_ends(*run);
             self.untold.remove(run);
         }
-        // Their order is that of the contours, whatever their keys.
-        let new: FxHashMap<RunId, u32> = (0..).zip(runs).map(|(at, &run)| (run, at)).collect();
         if runs.len() >= MANY_RUNS {
-            self.disturb_about(outlook, &new);
+            self.disturb_about(outlook, new);
         }
-        let shells = shells_where_crowded(&self.grid, self.reach, outlook, runs);
-        let search = Search {
-            grid: &self.grid,
-            shells: shells.as_ref(),
-            rules: &rules,
-            reach: self.reach,
-            most_seen,
-            new: &new,
-            are_parts: self.are_parts,
-            keeps: runs.len() >= MANY_RUNS,
-        };
-        let mut kept = Kept::new(outlook);
-        let mut all_seen = Vec::new();
-        let (mut left, mut count) = (self.left, self.seen_count);
-        for (batch, runs) in runs.chunks(BATCH).enumerate() {
-            let first = batch * BATCH;
-            // A run that was not compared here because of the limit is compared below, if at all.
-            let (looks, found) = (AtomicU64::new(0), AtomicUsize::new(0));
-            let is_enough =
-                || looks.load(Relaxed) >= left || count + found.load(Relaxed) >= most_seen;
-            let look = |kept: &mut Kept, (at, &run): (usize, &RunId)| {
-                (!is_enough()).then(|| {
-                    let looked = search.look(kept, first + at, run, left);
-                    looks.fetch_add(looked.looks(), Relaxed);
-                    found.fetch_add(looked.found(), Relaxed);
-                    looked
-                })
-            };
-            let ahead: Vec<Option<Looked>> = if runs.len() < SEVERAL_RUNS {
-                Vec::new()
-            } else {
-                let share = if search.keeps { SHARE } else { SMALL_SHARE };
-                let runs = runs.par_iter().enumerate().with_min_len(share);
-                runs.map_init(|| Kept::new(outlook), look).collect()
-            };
-            let mut ahead = ahead.into_iter();
-            for (at, &run) in runs.iter().enumerate() {
-                let ahead = ahead.next().flatten();
-                if count >= most_seen || left == 0 {
-                    self.uncompared.insert(run);
-                    continue;
-                }
-                let looked = ahead.unwrap_or_else(|| search.look(&mut kept, first + at, run, left));
-                left = left.saturating_sub(looked.before);
-                let mut is_whole = !looked.is_cut_short;
-                for (other, looks, found) in looked.each {
-                    if count >= most_seen || left == 0 {
-                        is_whole = false;
-                        break;
-                    }
-                    left = left.saturating_sub(looks);
-                    if !found.is_empty() {
-                        count += found.len();
-                        all_seen.push((run, other, found));
-                    }
-                }
-                if !is_whole {
-                    self.uncompared.insert(run);
-                }
-            }
-        }
-        (self.left, self.seen_count) = (left, count);
-        if is_again {
-            let is_cut_short = |run| self.uncompared.contains(run);
-            let ends_there = self.again.compared(runs, count);
-            self.is_disturbed |= !ends_there || runs.iter().any(is_cut_short);
-        }
-        for (run, other, found) in all_seen {
-            if found.iter().any(|seen| seen.disc.is_some()) {
-                self.stale.insert(run);
-            }
-            if found.iter().any(Observed::is_told) {
-                self.told = None;
-            }
-            self.seen.insert(ordered(run, other), found);
-            self.partners.entry(run).or_default().push(other);
-            if other != run {
-                self.partners.entry(other).or_default().push(run);
-            }
-        }
-        if self.is_disturbed && !self.uncompared.is_empty() {
-            self.told = None;
-        }
-        // A long line that comes or goes may mark many runs as stale that it comes nowhere near.
-        let stale: Vec<RunId> = self.stale.iter().copied().collect();
-        let shells =
-            shells.or_else(|| shells_where_crowded(&self.grid, self.reach, outlook, &stale));
-        self.ask_again(&mut kept, limits, shells.as_ref());
     }
 
     /// Checks whether the discs of the stale runs' observations are empty, while looks are left.
     /// Those whose discs remain unchecked give no findings.
-    fn ask_again(&mut self, kept: &mut Kept, limits: &Limits, shells: Option<&Shells<RunId>>) {
+    fn ask_again(
+        &mut self,
+        kept: &mut RunsAtHand,
+        limits: &Limits,
+        shells: Option<&Shells<RunId>>,
+    ) {
         let mut left = self.left_to_ask;
         let stale = std::mem::take(&mut self.stale);
         let partners = stale
@@ -409,7 +322,6 @@ impl Pairs {
                 continue;
             };
             for each in &mut seen {
-                let was_blocked = each.blocked;
                 each.blocked = each.disc.is_some_and(|disc| {
                     left == 0
                         || self.reaches_into(
@@ -420,9 +332,6 @@ impl Pairs {
                             &mut left,
                         )
                 });
-                if each.blocked != was_blocked {
-                    self.told = None;
-                }
             }
             if left == 0 && seen.iter().any(|each| each.disc.is_some()) {
                 self.uncompared.insert(pair.0);
@@ -435,7 +344,7 @@ impl Pairs {
     /// True when some segment, of one contour alone or of all of its workpiece, reaches into a disc by more than rounding.
     fn reaches_into(
         &self,
-        (kept, shells): (&mut Kept, Option<&Shells<RunId>>),
+        (kept, shells): (&mut RunsAtHand, Option<&Shells<RunId>>),
         limits: &Limits,
         (center, radius): (Point, f64),
         (of, is_own): (ContourKey, bool),
@@ -471,4 +380,17 @@ impl Pairs {
     pub(crate) fn uncompared(&self) -> usize {
         self.uncompared.len()
     }
+}
+
+/// The rules on pairs that are asked, by their indices, and how far each reaches.
+fn rules_on(limits: &Limits, settings: &Effective) -> Vec<(usize, f64)> {
+    let is_asked = |rule: &PairRule| settings.severity(rule.rule).is_some();
+    let doubles_matter = (PAIR_RULES.iter()).any(|rule| rule.silent_for_doubles && is_asked(rule));
+    let is_on =
+        |rule: &PairRule| is_asked(rule) || (rule.rule == Rule::DuplicateEntity && doubles_matter);
+    let rules = PAIR_RULES.iter().enumerate();
+    rules
+        .filter(|(_, rule)| is_on(rule))
+        .map(|(at, rule)| (at, (rule.reach)(limits)))
+        .collect()
 }

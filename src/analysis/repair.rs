@@ -47,10 +47,6 @@ impl<M> Tried<M> {
         }
     }
 
-    pub(super) fn is_better(&self) -> bool {
-        matches!(self, Tried::Better(_))
-    }
-
     fn better(self) -> Option<M> {
         match self {
             Tried::Better(made) => Some(made),
@@ -279,16 +275,8 @@ impl Analysis {
                         .cloned()
                         .collect(),
                 };
-                let best = best.map(|(_, tally)| tally);
-                let mends = |it: &Analysis, drawing: &Drawing, edit: &DrawingEdit| {
-                    it.mends(
-                        drawing,
-                        rule,
-                        best.unwrap_or_else(|| it.tallied(drawing)),
-                        edit,
-                    )
-                };
-                let after = self.made_of(drawing, &tried, wanted, mends);
+                let before = best.map_or_else(|| self.tallied(drawing), |(_, tally)| tally);
+                let after = self.mends(drawing, rule, before, &tried);
                 after.map(|after| (tried, after))
             },
         );

@@ -1,13 +1,24 @@
 //! The search for the runs that come near a run, and the comparison with each. Knows nothing of what was found before.
 
 use super::compare::{
-    Comparison, Kept, LOOKS_OF_A_PAIR, Observed, Outlooks, RunId, Walled, Walls, passes,
+    Comparison, LOOKS_OF_A_PAIR, Observed, Outlooks, RunId, RunWalls, RunsAtHand, Walled, passes,
 };
 use crate::geometry::{Bounds, Grid, Segment, Shell, Shells};
 use crate::rules::Outlook;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 use std::rc::Rc;
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering::Relaxed};
+
+/// From this many runs on, what has been seen is checked in one pass, and a task takes more runs.
+pub(super) const MANY_RUNS: usize = 512;
+/// Runs that are compared in parallel: results beyond the bounds are dropped.
+const BATCH: usize = 8192;
+/// From this many runs on, several threads are worth while.
+const SEVERAL_RUNS: usize = if cfg!(test) { 2 } else { 64 };
+/// Runs per task, of many and of fewer.
+const SHARE: usize = 64;
+const SMALL_SHARE: usize = 8;
 
 /// One look of the budget: the comparison of two segments, or of this many boxes of the grid.
 pub(super) const BOXES_OF_A_LOOK: u64 = 4;
@@ -28,8 +39,6 @@ pub(super) struct Search<'a> {
     pub(super) most_seen: usize,
     pub(super) new: &'a FxHashMap<RunId, u32>,
     pub(super) are_parts: bool,
-    /// Enough runs are compared that the walls of each are needed again.
-    pub(super) keeps: bool,
 }
 
 /// The results for one run.
@@ -53,6 +62,28 @@ impl Looked {
     }
 }
 
+impl Compared {
+    /// Adds the results for a run, up to the bounds.
+    fn add(&mut self, run: RunId, looked: Looked, most_seen: usize) {
+        self.left = self.left.saturating_sub(looked.before);
+        let mut is_whole = !looked.is_cut_short;
+        for (other, looks, found) in looked.each {
+            if self.count >= most_seen || self.left == 0 {
+                is_whole = false;
+                break;
+            }
+            self.left = self.left.saturating_sub(looks);
+            if !found.is_empty() {
+                self.count += found.len();
+                self.seen.push((run, other, found));
+            }
+        }
+        if !is_whole {
+            self.cut_short.push(run);
+        }
+    }
+}
+
 /// Where a run of a contour lies.
 fn shell_of(outlook: &Outlook, run: u32) -> Shell {
     let range = outlook.index.range_of(run as usize);
@@ -61,9 +92,76 @@ fn shell_of(outlook: &Outlook, run: u32) -> Shell {
     Shell::of(segments.iter().copied())
 }
 
+/// What the comparison of new runs has found.
+pub(super) struct Compared {
+    pub(super) seen: Vec<(RunId, RunId, Vec<Observed>)>,
+    /// Those that have not been compared with all their neighbours.
+    pub(super) cut_short: Vec<RunId>,
+    /// The looks that are left.
+    pub(super) left: u64,
+    /// How much has been seen in all.
+    pub(super) count: usize,
+}
+
 impl Search<'_> {
+    /// Compares new runs in their order, within so many looks, where so much has been seen before. Where they are many, several cores work ahead: what
+    /// is found beyond the bounds is dropped.
+    pub(super) fn compared(
+        &self,
+        kept: &mut RunsAtHand,
+        runs: &[RunId],
+        (left, count): (u64, usize),
+    ) -> Compared {
+        let most_seen = self.most_seen;
+        let mut all = Compared {
+            seen: Vec::new(),
+            cut_short: Vec::new(),
+            left,
+            count,
+        };
+        let outlook = kept.outlook;
+        for (batch, runs) in runs.chunks(BATCH).enumerate() {
+            let first = batch * BATCH;
+            // A run that was not compared here because of the limit is compared below, if at all.
+            let (looks, found) = (AtomicU64::new(0), AtomicUsize::new(0));
+            let (left, count) = (all.left, all.count);
+            let is_enough =
+                || looks.load(Relaxed) >= left || count + found.load(Relaxed) >= most_seen;
+            let look = |kept: &mut RunsAtHand, (at, &run): (usize, &RunId)| {
+                (!is_enough()).then(|| {
+                    let looked = self.look(kept, first + at, run, left);
+                    looks.fetch_add(looked.looks(), Relaxed);
+                    found.fetch_add(looked.found(), Relaxed);
+                    looked
+                })
+            };
+            let ahead: Vec<Option<Looked>> = if runs.len() < SEVERAL_RUNS {
+                Vec::new()
+            } else {
+                let share = if self.new.len() < MANY_RUNS {
+                    SMALL_SHARE
+                } else {
+                    SHARE
+                };
+                let runs = runs.par_iter().enumerate().with_min_len(share);
+                runs.map_init(|| RunsAtHand::new(outlook), look).collect()
+            };
+            let mut ahead = ahead.into_iter();
+            for (at, &run) in runs.iter().enumerate() {
+                let ahead = ahead.next().flatten();
+                if all.count >= most_seen || all.left == 0 {
+                    all.cut_short.push(run);
+                    continue;
+                }
+                let looked = ahead.unwrap_or_else(|| self.look(kept, first + at, run, all.left));
+                all.add(run, looked, most_seen);
+            }
+        }
+        all
+    }
+
     /// Compares the new run with this index with all that come near it, within this many looks.
-    pub(super) fn look(&self, kept: &mut Kept, at: usize, run: RunId, most: u64) -> Looked {
+    pub(super) fn look(&self, kept: &mut RunsAtHand, at: usize, run: RunId, most: u64) -> Looked {
         let mut looked = Looked::default();
         let Some(own) = (kept.outlook)(run.0) else {
             return looked;
@@ -87,7 +185,7 @@ impl Search<'_> {
         let walls = match near.as_slice() {
             [] => return looked,
             // The walls of a run that nothing else comes near are not needed again.
-            [(alone, _)] if *alone == run => Rc::new(Walls::of(&own, run.1)),
+            [(alone, _)] if *alone == run => Rc::new(RunWalls::of(&own, run.1)),
             _ => match kept.walls_of(run) {
                 Some(walls) => walls,
                 None => return looked,
@@ -108,22 +206,13 @@ impl Search<'_> {
             keys: (run.0, other.0),
         };
         let (mut looks, mut count) = (looked.before, 0);
-        for (other, bounds) in near {
+        for (other, _) in near {
             if looks >= most || count >= self.most_seen {
                 looked.is_cut_short = true;
                 break;
             }
             let mut found = Vec::new();
-            // Of walls that are not needed again, only those that come near.
-            let theirs = match self.keeps {
-                _ if other == run => None,
-                true => kept.walls_of(other),
-                false => (kept.outlook)(other.0).map(|outlook| {
-                    let own = walls.each.iter().filter(|wall| comes_near(wall, &bounds));
-                    let own: Vec<&Walled> = own.collect();
-                    Rc::new(Walls::near(&outlook, other.1, &own, self.reach))
-                }),
-            };
+            let theirs = (other != run).then(|| kept.walls_of(other)).flatten();
             let own = match theirs {
                 Some(theirs) => comparison(other).between(&walls, &theirs, &mut found),
                 None => comparison(other).within(&walls, &mut found),

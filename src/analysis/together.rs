@@ -17,7 +17,7 @@ const WORKED_OUT: usize = 256;
 const NAMED: usize = 32;
 
 /// A finding without its rule.
-pub(super) type Told = (Place, Detail, Vec<Place>);
+pub(super) type Gathered = (Place, Detail, Vec<Place>);
 
 /// One finding for several observations of a rule in a contour.
 pub(super) fn of_observations(
@@ -25,7 +25,7 @@ pub(super) fn of_observations(
     rule: &LocalRule,
     together: Together,
     concerned: Vec<Observation>,
-) -> Option<Told> {
+) -> Option<Gathered> {
     let mut worst = concerned.clone();
     let order = |one: &Observation, other: &Observation| {
         let heavier = other.weight.total_cmp(&one.weight);
@@ -46,7 +46,7 @@ pub(super) fn of_observations(
 }
 
 /// One finding for many contours, with the layers that they lie on, those with most of them first.
-pub(super) fn of_contours(rule: &ContourRule, met: &[Outlook]) -> Option<Told> {
+pub(super) fn of_contours(rule: &ContourRule, met: &[Outlook]) -> Option<Gathered> {
     let places = met
         .iter()
         .filter_map(|outlook| Some((outlook, (rule.places)(outlook)?.0)));
@@ -63,7 +63,7 @@ pub(super) fn of_contours(rule: &ContourRule, met: &[Outlook]) -> Option<Told> {
 fn of_layers(
     layers: impl Iterator<Item = Arc<str>>,
     mut places: impl Iterator<Item = Place>,
-) -> Option<Told> {
+) -> Option<Gathered> {
     let mut counts: BTreeMap<Arc<str>, usize> = BTreeMap::new();
     layers.for_each(|layer| *counts.entry(layer).or_default() += 1);
     let mut layers: Vec<(Arc<str>, usize)> = counts.into_iter().collect();
@@ -151,7 +151,7 @@ impl Analysis {
         findings.into_iter().flatten().collect()
     }
 
-    fn told_together(&self, drawing: &Drawing, own: &[&Finding]) -> Option<Told> {
+    fn told_together(&self, drawing: &Drawing, own: &[&Finding]) -> Option<Gathered> {
         let first = own.first()?;
         if let Some(rule) = CONTOUR_RULES.iter().find(|rule| rule.rule == first.rule) {
             let places = || own.iter().map(|finding| finding.place.clone());

@@ -7,17 +7,11 @@ use crate::rules::{Outlook, PAIR_RULES};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
 
-/// The findings of the observed pairs, valid while no pair comes or goes and the wire stays on its sides.
+/// The findings of the observed pairs.
 #[derive(Debug, Default)]
-pub(super) struct Told {
-    /// The side of the wire at each of the contours.
-    pub(super) sides: FxHashMap<ContourKey, Option<Side>>,
-    /// Contours that lie on one another with the wire on different sides, and whether one takes of the part of the other.
-    pub(super) meeting: FxHashMap<[ContourKey; 2], bool>,
-    /// The place of the first run that has not been compared.
-    pub(super) uncompared: Option<Place>,
+pub(super) struct PairFindings {
     /// In the order of the rules, and in the machining order of the entities.
-    pub(super) pairs: Vec<ToldPair>,
+    pub(super) pairs: Vec<PairFinding>,
     /// The number of each rule and severity.
     pub(super) counts: BTreeMap<(usize, Option<Severity>), usize>,
     /// The number of findings for which others stand, by their rule and severity.
@@ -25,7 +19,7 @@ pub(super) struct Told {
 }
 
 #[derive(Debug)]
-pub(super) struct ToldPair {
+pub(super) struct PairFinding {
     /// Index into [`PAIR_RULES`].
     pub(super) rule: usize,
     pub(super) mildest: Option<Severity>,
@@ -34,7 +28,7 @@ pub(super) struct ToldPair {
     pub(super) one: SegmentId,
     pub(super) other: SegmentId,
     /// The duplicates in a contour.
-    pub(super) others: Option<Doubles>,
+    pub(super) others: Option<DoublesOfContour>,
     pub(super) crossings: Option<Crossings>,
 }
 
@@ -56,8 +50,8 @@ const NAMED: usize = 8;
 
 /// Reports the crossings of each segment with many of them as one: the first stays. Returns the
 /// rule and severity of those for which it stands.
-pub(super) fn gather_crossings(pairs: &mut Vec<ToldPair>) -> Vec<(usize, Option<Severity>)> {
-    let is_crossing = |pair: &&ToldPair| PAIR_RULES[pair.rule].rule == Rule::SelfIntersection;
+pub(super) fn gather_crossings(pairs: &mut Vec<PairFinding>) -> Vec<(usize, Option<Severity>)> {
+    let is_crossing = |pair: &&PairFinding| PAIR_RULES[pair.rule].rule == Rule::SelfIntersection;
     let mut counts: FxHashMap<(SegmentId, Option<Severity>), usize> = FxHashMap::default();
     for pair in pairs.iter().filter(is_crossing) {
         for of in [pair.one, pair.other] {
@@ -69,7 +63,7 @@ pub(super) fn gather_crossings(pairs: &mut Vec<ToldPair>) -> Vec<(usize, Option<
         return Vec::new();
     }
     // Where two such segments meet, the one with more crossings stands for the pair.
-    let of = |pair: &ToldPair| {
+    let of = |pair: &PairFinding| {
         let count = |of: SegmentId| counts.get(&(of, pair.mildest)).copied();
         let (one, other) = (count(pair.one), count(pair.other));
         let longer = if one >= other { pair.one } else { pair.other };
@@ -111,7 +105,7 @@ pub(super) fn gather_crossings(pairs: &mut Vec<ToldPair>) -> Vec<(usize, Option<
 
 /// Entities of one contour that are duplicated.
 #[derive(Debug, Default)]
-pub(super) struct Doubles {
+pub(super) struct DoublesOfContour {
     /// The later ones, which are superfluous.
     pub(super) places: Vec<Place>,
     /// The number of entities of the contour that they duplicate, and the last of those.
@@ -120,7 +114,7 @@ pub(super) struct Doubles {
     known: FxHashSet<EntityId>,
 }
 
-impl Doubles {
+impl DoublesOfContour {
     /// Adds one that lies on `first`; all that lie on one follow each other.
     pub(super) fn add(&mut self, first: EntityId, later: EntityId, place: Place) {
         self.count += usize::from(self.last.replace(first) != Some(first));
@@ -131,21 +125,6 @@ impl Doubles {
 
     pub(super) fn detail(&self) -> Detail {
         Detail::DuplicateEntity { count: self.count }
-    }
-}
-
-impl Told {
-    pub(super) fn holds(
-        &self,
-        outlook: Outlooks,
-        wire_side: &dyn Fn(ContourKey) -> Option<Side>,
-    ) -> bool {
-        self.sides
-            .iter()
-            .all(|(&key, &side)| wire_side(key) == side)
-            && self.meeting.iter().all(|(&[one, other], &takes)| {
-                takes_of_the_other(outlook, [one, other], wire_side) == takes
-            })
     }
 }
 

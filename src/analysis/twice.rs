@@ -1,7 +1,7 @@
 //! Closed contours that lie on one another everywhere, whatever their entities: one of them is cut, and one finding says so.
 
 use super::compare::{Observed, Outlooks};
-use super::told::{Doubles, ToldPair};
+use super::told::{DoublesOfContour, PairFinding};
 use crate::drawing::{ContourKey, Drawing, EntityId, are_twins};
 use crate::finding::Rule;
 use crate::rules::{Outlook, PAIR_RULES};
@@ -94,14 +94,14 @@ impl Twice {
     }
 
     /// One finding for each place, and another one for what cannot be deleted there.
-    pub(super) fn told(&self, drawing: &Drawing, outlook: Outlooks) -> Vec<ToldPair> {
+    pub(super) fn told(&self, drawing: &Drawing, outlook: Outlooks) -> Vec<PairFinding> {
         let Some(rule) = PAIR_RULES
             .iter()
             .position(|rule| rule.rule == Rule::DuplicateEntity)
         else {
             return Vec::new();
         };
-        let mut told: BTreeMap<(u64, bool), ToldPair> = BTreeMap::new();
+        let mut told: BTreeMap<(u64, bool), PairFinding> = BTreeMap::new();
         let mut later: Vec<(u64, ContourKey, ContourKey)> = Vec::new();
         let first_entity = |key: ContourKey| -> Option<EntityId> {
             Some(outlook(key)?.contour.pieces.first()?.entity)
@@ -118,13 +118,13 @@ impl Twice {
             let goes = pieces.iter().all(|it| drawing.is_whole(it.entity));
             let pair = told
                 .entry((drawing.rank(entity), goes))
-                .or_insert_with(|| ToldPair {
+                .or_insert_with(|| PairFinding {
                     rule,
                     mildest: None,
                     kind: 0,
                     one: (first, 0),
                     other: (other, 0),
-                    others: Some(Doubles::default()),
+                    others: Some(DoublesOfContour::default()),
                     crossings: None,
                 });
             for piece in pieces {

@@ -198,12 +198,6 @@ impl Chains {
         !self.group_of.contains_key(&key)
     }
 
-    /// All contours of the group of a contour; none for a contour that is a group by itself.
-    pub(crate) fn grouped_with(&self, key: Key) -> &[Key] {
-        let group = self.group_of.get(&key).and_then(|it| self.groups.get(it));
-        group.map_or(&[], Vec::as_slice)
-    }
-
     /// To be called when the number of segments of an entity has changed: its contour counts them
     /// again.
     pub(crate) fn recount(&mut self, drawing: &Drawing, entity: EntityId) {

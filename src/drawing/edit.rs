@@ -45,10 +45,9 @@ pub enum Change {
     },
 }
 
-/// The entity of a change, borrowed as that is.
-macro_rules! entity_of {
-    ($change:expr) => {
-        match $change {
+impl Change {
+    pub(crate) fn entity(&self) -> EntityId {
+        match *self {
             Change::SetVertex { entity, .. }
             | Change::RemoveVertex { entity, .. }
             | Change::Reshape { entity, .. }
@@ -57,19 +56,6 @@ macro_rules! entity_of {
             | Change::SetClosed { entity, .. }
             | Change::AddEntity { after: entity, .. } => entity,
         }
-    };
-}
-
-impl Change {
-    /// The same change for another entity.
-    pub(crate) fn of(&self, other: EntityId) -> Change {
-        let mut change = self.clone();
-        *entity_of!(&mut change) = other;
-        change
-    }
-
-    pub(crate) fn entity(&self) -> EntityId {
-        *entity_of!(self)
     }
 }
 

@@ -113,39 +113,6 @@ impl Drawing {
         }
     }
 
-    /// Some of the entities as a drawing, in the same order, and the id that each has there. They
-    /// cannot be found by handle.
-    pub(crate) fn part(
-        &self,
-        of: &FxHashSet<EntityId>,
-    ) -> (Drawing, FxHashMap<EntityId, EntityId>) {
-        let mut order: Vec<EntityId> = of.iter().copied().collect();
-        order.sort_unstable_by_key(|&id| self.rank(id));
-        let mut part = Drawing {
-            unit: self.unit,
-            assumed_unit: self.assumed_unit,
-            layer_colors: self.layer_colors.clone(),
-            ..Drawing::default()
-        };
-        let mut ids = FxHashMap::default();
-        for (id, entity) in order.into_iter().filter_map(|id| Some((id, self.get(id)?))) {
-            let own = EntityId(part.slots.len() as u32);
-            part.slots.push(entity.clone());
-            part.order.push(own);
-            part.look_at_layer(own);
-            part.set_appearance(own, self.appearance(id));
-            ids.insert(id, own);
-        }
-        let own = |all: &FxHashSet<EntityId>| {
-            let own = all.iter().filter_map(|id| ids.get(id).copied());
-            own.collect()
-        };
-        part.fixed = own(&self.fixed);
-        part.whole = own(&self.whole);
-        part.straight = own(&self.straight);
-        (part, ids)
-    }
-
     /// Sets the unit to assume where the drawing states none; without a call it is millimetres.
     pub(crate) fn assume_unit(&mut self, unit: Unit) {
         self.assumed_unit = Some(unit);

@@ -2,7 +2,6 @@
 
 use super::{Contour, Drawing};
 use crate::geometry::{Bounds, Grid, Point, Segment};
-use rustc_hash::FxHashMap;
 
 /// Pairs of closed contours, by their places and the earlier one first, that lie within `tolerance` of each other everywhere:
 /// each of those that lie in one place with the first of them.
@@ -13,30 +12,24 @@ pub(crate) fn twins(
     contours: &[(&Contour, Bounds)],
     tolerance: f64,
 ) -> Vec<[usize; 2]> {
-    // By the cell of the lower left corner: the corners of two that are twins lie in one cell or in cells side by side.
-    let size = 4.0 * tolerance.max(f64::MIN_POSITIVE);
-    let cell = |bounds: &Bounds| {
-        let [x, y] = [bounds.min.x, bounds.min.y].map(|it| (it / size).floor() as i64);
-        (x, y)
-    };
-    let mut cells: FxHashMap<(i64, i64), Vec<usize>> = FxHashMap::default();
+    // The lower left corners of two that are twins lie within the tolerance of each other.
+    let mut corners = Grid::default();
     let mut found = Vec::new();
     for (place, (contour, bounds)) in contours.iter().enumerate() {
         if !contour.closed || bounds.is_empty() {
             continue;
         }
-        let (x, y) = cell(bounds);
-        let about = (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| (dx, dy)));
-        let about = about.map(|(dx, dy)| (x.saturating_add(dx), y.saturating_add(dy)));
-        let near = about.filter_map(|cell| cells.get(&cell)).flatten();
-        let is_twin = |&&earlier: &&usize| {
+        let corner = Bounds::of_points(&[bounds.min]);
+        let mut near = Vec::new();
+        corners.near(&corner.grown(tolerance), |earlier, _| near.push(earlier));
+        let is_twin = |&earlier: &usize| {
             contours.get(earlier).is_some_and(|(other, theirs)| {
                 are_twins(drawing, (other, theirs), (contour, bounds), tolerance)
             })
         };
-        match near.filter(is_twin).min() {
-            Some(&first) => found.push([first, place]),
-            None => cells.entry((x, y)).or_default().push(place),
+        match near.into_iter().filter(is_twin).min() {
+            Some(first) => found.push([first, place]),
+            None => corners.insert(place, corner),
         }
     }
     found

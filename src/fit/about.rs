@@ -7,7 +7,7 @@ use crate::toolpath::{Nearby, Part};
 pub(super) const TIE: f64 = 1e-3;
 
 /// What the clearance is checked against. Drawing units.
-pub(super) struct Limits {
+pub(super) struct FitLimits {
     pub clearance: f64,
     pub rounding: f64,
     /// The clearance beside walls that both wires follow; `None` where both parts are drawn, and each place is looked at.

@@ -1,6 +1,6 @@
 //! Two parts laid in each other follow an edit: only what has changed, and what depends on a changed place, is looked at again.
 
-use super::about::{About, Limits};
+use super::about::{About, FitLimits};
 use super::held::{Held, all_apart, look};
 use super::places::own_places;
 use crate::geometry::Bounds;
@@ -8,7 +8,7 @@ use crate::toolpath::{Moved, Part};
 
 impl Held {
     /// Updates the result for two parts of which it is known what has moved, in place, under the same limits.
-    pub(super) fn follow(&mut self, parts: [&Part; 2], moved: [&Moved; 2], limits: &Limits) {
+    pub(super) fn follow(&mut self, parts: [&Part; 2], moved: [&Moved; 2], limits: &FitLimits) {
         let boxes = || moved.iter().flat_map(|moved| &moved.boxes);
         let mut all = Bounds::EMPTY;
         boxes().for_each(|bounds| all.merge(bounds));

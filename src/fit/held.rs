@@ -6,8 +6,8 @@
 //! where walls lie folded, from how near the two outlines come to each other there, or how deep one stands in the other.
 
 use super::Spot;
-use super::about::{About, Limits};
-use super::observations::{Lies, Observations, Verdict};
+use super::about::{About, FitLimits};
+use super::observations::{EdgeObservations, Lies, Verdict};
 use super::penetration::{Deep, depth};
 use super::places::own_places;
 use super::walls::{nearest_places, sharper, wall};
@@ -26,7 +26,7 @@ pub(crate) struct Held {
     /// The least clearance where no edge stands too far out.
     pub(super) unless: f64,
     /// Corners of the punch, those of the plate, and walls of the punch.
-    pub(super) observations: [Observations; 3],
+    pub(super) observations: [EdgeObservations; 3],
     /// The numbers of those of walls that are not about the same place as another one.
     pub(super) places: Vec<u32>,
     /// One place that stands for all walls, where they lie too near to each other everywhere.
@@ -48,9 +48,9 @@ const DOUBLINGS: u32 = 6;
 const WIDER: f64 = 1.0 + 1e-3;
 
 /// Lays the punch in the plate. `names` are what the two are called.
-pub(super) fn held(parts: [&Part; 2], names: &[Arc<str>; 2], limits: &Limits) -> Held {
+pub(super) fn held(parts: [&Part; 2], names: &[Arc<str>; 2], limits: &FitLimits) -> Held {
     let observations = [0, 1, 2].map(|which| match which {
-        2 if limits.along_walls.is_some() => Observations::default(),
+        2 if limits.along_walls.is_some() => EdgeObservations::default(),
         which => observations(which, parts, limits),
     });
     let (unless, apart) = all_apart(parts, names, limits);
@@ -67,7 +67,7 @@ pub(super) fn held(parts: [&Part; 2], names: &[Arc<str>; 2], limits: &Limits) ->
 pub(super) fn all_apart(
     [punch, plate]: [&Part; 2],
     [of_punch, of_plate]: &[Arc<str>; 2],
-    limits: &Limits,
+    limits: &FitLimits,
 ) -> (f64, Option<Spot>) {
     let is_less = |apart: &f64| *apart < limits.clearance - limits.rounding;
     let Some(apart) = limits.along_walls.filter(is_less) else {
@@ -99,7 +99,7 @@ impl Held {
     }
 
     /// The least clearance all round of the parts that were compared, even where it is more than the required one.
-    pub(super) fn least_left(&self, parts: [&Part; 2], limits: &Limits) -> f64 {
+    pub(super) fn least_left(&self, parts: [&Part; 2], limits: &FitLimits) -> f64 {
         match self.clearances().next() {
             Some(_) => self.least(),
             None => more_than_wanted(parts, &self.names, limits),
@@ -202,9 +202,9 @@ fn spot(
 }
 
 /// How much is left at the tightest place of parts that have the clearance everywhere: more and more is required until it is missing.
-fn more_than_wanted(parts: [&Part; 2], names: &[Arc<str>; 2], limits: &Limits) -> f64 {
+fn more_than_wanted(parts: [&Part; 2], names: &[Arc<str>; 2], limits: &FitLimits) -> f64 {
     let least = |clearance: f64| {
-        let more = Limits {
+        let more = FitLimits {
             clearance,
             ..*limits
         };
@@ -227,7 +227,7 @@ pub(super) fn look(
     [punch, plate]: [&Part; 2],
     edge: usize,
     about: &mut About,
-    limits: &Limits,
+    limits: &FitLimits,
 ) -> Option<Verdict> {
     match which {
         0 => corner([punch, plate], edge, about, limits),
@@ -237,10 +237,10 @@ pub(super) fn look(
 }
 
 /// What a look at each edge says.
-fn observations(which: usize, parts: [&Part; 2], limits: &Limits) -> Observations {
+fn observations(which: usize, parts: [&Part; 2], limits: &FitLimits) -> EdgeObservations {
     let count = parts[usize::from(which == 1)].edges.len();
     let some = |edges: Range<usize>| {
-        let mut observations = Observations {
+        let mut observations = EdgeObservations {
             asked: Vec::with_capacity(edges.len()),
             verdicts: Vec::new(),
         };
@@ -258,10 +258,10 @@ fn observations(which: usize, parts: [&Part; 2], limits: &Limits) -> Observation
         return some(0..count);
     }
     let steps = (0..count.div_ceil(AT_A_TIME)).into_par_iter();
-    let parts: Vec<Observations> = steps
+    let parts: Vec<EdgeObservations> = steps
         .map(|step| some(step * AT_A_TIME..((step + 1) * AT_A_TIME).min(count)))
         .collect();
-    let mut all = Observations {
+    let mut all = EdgeObservations {
         asked: Vec::with_capacity(count),
         verdicts: Vec::with_capacity(parts.iter().map(|part| part.verdicts.len()).sum()),
     };
@@ -278,7 +278,7 @@ fn corner(
     [one, other]: [&Part; 2],
     edge: usize,
     about: &mut About,
-    limits: &Limits,
+    limits: &FitLimits,
 ) -> Option<Verdict> {
     let turned = one.edges[edge].turned_about?;
     let before = farthest([one, other], edge, turned, about, limits);
@@ -303,7 +303,7 @@ fn nearest(
     [one, other]: [&Part; 2],
     edge: usize,
     about: &mut About,
-    limits: &Limits,
+    limits: &FitLimits,
 ) -> Option<Verdict> {
     let geometry = &one.edges[edge].geometry;
     let area = geometry.bounds().grown(limits.clearance);
@@ -360,7 +360,7 @@ fn farthest(
     index: usize,
     turned: Point,
     about: &mut About,
-    limits: &Limits,
+    limits: &FitLimits,
 ) -> Option<(f64, Point, usize)> {
     let arc = one.edges[index].geometry.as_arc()?;
     let (from, to) = (arc.start - turned, arc.end - turned);

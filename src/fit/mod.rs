@@ -23,7 +23,7 @@ use crate::drawing::{Contour, Drawing, EntityId, Outline, Role, wire_side};
 use crate::geometry::{Point, Segment, Side};
 use crate::settings::{Effective, Use};
 use crate::toolpath::{Cutting, Moved, Part, Refusal, Walls, part};
-use about::Limits;
+use about::FitLimits;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -157,12 +157,12 @@ pub(crate) fn cut_twice(drawing: &Drawing, parts: [&Part; 2], settings: &Effecti
 
 /// What the clearance of two parts is checked against, which are cut along one contour or both
 /// drawn.
-fn limits(drawing: &Drawing, settings: &Effective, is_cut_twice: bool) -> Limits {
+fn limits(drawing: &Drawing, settings: &Effective, is_cut_twice: bool) -> FitLimits {
     let unit_mm = settings.unit_of(drawing).mm;
     let clearance = settings.pair.clearance.unwrap_or(0.0) / unit_mm;
     // Beside straight walls the two lie as far apart as their kerfs leave it.
     let apart = || punch_and_plate_apart(settings).map_or(clearance, |mm| mm / unit_mm);
-    Limits {
+    FitLimits {
         clearance,
         rounding: settings.tolerances.report / unit_mm,
         along_walls: is_cut_twice.then(apart),

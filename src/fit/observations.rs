@@ -4,14 +4,14 @@ use crate::geometry::{Bounds, Point};
 
 /// What was seen of the edges of a part, in their order.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Observations {
+pub(super) struct EdgeObservations {
     /// For each edge, the box of everything that was asked about it; an empty one where nothing was.
     pub asked: Vec<Bounds>,
     /// The verdicts on those that stand too far out.
     pub verdicts: Vec<Verdict>,
 }
 
-impl Observations {
+impl EdgeObservations {
     /// What was seen of an edge that stands too far out.
     pub(super) fn of(&self, edge: usize) -> Option<&Verdict> {
         let edge_of = |verdict: &Verdict| verdict.edge as usize;

@@ -1,6 +1,6 @@
 //! How deep an edge, or a stretch of an outline, stands in the other part.
 
-use super::about::Limits;
+use super::about::FitLimits;
 use crate::geometry::{Bounds, Point, Segment, Vector, meetings};
 use crate::toolpath::{Nearby, Part};
 
@@ -91,7 +91,7 @@ pub(super) struct Deep {
 pub(super) fn depth(
     [own, other]: [&Part; 2],
     begins: (usize, f64),
-    limits: &Limits,
+    limits: &FitLimits,
     asked: &mut Bounds,
 ) -> Option<Deep> {
     let mut way = Nearby::of(&other.path);

@@ -1,10 +1,10 @@
 //! Each place in which two parts bind, once: the walls that meet in a corner say the same as the corner itself.
 
-use super::observations::{Lies, Observations, Verdict};
+use super::observations::{EdgeObservations, Lies, Verdict};
 
 /// The numbers of what was seen of walls of the punch, without what a neighbour or a corner already says of the same place. Clearances and places
 /// that differ by less than the rounding count as equal.
-pub(super) fn own_places(all: &[Observations; 3], rounding: f64) -> Vec<u32> {
+pub(super) fn own_places(all: &[EdgeObservations; 3], rounding: f64) -> Vec<u32> {
     let [of_punch, of_plate, of_walls] = all;
     let count = of_walls.asked.len() as u32;
     // By the edge of the punch.

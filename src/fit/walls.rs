@@ -1,7 +1,7 @@
 //! Walls of a drawn punch and its drawn plate that lie too near to each other, or run into each other.
 
 use super::Sharper;
-use super::about::{About, Limits, TIE};
+use super::about::{About, FitLimits, TIE};
 use super::observations::{Lies, Verdict};
 use super::penetration::deepest;
 use crate::geometry::{Bounds, Point, Segment, facing, turn};
@@ -25,7 +25,7 @@ pub(super) fn wall(
     [punch, plate]: [&Part; 2],
     index: usize,
     about: &mut About,
-    limits: &Limits,
+    limits: &FitLimits,
 ) -> Option<Verdict> {
     let plain = |part: &Part, index: usize| part.edges[index].turned_about.is_none();
     if !plain(punch, index) {
@@ -141,7 +141,7 @@ fn lies(
     (clearance, at): (f64, Point),
     plate: &Part,
     about: &mut About,
-    limits: &Limits,
+    limits: &FitLimits,
 ) -> Lies {
     let reach = plate.half + limits.clearance;
     let mut is_as_deep = |share: f64| {
@@ -173,7 +173,7 @@ fn tip(
     index: usize,
     depth: f64,
     about: &mut About,
-    limits: &Limits,
+    limits: &FitLimits,
 ) -> Option<(f64, Point, usize)> {
     let wall = &punch.edges[index].geometry;
     let mut way = Nearby::of(&punch.path);

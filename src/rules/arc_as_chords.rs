@@ -47,7 +47,7 @@ const STEEPEST: f64 = 0.466_307_658;
 
 /// The circle through some points in a row.
 #[derive(Clone, Copy, Debug)]
-struct Fit {
+struct FittedCircle {
     center: Point,
     radius: f64,
     deviation: f64,
@@ -62,7 +62,7 @@ fn fit(
     chords: usize,
     strides: &[usize],
     tolerance: f64,
-) -> Option<Fit> {
+) -> Option<FittedCircle> {
     let turns = |stride: &usize| turn_of_all(&point, chords, chords / stride);
     let side = strides.iter().find_map(turns)?;
     let (first, last) = (point(0), point(chords));
@@ -86,7 +86,7 @@ fn fit(
     }
     rise = if round { radius } else { rise / axis.norm() };
     let is_shallow = |at: usize| turn_of_corner([at - 1, at, at + 1].map(&point)).is_some();
-    (rise > 4.0 * deviation && (1..chords).all(is_shallow)).then_some(Fit {
+    (rise > 4.0 * deviation && (1..chords).all(is_shallow)).then_some(FittedCircle {
         center,
         radius,
         deviation,
@@ -243,7 +243,7 @@ fn holds(outlook: &Outlook, observation: Observation) -> bool {
 }
 
 /// The longest sequence from `first` on that fits one circle.
-fn sequence(outlook: &Outlook, first: usize) -> Option<(usize, Fit, Vec<Point>)> {
+fn sequence(outlook: &Outlook, first: usize) -> Option<(usize, FittedCircle, Vec<Point>)> {
     let mut points = corners(outlook, first as isize, outlook.contour.len().min(MOST));
     let most = points.len().saturating_sub(1);
     let tolerance = outlook.limits.tolerances.chords;
@@ -318,7 +318,7 @@ fn fixes(outlook: &Outlook, observation: Observation) -> Vec<Fix> {
         return Vec::new();
     };
     let mut arcs: Vec<(Range<usize>, Arc)> = Vec::new();
-    let mut add = |range: Range<usize>, fit: &Fit, points: &[Point]| {
+    let mut add = |range: Range<usize>, fit: &FittedCircle, points: &[Point]| {
         let arc = Arc::about(
             fit.center,
             points[range.start],

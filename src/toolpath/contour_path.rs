@@ -212,7 +212,17 @@ impl Job<'_> {
             return Ok(Ok(Laid::Path(path.elements)));
         }
         self.searched.store(true, Relaxed);
-        let mut loops = match loops::find(&proof, &raw, self.goes_on) {
+        self.among_crossings(&proof, &raw, walls)
+    }
+
+    /// The path among all crossings of the raw offsets of some walls, where cutting neighbours with each other is not enough.
+    fn among_crossings(
+        &self,
+        proof: &Proof,
+        raw: &Raw,
+        walls: &[Wall],
+    ) -> Result<Outcome, Refusal> {
+        let mut loops = match loops::find(proof, raw, self.goes_on) {
             Found::Loops(loops) => loops,
             Found::Point(point) => return Ok(Ok(Laid::Point(point))),
             // Outside of a contour there is always room: one that is turned inside out somewhere is so where it is finest.
@@ -229,13 +239,13 @@ impl Job<'_> {
             }
             Found::Cancelled => return Err(Refusal::Cancelled),
         };
-        if !closed {
-            let path = match one_side(loops, &raw, walls, correction) {
+        if !proof.closed {
+            let path = match one_side(loops, raw, walls, proof.correction) {
                 Ok(path) => path,
                 Err(None) => return Ok(Err(Fault::Nothing)),
                 Err(Some(lost)) => return Ok(Err(Fault::Several(vec![lost]))),
             };
-            return self.vouched(&proof, &raw, Pieces::of(path));
+            return self.vouched(proof, raw, Pieces::of(path));
         }
         if loops.len() > 1 {
             loops.retain(|path| {
@@ -259,10 +269,10 @@ impl Job<'_> {
         if !lost.is_empty() {
             return Ok(Err(Fault::Several(lost)));
         }
-        if !keeps_its_side(&path.elements, walls, own, side) {
+        if !keeps_its_side(&path.elements, walls, proof.own, proof.side) {
             return Ok(Err(Fault::Unproved { wall: 0 }));
         }
-        self.vouched(&proof, &raw, path)
+        self.vouched(proof, raw, path)
     }
 
     /// A path, where it passes its proof.

@@ -9,12 +9,12 @@ use super::clearance::Walls;
 use super::cores::each;
 use super::corners::{AT_A_TIME, Element, Raw, between, close_up};
 use super::proof::Proof;
-use crate::geometry::{Point, Segment};
+use crate::geometry::{Bounds, Grid, Point, Segment};
 use rustc_hash::FxHashMap;
 
 /// A stretch of a raw element that keeps clear of all walls, between two nodes.
 #[derive(Clone, Copy, Debug)]
-struct Stretch {
+struct ClearStretch {
     raw: usize,
     from: usize,
     to: usize,
@@ -41,12 +41,11 @@ const STEP: usize = 256;
 
 pub(super) fn find(proof: &Proof, raw_elements: &Raw, goes_on: &dyn Fn() -> bool) -> Found {
     let mut nodes = Nodes {
-        cell: 8.0 * proof.rounding,
         near: 0.2 * proof.rounding,
         points: Vec::new(),
-        cells: FxHashMap::default(),
+        by_place: Grid::default(),
     };
-    let mut stretches: Vec<Stretch> = Vec::new();
+    let mut stretches: Vec<ClearStretch> = Vec::new();
     let clear = |point: Point| {
         proof
             .own
@@ -75,7 +74,7 @@ pub(super) fn find(proof: &Proof, raw_elements: &Raw, goes_on: &dyn Fn() -> bool
             let runs = node != last || (cut - share) * geometry.length() > 8.0 * proof.rounding;
             if runs {
                 if clear(geometry.point_at((share + cut) / 2.0)) {
-                    stretches.push(Stretch {
+                    stretches.push(ClearStretch {
                         raw,
                         from: last,
                         to: node,
@@ -93,7 +92,7 @@ pub(super) fn find(proof: &Proof, raw_elements: &Raw, goes_on: &dyn Fn() -> bool
                 .find(|&point| clear(point));
         }
     }
-    let middle = |stretch: &Stretch| {
+    let middle = |stretch: &ClearStretch| {
         let ends = [nodes.points[stretch.from], nodes.points[stretch.to]];
         between(all.segment(stretch.raw), ends[0], ends[1]).point_at(0.5)
     };
@@ -110,8 +109,11 @@ pub(super) fn find(proof: &Proof, raw_elements: &Raw, goes_on: &dyn Fn() -> bool
 }
 
 /// Leaves one of the stretches between two nodes that lie on each other, as two raw elements do where they nearly touch in a joint.
-fn once(stretches: &mut Vec<Stretch>, on_each_other: impl Fn(&Stretch, &Stretch) -> bool) {
-    let mut known: FxHashMap<(usize, usize), Vec<Stretch>> = FxHashMap::default();
+fn once(
+    stretches: &mut Vec<ClearStretch>,
+    on_each_other: impl Fn(&ClearStretch, &ClearStretch) -> bool,
+) {
+    let mut known: FxHashMap<(usize, usize), Vec<ClearStretch>> = FxHashMap::default();
     stretches.retain(|stretch| {
         let same = known.entry((stretch.from, stretch.to)).or_default();
         let is_new = !same.iter().any(|other| on_each_other(other, stretch));
@@ -123,7 +125,7 @@ fn once(stretches: &mut Vec<Stretch>, on_each_other: impl Fn(&Stretch, &Stretch)
 }
 
 /// Removes stretches without a predecessor or successor, which are only clear by rounding.
-fn prune(stretches: &mut [Stretch], nodes: usize) {
+fn prune(stretches: &mut [ClearStretch], nodes: usize) {
     let (mut coming, mut going) = (vec![0_u32; nodes], vec![0_u32; nodes]);
     let mut at: Vec<Vec<u32>> = vec![Vec::new(); nodes];
     for (index, stretch) in stretches.iter().enumerate() {
@@ -156,7 +158,7 @@ fn prune(stretches: &mut [Stretch], nodes: usize) {
 
 /// Chains the stretches: each is followed by the next one in the order of the contour that begins where it ends, so
 /// that ways that touch are one. Where it does not close, returns the raw element.
-fn followed(raw_elements: &Raw, stretches: &[Stretch], nodes: &Nodes) -> Result<Loops, usize> {
+fn followed(raw_elements: &Raw, stretches: &[ClearStretch], nodes: &Nodes) -> Result<Loops, usize> {
     let alive: Vec<usize> = (0..stretches.len())
         .filter(|&index| stretches[index].is_alive)
         .collect();
@@ -179,7 +181,7 @@ fn followed(raw_elements: &Raw, stretches: &[Stretch], nodes: &Nodes) -> Result<
             if std::mem::replace(&mut is_done[here], true) {
                 return Err(stretches[here].raw);
             }
-            let Stretch { raw, from, to, .. } = stretches[here];
+            let ClearStretch { raw, from, to, .. } = stretches[here];
             append(
                 raw_elements,
                 &mut pieces,
@@ -234,37 +236,24 @@ fn append(
 
 /// Points that are only distinct when they are further from each other than rounding.
 struct Nodes {
-    cell: f64,
     near: f64,
     points: Vec<Point>,
-    cells: FxHashMap<(i64, i64), Vec<usize>>,
+    by_place: Grid<usize>,
 }
 
 impl Nodes {
     fn at(&mut self, point: Point) -> usize {
-        let place = |offset: f64| {
-            (
-                ((point.x + offset) / self.cell).floor() as i64,
-                ((point.y + offset) / self.cell).floor() as i64,
-            )
-        };
-        let (low, high) = (place(-self.near), place(self.near));
-        for x in low.0..=high.0 {
-            for y in low.1..=high.1 {
-                let known = self.cells.get(&(x, y)).into_iter().flatten();
-                if let Some(&node) = known
-                    .into_iter()
-                    .find(|&&node| (self.points[node] - point).norm() <= self.near)
-                {
-                    return node;
-                }
+        let mut known: Option<usize> = None;
+        (self.by_place).near(&Bounds::of_disc(point, self.near), |node, _| {
+            if (self.points[node] - point).norm() <= self.near {
+                known = Some(known.map_or(node, |known| known.min(node)));
             }
-        }
-        self.points.push(point);
-        self.cells
-            .entry(place(0.0))
-            .or_default()
-            .push(self.points.len() - 1);
-        self.points.len() - 1
+        });
+        known.unwrap_or_else(|| {
+            let node = self.points.len();
+            self.points.push(point);
+            self.by_place.insert(node, Bounds::of_points(&[point]));
+            node
+        })
     }
 }

@@ -11,7 +11,7 @@ use std::ops::Range;
 pub(super) const NEW: u32 = u32::MAX;
 
 /// The path beside a contour as it was before an edit, proved at the same correction on the same side.
-pub(super) struct Kept<'a> {
+pub(super) struct PathBefore<'a> {
     /// How many walls there were.
     pub(super) before: usize,
     /// For each wall, the index that it had before.
@@ -32,15 +32,15 @@ pub(super) fn which_it_is(was: &[u32], before: usize) -> Vec<u32> {
     is
 }
 
-impl<'a> Kept<'a> {
+impl<'a> PathBefore<'a> {
     /// `was` says of each wall which it was; `follows` is what [`follows`] said of the path.
     pub(crate) fn new(
         before: usize,
         was: Vec<u32>,
         pieces: &'a Walls,
         follows: &'a [u32],
-    ) -> Kept<'a> {
-        Kept {
+    ) -> PathBefore<'a> {
+        PathBefore {
             before,
             was,
             pieces,

@@ -8,7 +8,7 @@ use super::clearance::Walls;
 use super::corners::{Element, Joining, Offsets, Raw};
 use super::offset::Wall;
 use super::open_contour::there_and_back;
-use super::reuse::{Kept, which_it_is};
+use super::reuse::{PathBefore, which_it_is};
 use super::ring::trimmed_from;
 use crate::geometry::Segment;
 use std::ops::Range;
@@ -21,7 +21,7 @@ const ABOUT: usize = 16;
 const MOST: usize = 128;
 
 /// Some consecutive walls of a contour that are laid again.
-struct Stretch {
+struct RelaidStretch {
     first: usize,
     count: usize,
     /// In their order, each with its raw element.
@@ -41,13 +41,14 @@ pub(super) struct Splice {
 
 impl Splice {
     /// The pieces beside the walls that have changed; `None` where the kept path does not give all the others.
-    pub(super) fn of(kept: &Kept, walls: &[Wall], joining: &Joining) -> Option<Splice> {
+    pub(super) fn of(kept: &PathBefore, walls: &[Wall], joining: &Joining) -> Option<Splice> {
         let count = walls.len();
         if count <= MOST + 4 * ABOUT || !kept.follows.is_sorted() {
             return None;
         }
         let (first, changed) = changed(kept, count)?;
-        let stretch = Stretch::laid(walls, (first + count - ABOUT) % count, changed, joining)?;
+        let stretch =
+            RelaidStretch::laid(walls, (first + count - ABOUT) % count, changed, joining)?;
         let on_left = |piece: &usize| (2..ABOUT - 2).contains(&stretch.place(*piece));
         let (right_first, right_last) = (stretch.count - ABOUT + 1, stretch.count - 2);
         let on_right = |piece: &usize| (right_first..right_last).contains(&stretch.place(*piece));
@@ -77,7 +78,7 @@ impl Splice {
     }
 
     /// The stretches where the path is not as it was, the last one first: which pieces go, and what takes their place.
-    pub(super) fn stretches(self, kept: &Kept) -> Option<Vec<(Range<usize>, Vec<Element>)>> {
+    pub(super) fn stretches(self, kept: &PathBefore) -> Option<Vec<(Range<usize>, Vec<Element>)>> {
         let is = which_it_is(&kept.was, kept.before);
         let wall_of = |piece: usize| is[kept.follows[piece] as usize / 2] as usize;
         let walls = std::iter::once(wall_of(self.left))
@@ -105,7 +106,7 @@ impl Splice {
 }
 
 /// The first wall of the stretch round the contour that holds all that has changed, and how many it holds.
-fn changed(kept: &Kept, count: usize) -> Option<(usize, usize)> {
+fn changed(kept: &PathBefore, count: usize) -> Option<(usize, usize)> {
     let breaks: Vec<usize> = (0..count).filter(|&wall| !kept.leads_on(wall)).collect();
     let (Some(&first), Some(&last)) = (breaks.first(), breaks.last()) else {
         return Some((0, 1));
@@ -121,9 +122,14 @@ fn changed(kept: &Kept, count: usize) -> Option<(usize, usize)> {
     (changed <= MOST).then_some((first, changed))
 }
 
-impl Stretch {
+impl RelaidStretch {
     /// Lays this many changed walls, with those on either side of them.
-    fn laid(walls: &[Wall], first: usize, changed: usize, joining: &Joining) -> Option<Stretch> {
+    fn laid(
+        walls: &[Wall],
+        first: usize,
+        changed: usize,
+        joining: &Joining,
+    ) -> Option<RelaidStretch> {
         let count = changed + 2 * ABOUT;
         let some = (first..first + count).map(|wall| walls[wall % walls.len()]);
         // There and back, so that the two ends are not joined to each other.
@@ -144,7 +150,7 @@ impl Stretch {
         let pieces = pieces.pairs().filter(|(_, piece)| piece.wall < count);
         let pieces: Vec<(usize, Element)> = pieces.collect();
         let is_sorted = pieces.is_sorted_by(|a, b| a.0 < b.0);
-        is_sorted.then_some(Stretch {
+        is_sorted.then_some(RelaidStretch {
             first,
             count,
             pieces,
@@ -157,7 +163,7 @@ impl Stretch {
     }
 
     /// The old index of a piece that, with its two neighbours, parts what comes before it from what comes after it, now as before.
-    fn parts_two(&self, kept: &Kept, count: usize, piece: usize) -> Option<usize> {
+    fn parts_two(&self, kept: &PathBefore, count: usize, piece: usize) -> Option<usize> {
         let was = |piece: usize| {
             let element = &self.pieces[piece].1;
             let follows = kept.followed(element, (self.first + element.wall) % count)?;

@@ -14,9 +14,8 @@ use super::offset::normal;
 use super::path::{PathSegment, Source, WirePath};
 use crate::drawing::{Drawing, Outline};
 use crate::finding::{Finding, Rule, Severity};
-use crate::geometry::{Point, Segment, Vector, cross};
+use crate::geometry::{Bounds, Grid, Point, Segment, Vector, cross};
 use crate::settings::Effective;
-use rustc_hash::FxHashMap;
 
 /// A neck below this share of its tab is a warning.
 const THIN: f64 = 1.0 / 3.0;
@@ -72,7 +71,7 @@ impl Job<'_> {
     fn necks(&self, paths: &[WirePath]) -> impl Iterator<Item = Neck> {
         let (settings, unit_mm) = (self.settings, self.unit_mm);
         kept(paths).filter_map(move |first| {
-            let mut cut = Swept::about(first.thread_hole);
+            let mut cut = CutUpToStop::about(first.thread_hole);
             let of_contour = |path: &&WirePath| path.outline == first.outline;
             let up_to_stop = paths.iter().filter(of_contour);
             for path in up_to_stop.filter(|path| !path.cut_off && !path.is_way_back) {
@@ -83,7 +82,7 @@ impl Job<'_> {
             }
             if let (Some(diameter), Some(entered)) = (settings.start_hole, cut.beginning.first()) {
                 let hole = first.thread_hole;
-                cut.beginning.push(Piece {
+                cut.beginning.push(CutPiece {
                     geometry: Segment::line(hole, hole),
                     radius: self.units(diameter) / 2.0,
                     ..*entered
@@ -222,7 +221,7 @@ fn wire_of(path: &WirePath, beside: f64, is_back: bool) -> Vec<PathSegment> {
 
 /// A piece of what is cut.
 #[derive(Clone, Copy)]
-struct Piece {
+struct CutPiece {
     geometry: Segment,
     /// How far it is cut about the way of the wire.
     radius: f64,
@@ -232,18 +231,18 @@ struct Piece {
 }
 
 /// What is cut along one contour up to the stop.
-struct Swept {
-    beginning: Vec<Piece>,
-    end: Vec<Piece>,
+struct CutUpToStop {
+    beginning: Vec<CutPiece>,
+    end: Vec<CutPiece>,
     /// Areas are those about this point.
     origin: Point,
     /// Twice the area that the last pass goes round, closed across the tab.
     twice_area: f64,
 }
 
-impl Swept {
-    fn about(origin: Point) -> Swept {
-        Swept {
+impl CutUpToStop {
+    fn about(origin: Point) -> CutUpToStop {
+        CutUpToStop {
             beginning: Vec::new(),
             end: Vec::new(),
             origin,
@@ -285,7 +284,7 @@ impl Swept {
                     _ => None,
                 };
                 if let Some(side) = side {
-                    side.push(Piece {
+                    side.push(CutPiece {
                         geometry,
                         radius,
                         twice_area,
@@ -308,7 +307,7 @@ impl Swept {
         let radii = self.beginning.iter().map(|piece| piece.radius);
         let widest = radii.fold(0.0, f64::max);
         // The cut from the one to the other, closed between them, goes round the part.
-        let goes_round = |from: &Piece, to: &Piece| {
+        let goes_round = |from: &CutPiece, to: &CutPiece| {
             let [one, other] = [to, from].map(|piece| piece.geometry.start() - self.origin);
             let twice_area = to.twice_area - from.twice_area + cross(one, other);
             twice_area / self.twice_area >= LEAST_HELD
@@ -360,7 +359,7 @@ struct Loose {
 }
 
 /// A place of a path.
-struct Spot {
+struct CutPlace {
     at: Point,
     /// How far it is cut about the place.
     radius: f64,
@@ -377,15 +376,15 @@ fn loose(settings: &Effective, unit_mm: f64, path: &WirePath) -> Option<Loose> {
     let half = half_kerf(settings, unit_mm, path.pass);
     let wide = half + beside(settings, unit_mm, path);
     let spots = spots(path, half, wide)?;
-    let body = |from: &Spot, to: &Spot| {
+    let body = |from: &CutPlace, to: &CutPlace| {
         let across = cross(to.at.coords, from.at.coords);
         let within = (to.twice_area - from.twice_area + across).abs() / 2.0;
         within - (to.erased - from.erased)
     };
     let hole = settings.start_hole.map(|diameter| diameter / unit_mm / 2.0);
-    let mut worst: Option<(f64, &Spot)> = None;
-    let mut look = |from: &Spot, to, reach: f64| {
-        let to: &Spot = to;
+    let mut worst: Option<(f64, &CutPlace)> = None;
+    let mut look = |from: &CutPlace, to, reach: f64| {
+        let to: &CutPlace = to;
         if (to.at - from.at).norm() >= from.radius + to.radius + reach {
             return;
         }
@@ -398,18 +397,11 @@ fn loose(settings: &Effective, unit_mm: f64, path: &WirePath) -> Option<Loose> {
         let more = (hole - first.radius).max(0.0);
         spots.iter().for_each(|spot| look(first, spot, more));
     }
-    let cell = |at: Point| {
-        let of = |number: f64| (number / (2.0 * wide)).floor() as i64;
-        (of(at.x), of(at.y))
-    };
-    let mut cells: FxHashMap<(i64, i64), Vec<usize>> = FxHashMap::default();
+    let mut before = Grid::default();
     for (nth, spot) in spots.iter().enumerate() {
-        let (x, y) = cell(spot.at);
-        for near in (x - 1..=x + 1).flat_map(|x| (y - 1..=y + 1).map(move |y| (x, y))) {
-            let before = cells.get(&near).into_iter().flatten();
-            before.for_each(|&before| look(&spots[before], spot, 0.0));
-        }
-        cells.entry((x, y)).or_default().push(nth);
+        let cut = Bounds::of_disc(spot.at, wide);
+        before.near(&cut, |nth: usize, _| look(&spots[nth], spot, 0.0));
+        before.insert(nth, cut);
     }
     let (area, spot) = worst?;
     let area = area * unit_mm * unit_mm;
@@ -421,7 +413,7 @@ fn loose(settings: &Effective, unit_mm: f64, path: &WirePath) -> Option<Loose> {
 }
 
 /// Places of a path, close enough to each other that nothing passes between them; `None` where they would be too many.
-fn spots(path: &WirePath, half: f64, wide: f64) -> Option<Vec<Spot>> {
+fn spots(path: &WirePath, half: f64, wide: f64) -> Option<Vec<CutPlace>> {
     let step = half / 2.0;
     let radius = |piece: &PathSegment| match is_held(piece.source) {
         true => wide,
@@ -432,7 +424,7 @@ fn spots(path: &WirePath, half: f64, wide: f64) -> Option<Vec<Spot>> {
     if all.is_nan() || all > MOST_PLACES as f64 {
         return None;
     }
-    let mut spots: Vec<Spot> = Vec::with_capacity(all as usize + 1);
+    let mut spots: Vec<CutPlace> = Vec::with_capacity(all as usize + 1);
     for piece in &path.segments {
         if piece.source == Source::LeadOut {
             break;
@@ -446,7 +438,7 @@ fn spots(path: &WirePath, half: f64, wide: f64) -> Option<Vec<Spot>> {
                 let area = cross(before.at.coords, at.coords);
                 (before.twice_area + area, before.erased + way * radius)
             });
-            spots.push(Spot {
+            spots.push(CutPlace {
                 at,
                 radius,
                 twice_area,

@@ -16,7 +16,7 @@ mod travel;
 
 pub(crate) use edit::fillet;
 pub(crate) use edit::{drawing_edit, keep_end_points};
-pub(crate) use refillet::{Attempt, Replacement};
+pub(crate) use refillet::Replacement;
 pub(crate) use refillet::{made_tangent, refillet};
 pub(crate) use run::{rounded_run_of, run_of};
 pub(crate) use stretch::depth;

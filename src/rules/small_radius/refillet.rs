@@ -4,7 +4,7 @@ use super::Travel;
 use super::in_the_way::{InTheWay, Meets};
 use crate::finding::NoFix;
 use crate::geometry::Locus;
-use crate::geometry::{Arc, Bounds, Point, Segment, positive_angle};
+use crate::geometry::{Arc, Point, Segment, positive_angle};
 use crate::rules::Limits;
 use rustc_hash::FxHashMap;
 use std::f64::consts::PI;
@@ -28,27 +28,18 @@ pub(crate) struct Replacement {
     pub(crate) moved: f64,
 }
 
-/// The result of the search for a replacement and the region it depends on: the result holds as long as nothing in
-/// there changes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Attempt {
-    pub(crate) outcome: Result<Replacement, NoFix>,
-    pub(crate) region: Bounds,
-}
-
 /// Looks for the arc of radius `limits.fix_radius` that replaces `run`.
 ///
 /// Its centre lies on two loci, one for each end: at a line the parallel, at an arc the concentric circle shifted to
 /// the wire side, or the circle about the end vertex itself. A solution counts when its feet lie on the neighbours, it
 /// turns by at most a half turn, and its disc keeps clear of the whole contour. Where none fits, short neighbours are
 /// swallowed, as long as that moves the contour by no more than the correction.
-pub(crate) fn refillet(travel: &Travel, run: &RangeInclusive<isize>, limits: &Limits) -> Attempt {
-    let mut search = Search::new(travel, limits, run.clone());
-    let outcome = search.search();
-    Attempt {
-        outcome,
-        region: search.region.grown(limits.tolerances.join),
-    }
+pub(crate) fn refillet(
+    travel: &Travel,
+    run: &RangeInclusive<isize>,
+    limits: &Limits,
+) -> Result<Replacement, NoFix> {
+    Search::new(travel, limits, run.clone()).search()
 }
 
 /// The arc at `position`, with its radius, made tangent to its neighbour at its end (or, with `at_end` false, at its
@@ -132,7 +123,6 @@ struct Search<'a> {
     travel: &'a Travel<'a>,
     limits: &'a Limits,
     run: RangeInclusive<isize>,
-    region: Bounds,
     /// The segments looked at so far, by position.
     seen: FxHashMap<isize, Option<Segment>>,
     in_the_way: InTheWay,
@@ -156,7 +146,6 @@ impl<'a> Search<'a> {
             travel,
             limits,
             run,
-            region: Bounds::EMPTY,
             seen: FxHashMap::default(),
             in_the_way: InTheWay::default(),
             met_rounding: false,
@@ -261,15 +250,12 @@ impl<'a> Search<'a> {
         MOST_SWALLOWED
     }
 
-    /// The segment at a position, which also enters the region that the answer depends on.
+    /// The segment at a position.
     fn look_at(&mut self, position: isize) -> Option<Segment> {
         if let Some(seen) = self.seen.get(&position) {
             return *seen;
         }
         let segment = self.travel.segment(position).map(|place| place.geometry);
-        if let Some(segment) = &segment {
-            self.region.merge(&segment.bounds());
-        }
         self.seen.insert(position, segment);
         segment
     }
@@ -312,7 +298,6 @@ impl<'a> Search<'a> {
             }
         });
         for (_, _, arc) in candidates {
-            self.region.merge(&Bounds::of_disc(arc.center, arc.radius));
             if !self.is_clear(&arc, before, after) {
                 continue;
             }
