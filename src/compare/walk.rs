@@ -143,27 +143,34 @@ impl Walk<'_> {
         is_part: bool,
     ) -> Option<(usize, At)> {
         let whole = [0.0, self.ring.length * (1.0 - 1e-12)];
-        let mut begun: Vec<(usize, At)> = Vec::new();
-        for &index in blocks {
-            let at = |place: &Vector| Some((index, self.begun(index, *place, whole)?));
-            begun.extend(places.iter().filter_map(at));
-        }
-        let begins = |(index, at): &&(usize, At)| {
-            let (index, complete) = (*index, self.complete(*at));
-            let Some(along) = self.follow(index, *at) else {
-                return self.runs_along(index, *at) && self.resume(index, *at, complete).is_some();
+        let begins = |index: usize, at: At, along: Option<f64>| {
+            let complete = self.complete(at);
+            let Some(along) = along else {
+                return self.runs_along(index, at) && self.resume(index, at, complete).is_some();
             };
             let Some(next) = self.next(index + 1) else {
                 return true;
             };
-            let behind = At { along, ..*at };
+            let behind = At { along, ..at };
             is_part
-                || self.goes_on(index, *at, complete)
+                || self.goes_on(index, at, complete)
                 || self.resume(next, behind, complete).is_some()
         };
-        let alone = |(index, at): &&(usize, At)| self.follow(*index, *at).is_some();
-        let found = begun.iter().find(begins);
-        found.or_else(|| begun.iter().find(alone)).copied()
+        let mut alone = None;
+        for (&index, place) in blocks
+            .iter()
+            .flat_map(|index| places.iter().map(move |at| (index, at)))
+        {
+            let Some(at) = self.begun(index, *place, whole) else {
+                continue;
+            };
+            let along = self.follow(index, at);
+            if begins(index, at, along) {
+                return Some((index, at));
+            }
+            alone = alone.or(along.map(|_| (index, at)));
+        }
+        alone
     }
 
     /// From which block on, and where, the program goes on if a block does not follow at a place: with the fewest left
