@@ -119,9 +119,15 @@ impl Foreign<'_> {
             opening: self.opening(cut).filter(|_| is_relative),
         };
         while !rest.blocks.is_empty() {
-            let Some(judged) = self.next_pass(&rest) else {
+            let Some(mut judged) = self.next_pass(&rest) else {
                 break;
             };
+            // What a pass has left that a fault cut short is not said to be unfinished once more.
+            let of_cut = self.judged.get(begun..).unwrap_or_default().iter();
+            let mut before = of_cut.filter(|it| it.course.contour == judged.course.contour);
+            if judged.is_part() && before.any(|it| it.gap.is_some()) {
+                judged.gap = None;
+            }
             if is_relative {
                 self.shift = judged.shift;
             }

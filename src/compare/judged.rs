@@ -208,6 +208,11 @@ impl Judged {
         self.length - (self.covered[1] - self.covered[0])
     }
 
+    /// It goes round less than half of the way.
+    pub(super) fn is_part(&self) -> bool {
+        self.left() > self.length / 2.0
+    }
+
     /// Whether it is a part, and covers what another pass leaves of their contour, as shares of the way of each.
     pub(super) fn covers_rest_of(&self, other: &Judged) -> bool {
         const NEAR: f64 = 2e-3;
@@ -215,7 +220,6 @@ impl Judged {
         let ([from, to], [start, end]) = (shares(other), shares(self));
         let behind = (start - to + NEAR).rem_euclid(1.0) - NEAR;
         // A pass all the way round is one of its own.
-        let is_part = self.left() > self.length / 2.0;
-        is_part && behind <= NEAR && behind + (end - start) >= 1.0 - (to - from) - NEAR
+        self.is_part() && behind <= NEAR && behind + (end - start) >= 1.0 - (to - from) - NEAR
     }
 }
