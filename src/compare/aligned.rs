@@ -1,7 +1,14 @@
 //! The blocks of a program beside those of the program that is written again, and where both lie.
+//!
+//! Blocks are aligned by how far they lead, wherever the program lies: `B1000B0B1000GXL1` is the same block everywhere.
+//! Where the two programs part, both are searched a few blocks ahead for where they agree again, so the work grows with
+//! their length.
 
+use super::TOLERANCE;
 use super::rewritten::Rewritten;
 use super::traced::{Block, Motion, Traced};
+use super::words::Words;
+use crate::drawing::EntityId;
 use crate::geometry::Vector;
 
 /// Where two programs part, they are searched this many blocks ahead, and agree again where so many blocks do.
@@ -15,79 +22,114 @@ const SAME: f64 = 1.5;
 /// A place is where it should be within this, µm.
 pub(super) const PLACED: f64 = 1.5;
 
-/// What stands beside what, by their numbers among the blocks of both programs.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Row {
-    Both {
-        own: usize,
-        ideal: usize,
-    },
+/// A block of the program beside that of the rewritten one.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pair<'a> {
+    /// The numbers of both.
+    pub(super) at: usize,
+    pub(super) nth: usize,
+    pub(super) own: &'a Block,
+    pub(super) ideal: &'a Block,
+    /// The segment of the drawing that the rewritten one follows: none for ways and stops.
+    pub(super) source: Option<(EntityId, usize)>,
+    pub(super) words: Words,
+    /// How far it is off, µm.
+    pub(super) off: f64,
+    /// How far it begins, and ends, from where the rewritten one does, beyond what all of the program is away.
+    pub(super) away: [Vector; 2],
+}
+
+impl<'a> Pair<'a> {
+    fn of(traced: &'a Traced, at: usize, rewritten: &'a Rewritten, nth: usize) -> Option<Pair<'a>> {
+        let (own, ideal) = (traced.blocks.get(at)?, rewritten.traced.blocks.get(nth)?);
+        let words = Words::of(traced, own, &rewritten.traced, ideal);
+        Some(Pair {
+            at,
+            nth,
+            own,
+            ideal,
+            source: rewritten.source(nth),
+            words,
+            off: words.off(own, ideal),
+            away: apart(own, ideal).unwrap_or_default(),
+        })
+    }
+
+    /// It leads elsewhere, and says something else.
+    pub(super) fn is_off(&self) -> bool {
+        self.off > TOLERANCE && !self.words.are_same
+    }
+
+    /// It is of a contour.
+    pub(super) fn is_of_contour(&self) -> bool {
+        self.source.is_some()
+    }
+}
+
+/// What stands beside what.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Row<'a> {
+    Both(Pair<'a>),
     /// Nothing stands for it, before this block of the program.
     Lost {
-        own: usize,
-        ideal: usize,
+        at: usize,
+        ideal: &'a Block,
+        source: Option<(EntityId, usize)>,
     },
     /// It stands for nothing.
-    More {
-        own: usize,
-    },
+    More(&'a Block),
 }
 
 /// A program beside the one that is written again.
 pub(super) struct Aligned<'a> {
     pub(super) traced: &'a Traced,
     pub(super) rewritten: &'a Rewritten,
-    pub(super) rows: Vec<Row>,
+    pub(super) rows: Vec<Row<'a>>,
     /// From the rewritten program's places to where most of the program lies.
     pub(super) from: Vector,
 }
 
 impl<'a> Aligned<'a> {
+    /// `None` where fewer than nine blocks of ten agree.
     pub(super) fn of(traced: &'a Traced, rewritten: &'a Rewritten) -> Option<Aligned<'a>> {
-        let (own, ideal) = (&traced.blocks, &rewritten.traced.blocks);
-        let rows = rows(own, ideal)?;
         let mut aligned = Aligned {
             traced,
             rewritten,
-            rows,
+            rows: rows(traced, rewritten)?,
             from: Vector::zeros(),
         };
+        let shift = match traced.is_placed {
+            true => rewritten.shift,
+            false => Vector::zeros(),
+        };
+        aligned.move_by(shift);
         aligned.from = aligned.away();
+        aligned.move_by(aligned.from);
         Some(aligned)
     }
 
-    /// The segment of the drawing that a block of the rewritten program follows.
-    pub(super) fn source(&self, ideal: usize) -> Option<(crate::drawing::EntityId, usize)> {
-        *self.rewritten.sources.get(ideal)?
+    fn move_by(&mut self, by: Vector) {
+        for row in &mut self.rows {
+            if let Row::Both(pair) = row
+                && apart(pair.own, pair.ideal).is_some()
+            {
+                pair.away = pair.away.map(|away| away - by);
+            }
+        }
     }
 
-    pub(super) fn pair(&self, own: usize, ideal: usize) -> Option<(&'a Block, &'a Block)> {
-        let rewritten: &'a Rewritten = self.rewritten;
-        let traced: &'a Traced = self.traced;
-        Some((traced.blocks.get(own)?, rewritten.traced.blocks.get(ideal)?))
-    }
-
-    /// How far a block ends, and begins, from where the rewritten one does, beyond what all of the program is away.
-    pub(super) fn ends_away(&self, own: usize, ideal: usize) -> Option<[Vector; 2]> {
-        let (own, ideal) = self.pair(own, ideal)?;
-        let ([start, end], [ideal_start, ideal_end]) = (own.motion.ends()?, ideal.motion.ends()?);
-        let by = self.from
-            + if self.traced.is_placed {
-                self.rewritten.shift
-            } else {
-                Vector::zeros()
-            };
-        Some([start - ideal_start - by, end - ideal_end - by])
+    pub(super) fn pairs(&self) -> impl Iterator<Item = &Pair<'a>> {
+        self.rows.iter().filter_map(|row| match row {
+            Row::Both(pair) => Some(pair),
+            Row::Lost { .. } | Row::More(_) => None,
+        })
     }
 
     /// How far the program lies from the rewritten one: a machine that counts begins anywhere, where the first contour
     /// is; an absolute program lies where it says, or all of it elsewhere.
     fn away(&self) -> Vector {
-        let of_contours = self.rows.iter().filter_map(|row| match *row {
-            Row::Both { own, ideal } if self.source(ideal).is_some() => self.ends_away(own, ideal),
-            _ => None,
-        });
-        let all: Vec<[Vector; 2]> = of_contours.collect();
+        let of_contours = self.pairs().filter(|pair| pair.is_of_contour());
+        let all: Vec<[Vector; 2]> = of_contours.map(|pair| pair.away).collect();
         let still = all.iter().filter(|[_, end]| end.norm() <= PLACED).count();
         match all.first() {
             Some([first, _]) if self.traced.counts && !self.traced.is_placed => *first,
@@ -105,37 +147,39 @@ impl<'a> Aligned<'a> {
     }
 }
 
-/// Two blocks that lead as far, in the same way.
-fn are_alike(own: &Block, ideal: &Block) -> bool {
-    own.motion
-        .away_from(&ideal.motion)
-        .is_some_and(|away| away <= SAME)
+/// How far a block begins, and ends, from where another one does.
+fn apart(own: &Block, ideal: &Block) -> Option<[Vector; 2]> {
+    let ([start, end], [ideal_start, ideal_end]) = (own.motion.ends()?, ideal.motion.ends()?);
+    Some([start - ideal_start, end - ideal_end])
 }
 
 /// Which block stands beside which; `None` where fewer than nine of ten agree.
-fn rows(own: &[Block], ideal: &[Block]) -> Option<Vec<Row>> {
+fn rows<'a>(traced: &'a Traced, rewritten: &'a Rewritten) -> Option<Vec<Row<'a>>> {
+    let (own, ideal) = (&traced.blocks, &rewritten.traced.blocks);
     let most = own.len().max(ideal.len());
     if own.is_empty() || own.len().abs_diff(ideal.len()) > IN_ONE_PLACE + most / ONE_OF {
         return None;
     }
+    // They lead as far, in the same way.
     let agree = |at: usize, nth: usize| match (own.get(at), ideal.get(nth)) {
-        (Some(own), Some(ideal)) => are_alike(own, ideal),
+        (Some(own), Some(ideal)) => {
+            let away = own.motion.away_from(&ideal.motion);
+            away.is_some_and(|away| away <= SAME)
+        }
         (None, None) => true,
         _ => false,
     };
+    let stops = |blocks: &[Block], from: usize, count: usize| {
+        let blocks = blocks.iter().skip(from).take(count);
+        blocks.filter(|block| block.motion == Motion::Stop).count()
+    };
+    let moving = own.len() - stops(own, 0, own.len());
     let mut rows = Vec::with_capacity(most);
     let (mut at, mut nth, mut unlike, mut places) = (0, 0, 0, 0);
-    let moving = own
-        .iter()
-        .filter(|block| block.motion != Motion::Stop)
-        .count();
     let mut last: Option<usize> = None;
     while at < own.len() || nth < ideal.len() {
         if at < own.len() && agree(at, nth) {
-            rows.push(Row::Both {
-                own: at,
-                ideal: nth,
-            });
+            rows.extend(Pair::of(traced, at, rewritten, nth).map(Row::Both));
             (at, nth) = (at + 1, nth + 1);
             continue;
         }
@@ -153,28 +197,18 @@ fn rows(own: &[Block], ideal: &[Block]) -> Option<Vec<Row>> {
         let first = in_place.into_iter().filter(|_| is_even);
         let (more, lost) = first.chain(ahead()).find(is_again).unwrap_or((1, 1));
         let both = more.min(lost);
-        rows.extend((0..both).map(|step| Row::Both {
-            own: at + step,
-            ideal: nth + step,
+        let pair = |step: usize| Pair::of(traced, at + step, rewritten, nth + step);
+        rows.extend((0..both).filter_map(pair).map(Row::Both));
+        rows.extend((both..more).filter_map(|step| Some(Row::More(own.get(at + step)?))));
+        rows.extend((both..lost).filter_map(|step| {
+            Some(Row::Lost {
+                at: at + both,
+                ideal: ideal.get(nth + step)?,
+                source: rewritten.source(nth + step),
+            })
         }));
-        rows.extend((both..more).map(|step| Row::More { own: at + step }));
-        rows.extend((both..lost).map(|step| Row::Lost {
-            own: at + both,
-            ideal: nth + step,
-        }));
-        let stops = |blocks: &[Block]| {
-            blocks
-                .iter()
-                .filter(|block| block.motion == Motion::Stop)
-                .count()
-        };
-        let of = |blocks: &[Block], from: usize, count: usize| {
-            blocks
-                .get(from..(from + count).min(blocks.len()))
-                .map_or(0, stops)
-        };
         // A stop more or less is a word, and no other way.
-        let words = of(own, at, more).abs_diff(of(ideal, nth, lost));
+        let words = stops(own, at, more).abs_diff(stops(ideal, nth, lost));
         unlike += more.max(lost).saturating_sub(words);
         let is_new = last.is_none_or(|last| rows.len() > last + more.max(lost) + 2);
         (places, last) = (places + usize::from(is_new), Some(rows.len()));
@@ -196,7 +230,6 @@ fn ahead() -> impl Iterator<Item = (usize, usize)> {
         all.sort_by_key(|(more, lost)| more.abs_diff(*lost));
         all
     };
-    (1..=2 * AHEAD)
-        .flat_map(of_sum)
-        .filter(|(more, lost)| *more <= AHEAD && *lost <= AHEAD)
+    let all = (1..=2 * AHEAD).flat_map(of_sum);
+    all.filter(|(more, lost)| *more <= AHEAD && *lost <= AHEAD)
 }

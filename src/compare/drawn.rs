@@ -1,14 +1,18 @@
 //! The data of a drawing for comparing: its contours, and the programs that we write for it.
 
-use super::basis::{Basis, Contour};
+use super::contour::Contour;
 use super::rewritten::{Asked, Rewritten};
 use super::ring::{Course, Ring};
 use super::traced::Traced;
 use super::walls::Walls;
 use crate::drawing::{Drawing, EntityId, Outline};
-use crate::settings::Effective;
+use crate::program::Format;
+use crate::settings::{Effective, Layout};
+use crate::toolpath::plan;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
+/// Of more entities, or of contours of more segments, no program is written for a comparison.
+const MOST_WRITTEN: usize = 20_000;
 /// The most rewritten programs that are kept: a format or two, of all contours and of some.
 const MOST_KEPT: usize = 4;
 /// The most ways round contours that are kept, and the most pieces of them.
@@ -19,8 +23,8 @@ const MOST_PIECES: usize = 200_000;
 /// program writes nothing again.
 #[derive(Clone, Debug)]
 pub struct Drawn {
-    pub(super) drawing: Arc<Drawing>,
-    pub(super) outlines: Arc<Vec<Outline>>,
+    drawing: Arc<Drawing>,
+    outlines: Arc<Vec<Outline>>,
     pub(super) settings: Arc<Effective>,
     /// mm of the drawing's unit.
     pub(super) unit_mm: f64,
@@ -78,16 +82,6 @@ impl Drawn {
         })
     }
 
-    fn basis(&self) -> Basis<'_> {
-        Basis {
-            drawing: &self.drawing,
-            outlines: &self.outlines,
-            contours: self.contours(),
-            settings: &self.settings,
-            unit_mm: self.unit_mm,
-        }
-    }
-
     /// Their segments, and which of them are near a place.
     pub(super) fn walls(&self) -> &Walls {
         let made = || Walls::of(self.contours(), self.unit_mm * 1e3);
@@ -107,7 +101,7 @@ impl Drawn {
         if let Some((_, known)) = lock().iter().find(|(other, _)| *other == asked) {
             return known.clone();
         }
-        let made = Rewritten::of(self.basis(), &asked).map(Arc::new);
+        let made = self.written(&asked).map(Arc::new);
         let mut kept = lock();
         if kept.len() >= MOST_KEPT {
             // The first is of all contours.
@@ -117,6 +111,26 @@ impl Drawn {
         made
     }
 
+    fn written(&self, asked: &Asked) -> Option<Rewritten> {
+        let mut settings = match (asked.format, self.settings.mills) {
+            (Format::Milling, true) => self.settings.milled().ok()?,
+            (Format::Milling, false) | (_, true) => return None,
+            (_, false) => Effective::clone(&self.settings),
+        };
+        if asked.states_ends {
+            settings.layout = Layout::Checking;
+        }
+        let contours = self.contours().iter();
+        let segments: usize = contours.map(|contour| contour.segments.len()).sum();
+        if settings.pass_error().is_some() || segments.max(self.drawing.len()) > MOST_WRITTEN {
+            return None;
+        }
+        let of_format = asked.format.settings(&settings);
+        let handles = asked.handles.as_deref();
+        let paths = plan(&self.drawing, &self.outlines, &of_format, handles).ok()?;
+        Rewritten::of(&paths, asked.format, &settings, self.unit_mm)
+    }
+
     /// The way of the wire round a contour.
     pub(super) fn ring(&self, course: &Course) -> Option<Arc<Ring>> {
         let kept = &self.worked_out.rings;
@@ -124,7 +138,8 @@ impl Drawn {
         if let Some((_, known)) = lock().iter().find(|(other, _)| other == course) {
             return known.clone();
         }
-        let made = Ring::of(self.basis(), course).map(Arc::new);
+        let contour = self.contours().get(course.contour)?;
+        let made = Ring::of(contour, course, &self.settings, self.unit_mm).map(Arc::new);
         let mut kept = lock();
         let pieces = |(_, ring): &(Course, Option<Arc<Ring>>)| {
             ring.as_ref().map_or(0, |ring| ring.pieces.len())

@@ -28,10 +28,9 @@ pub(super) struct Run {
     /// It goes against the direction of the contour.
     pub(super) back: bool,
     stretch: usize,
-    /// The first and the last block.
+    /// The first block.
     pub(super) first: usize,
-    pub(super) last: usize,
-    /// Of all of them, µm, and as a share of the contour's.
+    /// Of all of them, µm, and as a share of the contour's, or of what is looked at.
     pub(super) length: f64,
     pub(super) share: f64,
     /// The distance of each and its length, µm; positive to the left of the contour's direction.
@@ -60,7 +59,7 @@ impl Run {
 /// A block as a run of its own.
 fn alone(
     walls: &Walls,
-    (index, block): (usize, &Block),
+    (first, block): (usize, &Block),
     by: Vector,
     budget: &Budget,
 ) -> Option<Run> {
@@ -69,24 +68,20 @@ fn alone(
     if length < SHORTEST {
         return None;
     }
-    let [middle, first, last] = SHARES.map(|share| segment.point_at(share));
+    let [middle, begin, end] = SHARES.map(|share| segment.point_at(share));
     let near = walls.near(middle, None, budget)?;
-    let is_level = [first, last].into_iter().all(|place| {
+    let is_level = [begin, end].into_iter().all(|place| {
         let other = walls.near(place, Some(near.contour), budget);
         other.is_some_and(|other| {
             (other.distance - near.distance).abs() <= LEVEL
                 && (near.distance <= LEVEL || other.left * near.left > 0.0)
         })
     });
-    let wall = walls.segment(&near)?;
-    let share = wall.share_of(middle).clamp(0.0, 1.0);
-    let along = wall.tangent_at(share).dot(&segment.tangent_at(0.5));
     is_level.then_some(Run {
         contour: near.contour,
-        back: along < 0.0,
+        back: near.way.dot(&segment.tangent_at(0.5)) < 0.0,
         stretch: block.stretch,
-        first: index,
-        last: index,
+        first,
         length,
         share: 0.0,
         lefts: vec![(near.left, length)],
@@ -101,54 +96,40 @@ pub(super) fn runs(
     by: Vector,
     budget: &Budget,
 ) -> Vec<Run> {
-    let mut runs: Vec<Run> = Vec::new();
     let end = blocks.end.min(blocks.start + LOOKED_AT);
-    let all = traced.blocks.iter().enumerate();
-    for block in all.take(end).skip(blocks.start) {
-        let Some(own) = alone(walls, block, by, budget) else {
-            continue;
-        };
+    let looked_at = || {
+        traced
+            .blocks
+            .iter()
+            .enumerate()
+            .take(end)
+            .skip(blocks.start)
+    };
+    let mut runs: Vec<Run> = Vec::new();
+    for own in looked_at().filter_map(|block| alone(walls, block, by, budget)) {
         let is_one = |run: &&mut Run| {
             (run.contour, run.back, run.stretch) == (own.contour, own.back, own.stretch)
                 && (run.lefts[0].0 - own.lefts[0].0).abs() <= LEVEL
         };
         match runs.iter_mut().rev().take(BETWEEN).find(is_one) {
             Some(run) => {
-                run.last = own.last;
                 run.length += own.length;
                 run.lefts.extend(own.lefts);
             }
             None => runs.push(own),
         }
     }
-    // Of more, the part that is looked at.
-    let most = match end < blocks.end {
-        true => length(traced, blocks.start..end),
-        false => f64::INFINITY,
-    };
+    let lengths = looked_at().filter_map(|(_, block)| Some(block.segment()?.length()));
+    let all = lengths.sum::<f64>().max(1.0);
     for run in &mut runs {
-        run.share = run.length / walls.length(run.contour).min(most).max(1.0);
+        let contour = walls.length(run.contour);
+        // Of more than is looked at, the part.
+        let whole = if end < blocks.end {
+            contour.min(all)
+        } else {
+            contour
+        };
+        run.share = run.length / whole.max(1.0);
     }
     runs
-}
-
-/// How long some blocks are, µm.
-fn length(traced: &Traced, blocks: Range<usize>) -> f64 {
-    let blocks = traced.blocks.get(blocks).unwrap_or_default().iter();
-    blocks.filter_map(Block::segment).map(Segment::length).sum()
-}
-
-/// How much of some blocks runs at one distance along one contour, as a share of all.
-pub(super) fn share(
-    traced: &Traced,
-    walls: &Walls,
-    blocks: Range<usize>,
-    by: Vector,
-    budget: &Budget,
-) -> f64 {
-    let end = blocks.end.min(blocks.start + LOOKED_AT);
-    let whole = length(traced, blocks.start..end);
-    let runs = runs(traced, walls, blocks, by, budget);
-    let longest = runs.iter().map(|run| run.length).fold(0.0, f64::max);
-    longest / whole.max(1.0)
 }

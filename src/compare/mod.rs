@@ -2,7 +2,7 @@
 //!
 //! Two comparisons, the first that applies. *Our own* (`own`): the program is written again from the drawing under the
 //! settings in force (`rewritten`); where nine blocks of ten agree, each of the others is named. *Of another writer*
-//! (`foreign`): each pass lies at one offset beside one contour (`passes`), and its blocks follow the way of the wire
+//! (`foreign`): each pass lies at one offset beside one contour (`level`), and its blocks follow the way of the wire
 //! round that contour (`ring`, `walk`); ways in and out are not judged. Nothing is guessed of the settings. All is in µm
 //! but `Difference::off`, which is in mm.
 //!
@@ -10,27 +10,25 @@
 //! LSP, or of sentences.
 
 mod aligned;
-mod basis;
 mod budget;
-mod cover;
+mod contour;
+mod corrections;
 mod difference;
 mod drawn;
-mod entry;
 mod findings;
 mod foreign;
 mod judged;
-mod leads;
 mod level;
 mod names;
 mod own;
 mod place;
 mod reported;
-mod resume;
 mod rewritten;
 mod ring;
 mod traced;
 mod walk;
 mod walls;
+mod ways;
 mod words;
 
 pub use crate::finding::DifferenceKind;

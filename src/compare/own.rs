@@ -1,16 +1,14 @@
-//! A program of ours: its blocks beside those of the program that is written again.
-//!
-//! Blocks are aligned by how far they lead, wherever the program lies: `B1000B0B1000GXL1` is the same block everywhere.
-//! Where the two programs part, both are searched a few blocks ahead for where they agree again, so the work grows with
-//! their length. Where nine of ten blocks agree the program is ours, and each of the others is named.
+//! A program of ours: its blocks beside those of the program that is written again. Where nine of ten blocks agree the
+//! program is ours, and each of the others is named.
 
 use super::TOLERANCE;
-use super::aligned::{Aligned, PLACED, Row};
+use super::aligned::{Aligned, PLACED, Pair, Row};
+use super::corrections::of_corrections;
 use super::difference::{Comparison, Difference};
 use super::drawn::Drawn;
-use super::leads::leads;
 use super::traced::{Block, Motion, Traced};
-use super::words::{Words, of_corrections};
+use super::ways::ways;
+use crate::drawing::EntityId;
 use crate::finding::DifferenceKind;
 use crate::geometry::Vector;
 
@@ -32,111 +30,91 @@ pub(super) fn compare(
     if traced.mills && own.abs_diff(ideal) > 1 {
         return None;
     }
-    let mut differences = aligned.blocks();
-    differences.extend(leads(&aligned)?);
+    let mut differences = blocks(&aligned);
+    differences.extend(ways(&aligned)?);
     differences.extend(of_corrections(&aligned));
     differences.sort_by_key(|one| one.range.start);
-    let follows = aligned.rows.iter().filter_map(|row| match row {
-        Row::Both { own, ideal } if aligned.source(*ideal).is_some() => {
-            Some(traced.blocks.get(*own)?.range.clone())
-        }
-        _ => None,
-    });
+    let of_contours = aligned.pairs().filter(|pair| pair.is_of_contour());
     Some(Comparison {
-        follows: follows.collect(),
+        follows: of_contours.map(|pair| pair.own.range.clone()).collect(),
         differences,
     })
 }
 
-impl Aligned<'_> {
-    /// Blocks of contours, stops and coordinates after blocks that differ.
-    fn blocks(&self) -> Vec<Difference> {
-        let mut found: Vec<Difference> = Vec::new();
-        // Where the last named block was, and how far from its place it began: until the program is back there, what
-        // follows is a part of the same change.
-        let mut change: Option<(usize, Vector)> = None;
-        for (row, beside) in self.rows.iter().enumerate() {
-            let is_next = |(named, _): &(usize, Vector)| row - named <= 2;
-            match *beside {
-                Row::Both { own, ideal } => {
-                    let Some((block, meant)) = self.pair(own, ideal) else {
-                        continue;
-                    };
-                    let words = Words::of(self, block, meant);
-                    let off = words.off(block, meant);
-                    if off <= TOLERANCE {
-                        change = None;
-                        if words.stated > TOLERANCE {
-                            let kind = DifferenceKind::Stated;
-                            found.push(Difference::of(block, None, words.stated, kind));
-                        }
-                        continue;
-                    }
-                    if words.are_same {
-                        continue;
-                    }
-                    let [begins, ends] = self.ends_away(own, ideal).unwrap_or_default();
-                    let is_back = |(_, away): &(usize, Vector)| (ends - away).norm() <= PLACED;
-                    if change
-                        .take_if(|change| is_next(change))
-                        .is_some_and(|change| is_back(&change))
-                    {
-                        continue;
-                    }
-                    change = Some((row, begins));
-                    let source = self.source(ideal);
-                    if source.is_some() {
-                        let kind = DifferenceKind::Block;
-                        found.push(Difference::of(block, source, off, kind));
-                    }
+/// Blocks of contours, stops and coordinates after blocks that differ.
+fn blocks(aligned: &Aligned) -> Vec<Difference> {
+    let mut found = Vec::new();
+    // Where the last named block was, and how far from its place it began: until the program is back there, what follows
+    // is a part of the same change.
+    let mut change: Option<(usize, Vector)> = None;
+    for (number, row) in aligned.rows.iter().enumerate() {
+        let part = |change: &mut Option<(usize, Vector)>| {
+            change.take().filter(|(named, _)| number - named <= 2)
+        };
+        match row {
+            Row::Both(pair) if pair.off <= TOLERANCE => {
+                change = None;
+                found.extend(stated(pair));
+            }
+            Row::Both(pair) if pair.is_off() => {
+                let [begins, ends] = pair.away;
+                let is_back = |(_, away): (usize, Vector)| (ends - away).norm() <= PLACED;
+                if part(&mut change).is_some_and(is_back) {
+                    continue;
                 }
-                Row::Lost { own, ideal } => {
-                    let last = self.traced.blocks.len() - 1;
-                    let Some((block, meant)) = self.pair(own.min(last), ideal) else {
-                        continue;
-                    };
-                    if meant.motion == Motion::Stop {
-                        let before = own.checked_sub(1).and_then(|at| self.traced.blocks.get(at));
-                        let is_bare =
-                            before.is_some_and(|before| self.traced.is_bare_between(before, block));
-                        if is_bare {
-                            let kind = DifferenceKind::Unstopped;
-                            found.push(Difference::of(block, None, 0.0, kind));
-                        }
-                        continue;
-                    }
-                    if change.take_if(|change| is_next(change)).is_some() {
-                        continue;
-                    }
-                    found.push(self.gap(block, meant, ideal));
+                change = Some((number, begins));
+                let kind = DifferenceKind::Block;
+                let named = Difference::of(pair.own, pair.source, pair.off, kind);
+                found.extend(Some(named).filter(|_| pair.is_of_contour()));
+            }
+            Row::Both(_) => {}
+            Row::Lost { at, ideal, .. } if ideal.motion == Motion::Stop => {
+                found.extend(unstopped(aligned.traced, *at));
+            }
+            Row::Lost { at, ideal, source } => {
+                if part(&mut change).is_none() {
+                    found.extend(gap(behind(aligned.traced, *at), ideal, *source));
                 }
-                Row::More { own } => {
-                    let Some(block) = self.traced.blocks.get(own) else {
-                        continue;
-                    };
-                    if block.motion == Motion::Stop
-                        || change.take_if(|change| is_next(change)).is_some()
-                    {
-                        continue;
-                    }
-                    found.push(self.gap(block, block, usize::MAX));
+            }
+            Row::More(own) => {
+                if own.motion != Motion::Stop && part(&mut change).is_none() {
+                    found.extend(gap(Some(own), own, None));
                 }
             }
         }
-        found
     }
+    found
+}
 
-    /// A block at which one is lost, or which is too many: `whole` long.
-    fn gap(&self, block: &Block, whole: &Block, ideal: usize) -> Difference {
-        let length = whole
-            .motion
-            .ends()
-            .map_or(0.0, |[start, end]| (end - start).norm());
-        let source = self.source(ideal);
-        let kind = match source.is_some() || ideal == usize::MAX {
-            true => DifferenceKind::Block,
-            false => DifferenceKind::Lead,
-        };
-        Difference::of(block, source, length, kind)
-    }
+/// The coordinates after a block say something else.
+fn stated(pair: &Pair) -> Option<Difference> {
+    let off = pair.words.stated;
+    (off > TOLERANCE).then(|| Difference::of(pair.own, None, off, DifferenceKind::Stated))
+}
+
+/// A block before which one is lost, or the last one.
+fn behind(traced: &Traced, at: usize) -> Option<&Block> {
+    traced.blocks.get(at).or(traced.blocks.last())
+}
+
+/// A stop that is lost before a block, where nothing stands in its place.
+fn unstopped(traced: &Traced, at: usize) -> Option<Difference> {
+    let block = behind(traced, at)?;
+    let before = traced.blocks.get(at.checked_sub(1)?)?;
+    let is_bare = traced.is_bare_between(before, block);
+    is_bare.then(|| Difference::of(block, None, 0.0, DifferenceKind::Unstopped))
+}
+
+/// A block at which one is lost, or which is too many: `whole` long.
+fn gap(at: Option<&Block>, whole: &Block, source: Option<(EntityId, usize)>) -> Option<Difference> {
+    let block = at?;
+    let length = whole
+        .motion
+        .ends()
+        .map_or(0.0, |[start, end]| (end - start).norm());
+    let kind = match source.is_some() || std::ptr::eq(block, whole) {
+        true => DifferenceKind::Block,
+        false => DifferenceKind::Lead,
+    };
+    Some(Difference::of(block, source, length, kind))
 }

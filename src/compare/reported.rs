@@ -9,6 +9,7 @@ use super::traced::Block;
 use crate::finding::DifferenceKind;
 use crate::geometry::Side;
 use crate::settings::Compensation;
+use std::cmp::Reverse;
 
 /// Offsets of contours are the same within this, µm.
 const SAME_OFFSET: f64 = 3.0;
@@ -19,53 +20,39 @@ impl Foreign<'_> {
         if self.judged.is_empty() && self.beyond.is_none() {
             return None;
         }
-        let mut differences: Vec<Difference> = self.sides();
-        let is_other_side = differences
-            .iter()
-            .any(|one| one.kind == DifferenceKind::OtherSide);
+        let mut differences = self.sides();
+        let is_other = |one: &Difference| one.kind == DifferenceKind::OtherSide;
         // 4B is the part itself.
-        if !is_other_side && !self.traced.four_b {
+        if !differences.iter().any(is_other) && !self.traced.four_b {
             differences.extend(self.corrections());
         }
-        let unknown = self
-            .unknown
-            .iter()
-            .filter_map(|index| self.traced.blocks.get(*index));
-        differences
-            .extend(unknown.map(|block| Difference::of(block, None, 0.0, DifferenceKind::Foreign)));
-        let beyond = self.beyond.and_then(|index| self.traced.blocks.get(index));
-        differences
-            .extend(beyond.map(|block| Difference::of(block, None, 0.0, DifferenceKind::Beyond)));
-        let mut follows = Vec::new();
-        for judged in &self.judged {
-            differences.extend(judged.differences.iter().cloned());
-            let blocks = judged
-                .follows
-                .iter()
-                .filter_map(|index| self.traced.blocks.get(*index));
-            follows.extend(blocks.map(|block| block.range.clone()));
-        }
+        let blocks = &self.traced.blocks;
+        let of_block =
+            |index: usize, kind| Some(Difference::of(blocks.get(index)?, None, 0.0, kind));
+        let unknown = self.unknown.iter();
+        differences.extend(unknown.filter_map(|at| of_block(*at, DifferenceKind::Foreign)));
+        differences.extend(
+            self.beyond
+                .and_then(|at| of_block(at, DifferenceKind::Beyond)),
+        );
+        let of_passes = self.judged.iter().flat_map(|judged| &judged.differences);
+        differences.extend(of_passes.cloned());
         differences.sort_by_key(|one| one.range.start);
-        let mut cut: Vec<usize> = self
-            .judged
-            .iter()
-            .map(|judged| judged.pass.contour)
-            .collect();
+        let follows = self.judged.iter().flat_map(|judged| &judged.follows);
+        let follows = follows.filter_map(|index| Some(blocks.get(*index)?.range.clone()));
+        let mut cut: Vec<usize> = self.judged.iter().map(|it| it.course.contour).collect();
         cut.dedup();
+        let contours = self.drawn.contours();
         let handle = |contour: &usize| {
-            let contour = self.drawn.contours().get(*contour)?;
-            Some(
-                self.drawn
-                    .handle(contour.segments.first()?.entity)
-                    .to_owned(),
-            )
+            let first = contours.get(*contour)?.segments.first()?;
+            Some(self.drawn.handle(first.entity).to_owned())
         };
-        let is_some = cut.len() < self.drawn.contours().len();
+        let is_some = cut.len() < contours.len();
         Some(Seen {
             handles: is_some.then(|| cut.iter().filter_map(handle).collect()),
             comparison: Comparison {
+                follows: follows.collect(),
                 differences,
-                follows,
             },
         })
     }
@@ -74,102 +61,71 @@ impl Foreign<'_> {
     fn corrections(&self) -> Vec<Difference> {
         let mut firsts: Vec<&Judged> = Vec::new();
         for judged in &self.judged {
-            let is_new = firsts
-                .last()
-                .is_none_or(|last| last.pass.contour != judged.pass.contour);
-            let is_known = firsts
-                .iter()
-                .any(|first| first.pass.contour == judged.pass.contour);
-            let block = self.traced.blocks.get(judged.first);
-            let is_path = block.is_some_and(|block| !block.is_offset());
-            if is_new && !is_known && is_path && judged.pass.offset.abs() > NONE {
+            let contour = judged.course.contour;
+            if firsts.iter().all(|first| first.course.contour != contour) {
                 firsts.push(judged);
             }
         }
-        let like = |offset: f64| {
-            let alike = |one: &&&Judged| (one.pass.offset.abs() - offset).abs() <= SAME_OFFSET;
-            firsts.iter().filter(alike).count()
-        };
+        let block = |judged: &Judged| self.traced.blocks.get(judged.first);
+        let offset = |judged: &Judged| judged.course.offset.abs();
+        let is_path = |judged: &Judged| block(judged).is_some_and(|block| block.side.is_none());
+        firsts.retain(|judged| is_path(judged) && offset(judged) > NONE);
         let set = self.drawn.settings.each_correction();
         let set = set.first().map_or(0.0, |mm| mm * 1e3);
+        let are_same = |one: f64, other: f64| (one - other).abs() <= SAME_OFFSET;
         let rank = |one: &&&Judged| {
-            let own = one.pass.offset.abs();
-            (
-                like(own),
-                (own - set).abs() <= SAME_OFFSET,
-                std::cmp::Reverse(one.first),
-            )
+            let own = offset(one);
+            let alike = firsts.iter().filter(|other| are_same(offset(other), own));
+            (alike.count(), are_same(own, set), Reverse(one.first))
         };
-        let Some(most) = firsts
-            .iter()
-            .max_by_key(rank)
-            .map(|one| one.pass.offset.abs())
-        else {
-            return Vec::new();
-        };
-        let others = firsts
-            .iter()
-            .filter(|one| (one.pass.offset.abs() - most).abs() > SAME_OFFSET);
+        let most = firsts.iter().max_by_key(rank).map(|most| offset(most));
         let nm = |um: f64| (um * 1e3).round() as u32;
-        let named = others.filter_map(|one| {
-            let block = self.traced.blocks.get(one.first)?;
-            let contour = self.drawn.contours().get(one.pass.contour)?;
-            let segment = contour.segments.first()?;
+        let named = firsts.iter().filter_map(|one| {
+            let (own, most) = (offset(one), most?);
             let kind = DifferenceKind::Correction {
-                stated: nm(one.pass.offset.abs()),
+                stated: nm(own),
                 ideal: nm(most),
             };
-            Some(Difference::of(
-                block,
-                Some((segment.entity, segment.segment)),
-                0.0,
-                kind,
-            ))
+            let contour = self.drawn.contours().get(one.course.contour)?;
+            let segment = contour.segments.first()?;
+            let source = Some((segment.entity, segment.segment));
+            let block = block(one).filter(|_| !are_same(own, most))?;
+            Some(Difference::of(block, source, 0.0, kind))
         });
         named.collect()
     }
 
     /// Passes on another side of their contour than the drawing has it, or under no correction where others are.
     fn sides(&self) -> Vec<Difference> {
-        let is_offset = self.traced.blocks.iter().any(Block::is_offset);
+        if self.traced.four_b {
+            return Vec::new();
+        }
+        let is_offset = self.traced.blocks.iter().any(|block| block.side.is_some());
         let asked = self.drawn.settings.compensation;
-        let (mut found, mut on_other) = (Vec::new(), 0);
-        let mut sided = 0;
+        let wants = is_offset || asked == Compensation::Controller && !self.traced.counts;
+        let mut found = Vec::new();
+        let (mut sided, mut on_other) = (0, 0);
         for judged in &self.judged {
-            let Some(side) = self
-                .drawn
-                .contours()
-                .get(judged.pass.contour)
-                .and_then(|it| it.side)
-            else {
+            let course = &judged.course;
+            let contour = self.drawn.contours().get(course.contour);
+            let block = self.traced.blocks.get(judged.first);
+            let (Some(side), Some(block)) = (contour.and_then(|it| it.side), block) else {
                 continue;
             };
-            let Some(block) = self.traced.blocks.get(judged.first) else {
-                continue;
-            };
-            if judged.pass.offset.abs() > NONE {
+            let ideal = if course.back { side.reversed() } else { side };
+            if course.offset.abs() > NONE {
                 sided += 1;
-                on_other += usize::from((judged.pass.offset > 0.0) != (side == Side::Left));
-                continue;
-            }
-            let ideal = if judged.pass.back {
-                side.reversed()
-            } else {
-                side
-            };
-            let wants = is_offset || asked == Compensation::Controller && !self.traced.counts;
-            if wants && block.side != Some(ideal) && !self.traced.four_b {
+                on_other += usize::from((course.offset > 0.0) != (side == Side::Left));
+            } else if wants && block.side != Some(ideal) {
                 found.push(self.at_switch(judged.first, block, ideal));
             }
         }
         if !is_offset {
             found.truncate(1);
         }
-        if sided > 0 && on_other == sided && asked != Compensation::None && !self.traced.four_b {
-            let first = self
-                .judged
-                .first()
-                .and_then(|first| self.traced.blocks.get(first.first));
+        if sided > 0 && on_other == sided && asked != Compensation::None {
+            let first = self.judged.first();
+            let first = first.and_then(|first| self.traced.blocks.get(first.first));
             let kind = DifferenceKind::OtherSide;
             found.extend(first.map(|block| Difference::of(block, None, 0.0, kind)));
         }

@@ -1,15 +1,16 @@
 //! The way of the wire round one contour at one offset, as a line along which a program moves.
 
-use super::basis::Basis;
-use crate::drawing::{ContourSegment, EntityId};
-use crate::geometry::{Arc, Point, Segment, Side};
-use crate::program::three_b;
+use super::contour::Contour;
+use crate::drawing::EntityId;
+use crate::geometry::{Point, Segment, Side};
 use crate::program::write::scaled;
 use crate::settings::{Compensation, Corner, Effective};
-use crate::toolpath::{self, PathSegment, Source};
+use crate::toolpath;
 
 /// Pieces up to this length are left out: nothing of them may be left on the grid of a program.
 const CRUMB: f64 = 1.0;
+/// An arc of more than this is a circle, radians.
+const TURN: f64 = 6.25;
 /// An offset below this is none: the wire runs on the contour, or the control moves it there.
 pub(super) const NONE: f64 = 2.0;
 
@@ -37,13 +38,16 @@ pub(super) struct Course {
     pub(super) offset: f64,
     pub(super) back: bool,
     pub(super) corner: Corner,
-    pub(super) four_b: bool,
 }
 
 impl Ring {
     /// `None` where no wire runs there.
-    pub(super) fn of(basis: Basis, course: &Course) -> Option<Ring> {
-        let contour = basis.contours.get(course.contour)?;
+    pub(super) fn of(
+        contour: &Contour,
+        course: &Course,
+        settings: &Effective,
+        unit_mm: f64,
+    ) -> Option<Ring> {
         let mut segments = contour.segments.clone();
         if course.back {
             segments.reverse();
@@ -51,73 +55,53 @@ impl Ring {
                 segment.geometry = segment.geometry.reversed();
             }
         }
-        let along = |own: &ContourSegment| PathSegment {
-            geometry: own.geometry,
-            source: Source::Segment {
-                entity: own.entity,
-                segment: own.segment,
-            },
+        let scale = unit_mm * 1e3;
+        let mut ring = Ring {
+            closed: contour.closed,
+            ..Ring::default()
         };
-        let mut path: Vec<PathSegment> = segments.iter().map(along).collect();
-        // A circle that is drawn as one arc comes back to its start.
-        if let ([only], true) = (&mut path[..], contour.closed)
-            && let Segment::Arc(arc) = only.geometry
-        {
-            only.geometry = Segment::Arc(Arc::about(
-                arc.center,
-                arc.start,
-                arc.start,
-                arc.sweep > 0.0,
-            ));
+        if course.offset.abs() <= NONE {
+            for own in &segments {
+                let source = Some((own.entity, own.segment));
+                ring.push(scaled(&own.geometry, scale), source);
+            }
+            return Some(ring);
         }
         let is_left = (course.offset > 0.0) != course.back;
         let side = if is_left { Side::Left } else { Side::Right };
-        if course.four_b {
-            path = of_four_b(path, contour.closed, (side, course.offset.abs()), basis)?;
-        } else if course.offset.abs() > NONE {
-            let settings = Effective {
-                compensation: Compensation::Path,
-                corner: course.corner,
-                ..basis.settings.clone()
-            };
-            let mm = course.offset.abs() / 1e3;
-            let sided = (side, contour.closed);
-            let laid = toolpath::rounds(&segments, sided, &[mm], &settings, basis.unit_mm);
-            path = laid.into_iter().next()??;
+        let settings = Effective {
+            compensation: Compensation::Path,
+            corner: course.corner,
+            ..settings.clone()
+        };
+        let (sided, mm) = ((side, contour.closed), course.offset.abs() / 1e3);
+        let laid = toolpath::rounds(&segments, sided, &[mm], &settings, unit_mm);
+        for piece in laid.into_iter().next()?? {
+            ring.push(scaled(&piece.geometry, scale), piece.source.segment());
         }
-        Some(Ring::along(&path, basis.unit_mm * 1e3, contour.closed))
+        Some(ring)
     }
 
-    fn along(path: &[PathSegment], scale: f64, closed: bool) -> Ring {
-        let mut ring = Ring {
-            closed,
-            ..Ring::default()
-        };
-        for piece in path {
-            let whole = scaled(&piece.geometry, scale);
-            let is_turn = whole.as_arc().is_some_and(Arc::is_full_turn);
-            // A circle has no place where it begins.
-            let parts = if is_turn { 4 } else { 1 };
-            for part in 0..parts {
-                let share = |part: u32| f64::from(part) / f64::from(parts);
-                let segment = match is_turn {
-                    true => whole.part(share(part), share(part + 1)),
-                    false => whole,
-                };
-                let length = segment.length();
-                if length > CRUMB {
-                    let source = piece.source.segment();
-                    let before = ring.length;
-                    ring.pieces.push(Piece {
-                        segment,
-                        source,
-                        before,
-                    });
-                    ring.length += length;
-                }
+    fn push(&mut self, whole: Segment, source: Option<(EntityId, usize)>) {
+        // A circle has no place where it begins.
+        let is_turn = whole.as_arc().is_some_and(|arc| arc.sweep.abs() > TURN);
+        let parts = if is_turn { 4 } else { 1 };
+        let share = |part: u32| f64::from(part) / f64::from(parts);
+        for part in 0..parts {
+            let segment = match is_turn {
+                true => whole.part(share(part), share(part + 1)),
+                false => whole,
+            };
+            let (before, length) = (self.length, segment.length());
+            if length > CRUMB {
+                self.length += length;
+                self.pieces.push(Piece {
+                    segment,
+                    source,
+                    before,
+                });
             }
         }
-        ring
     }
 
     /// The number of the piece at a place along the ring, which may lie beyond its end.
@@ -163,27 +147,4 @@ impl Ring {
     pub(super) fn source(&self, along: f64) -> Option<(EntityId, usize)> {
         self.pieces.get(self.index(along))?.source
     }
-}
-
-/// The part's contour with the transitions of 4B at a correction in µm, in the drawing's unit.
-fn of_four_b(
-    mut path: Vec<PathSegment>,
-    closed: bool,
-    (side, correction): (Side, f64),
-    basis: Basis,
-) -> Option<Vec<PathSegment>> {
-    let first = *path.first()?;
-    if closed {
-        // It may not begin in a corner.
-        path.first_mut()?.geometry = first.geometry.part(0.5, 1.0);
-        path.push(PathSegment {
-            geometry: first.geometry.part(0.0, 0.5),
-            ..first
-        });
-    }
-    let settings = Effective {
-        correction: correction / 1e3,
-        ..basis.settings.clone()
-    };
-    three_b::of_part(path, side, &settings, basis.unit_mm)
 }

@@ -1,6 +1,6 @@
 //! The data of a program for comparing: its blocks as they mean it.
 
-use crate::geometry::{Arc, Point, Segment, Side, Vector};
+use crate::geometry::{Point, Segment, Side, Vector};
 use crate::program::block_words::BlockWords;
 use crate::program::path::{self, Kind, Step};
 use crate::program::{Document, Format, Language};
@@ -103,40 +103,12 @@ impl Motion {
 }
 
 impl Block {
-    /// The control offsets it.
-    pub(super) fn is_offset(&self) -> bool {
-        self.side.is_some()
-    }
-
     pub(super) fn segment(&self) -> Option<&Segment> {
         match &self.motion {
             Motion::Cut(segment) => Some(segment),
             Motion::Way(..) | Motion::Stop => None,
         }
     }
-}
-
-/// Half of the ends' distance is the radius of a half circle within this, where both are rounded, µm.
-const HALF: f64 = 1.75;
-/// A reader takes an arc whose ends are so much too far apart for a half circle, µm.
-const LARGER: f64 = 20.0;
-
-/// An arc that states its radius. Near half a turn, what the rounding of its ends leaves of their distance moves its
-/// centre by a hundred times as much: it is meant to be a half circle, or, where its radius is too small, none at all.
-fn half_or_none(arc: Arc, radius: f64) -> Option<Segment> {
-    let half = (arc.end - arc.start).norm() / 2.0;
-    if (half - radius).abs() <= HALF {
-        let middle = arc.start + (arc.end - arc.start) / 2.0;
-        return Some(Segment::Arc(Arc::about(
-            middle,
-            arc.start,
-            arc.end,
-            arc.sweep > 0.0,
-        )));
-    }
-    // Only by so little is it taken for an arc.
-    let is_too_small = radius > 0.0 && (HALF..=LARGER).contains(&(half - radius));
-    (!is_too_small).then_some(Segment::Arc(arc))
 }
 
 impl Traced {
@@ -177,10 +149,7 @@ impl Traced {
             }
             stretch
         };
-        let blocks = trace.steps.into_iter().map(|mut step| {
-            if let (Some(radius), Some(Segment::Arc(arc))) = (step.radius, step.ideal) {
-                step.ideal = half_or_none(arc, radius.abs());
-            }
+        let blocks = trace.steps.into_iter().map(|step| {
             let register = step.register.filter(|_| step.side.is_some());
             Block {
                 stretch: stretch_of(&step),

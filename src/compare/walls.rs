@@ -1,8 +1,8 @@
-//! The contours of a drawing in µm, and which of their segments are near a place.
+//! The contours of a drawing in µm, and which of their segments are near a place, or like a block.
 
-use super::basis::Contour;
 use super::budget::Budget;
-use crate::geometry::{Arc, Bounds, Grid, Point, Segment, left_normal};
+use super::contour::Contour;
+use crate::geometry::{Arc, Bounds, Grid, Point, Segment, Vector, cross, left_normal};
 use crate::program::write::scaled;
 use rustc_hash::FxHashMap;
 use std::f64::consts::PI;
@@ -10,10 +10,9 @@ use std::ops::Range;
 
 /// No wire runs farther beside its contour, µm.
 pub(super) const FARTHEST: f64 = 2_000.0;
-/// The first distance within which a segment is looked for, and by how much it grows, µm.
-const FIRST: f64 = 30.0;
-const GROWTH: f64 = 4.0;
-/// The widest part of an arc that has one box, radians.
+/// The distances within which a segment is looked for, one after the other, µm.
+const REACHES: [f64; 4] = [30.0, 120.0, 480.0, FARTHEST];
+/// The widest part of an arc that has one box, radians: the box of a circle holds all circles within it.
 const WIDEST: f64 = 0.3;
 /// Distances from two segments that meet are alike within this, µm.
 const SAME: f64 = 1e-3;
@@ -21,13 +20,6 @@ const SAME: f64 = 1e-3;
 /// Lines run alike within this, radians; and so many directions are told apart, each twice as wide.
 const TURNED: f64 = 5e-3;
 const DIRECTIONS: i32 = (PI / (2.0 * TURNED)) as i32;
-
-/// Which of the [`DIRECTIONS`] a line has, whichever way it runs.
-fn direction(line: &Segment) -> i32 {
-    let way = line.start_tangent();
-    let angle = way.y.atan2(way.x).rem_euclid(PI);
-    ((angle / PI * f64::from(DIRECTIONS)) as i32).min(DIRECTIONS - 1)
-}
 
 /// All segments with their index.
 #[derive(Debug)]
@@ -39,27 +31,13 @@ pub(super) struct Walls {
     arcs: Vec<(f64, Arc)>,
 }
 
-/// An arc in parts that reach little beyond their chords: the box of a circle holds all circles within it.
-fn parts(segment: &Segment) -> impl Iterator<Item = Segment> + '_ {
-    let sweep = segment.as_arc().map_or(0.0, |arc| arc.sweep.abs());
-    let count = (sweep / WIDEST).ceil().max(1.0);
-    let share = move |number: u32| f64::from(number) / count;
-    (0..count as u32).map(move |number| segment.part(share(number), share(number + 1)))
-}
-
-/// Those of a sorted list whose key is in a range.
-fn within<T>(all: &[(f64, T)], range: Range<f64>) -> &[(f64, T)] {
-    let from = all.partition_point(|(key, _)| *key < range.start);
-    let to = all.partition_point(|(key, _)| *key < range.end);
-    all.get(from..to.max(from)).unwrap_or_default()
-}
-
 /// The segment that is nearest to a place.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Near {
     pub(super) contour: usize,
-    pub(super) segment: usize,
-    /// µm, positive to the left of the contour's direction.
+    /// The direction of the contour there.
+    pub(super) way: Vector,
+    /// µm, positive to the left of it.
     pub(super) left: f64,
     pub(super) distance: f64,
 }
@@ -70,34 +48,34 @@ impl Walls {
             let all = contour.segments.iter();
             all.map(|own| scaled(&own.geometry, scale)).collect()
         };
-        let contours: Vec<Vec<Segment>> = contours.iter().map(of).collect();
-        let mut index = Grid::default();
-        let mut lines: FxHashMap<i32, Vec<(f64, Segment)>> = FxHashMap::default();
-        let mut arcs = Vec::new();
-        for (contour, segments) in contours.iter().enumerate() {
+        let mut walls = Walls {
+            contours: contours.iter().map(of).collect(),
+            index: Grid::default(),
+            lines: FxHashMap::default(),
+            arcs: Vec::new(),
+        };
+        for (contour, segments) in walls.contours.iter().enumerate() {
             for (number, segment) in segments.iter().enumerate() {
-                for part in parts(segment) {
-                    index.insert((contour as u32, number as u32), part.bounds());
+                let sweep = segment.as_arc().map_or(0.0, |arc| arc.sweep.abs());
+                let parts = (sweep / WIDEST).ceil().max(1.0);
+                for part in 0..parts as u32 {
+                    let share = |part: u32| f64::from(part) / parts;
+                    let bounds = segment.part(share(part), share(part + 1)).bounds();
+                    walls.index.insert((contour as u32, number as u32), bounds);
                 }
                 match segment {
-                    Segment::Arc(arc) => arcs.push((arc.radius, *arc)),
+                    Segment::Arc(arc) => walls.arcs.push((arc.radius, *arc)),
                     Segment::Line { .. } => {
-                        let alike = lines.entry(direction(segment)).or_default();
+                        let alike = walls.lines.entry(direction(segment)).or_default();
                         alike.push((segment.length(), *segment));
                     }
                 }
             }
         }
-        for alike in lines.values_mut() {
-            alike.sort_by(|one, other| one.0.total_cmp(&other.0));
-        }
-        arcs.sort_by(|one: &(f64, Arc), other| one.0.total_cmp(&other.0));
-        Walls {
-            contours,
-            index,
-            lines,
-            arcs,
-        }
+        let lines = walls.lines.values_mut();
+        lines.for_each(|alike| alike.sort_by(|one, other| one.0.total_cmp(&other.0)));
+        walls.arcs.sort_by(|one, other| one.0.total_cmp(&other.0));
+        walls
     }
 
     /// Lines that run as another one does, or against it, within [`TURNED`], and are as long within `longer`.
@@ -107,18 +85,12 @@ impl Walls {
         let alike = about.filter_map(|bucket| self.lines.get(&bucket));
         let all = alike.flat_map(move |alike| within(alike, length - longer..length + longer));
         let way = own.start_tangent();
-        all.map(|(_, other)| other).filter(move |other| {
-            let other = other.start_tangent();
-            (way.x * other.y - way.y * other.x).abs() <= TURNED
-        })
+        all.map(|(_, other)| other)
+            .filter(move |other| cross(way, other.start_tangent()).abs() <= TURNED)
     }
 
-    pub(super) fn of_radius(&self, radii: Range<f64>) -> &[(f64, Arc)] {
-        within(&self.arcs, radii)
-    }
-
-    pub(super) fn segment(&self, near: &Near) -> Option<&Segment> {
-        self.contours.get(near.contour)?.get(near.segment)
+    pub(super) fn of_radius(&self, radii: Range<f64>) -> impl Iterator<Item = &Arc> {
+        within(&self.arcs, radii).iter().map(|(_, arc)| arc)
     }
 
     pub(super) fn length(&self, contour: usize) -> f64 {
@@ -128,15 +100,8 @@ impl Walls {
 
     /// The nearest segment of all, or of one contour, within [`FARTHEST`].
     pub(super) fn near(&self, place: Point, only: Option<usize>, budget: &Budget) -> Option<Near> {
-        let mut reach = FIRST;
-        while reach < FARTHEST * GROWTH {
-            let within = reach.min(FARTHEST);
-            if let Some(near) = self.within(place, within, only, budget) {
-                return Some(near);
-            }
-            reach *= GROWTH;
-        }
-        None
+        let mut reaches = REACHES.into_iter();
+        reaches.find_map(|reach| self.within(place, reach, only, budget))
     }
 
     fn within(
@@ -153,13 +118,12 @@ impl Walls {
                 if only.is_some_and(|only| only != contour) || !budget.take(1) {
                     return;
                 }
-                let Some(own) = self.contours.get(contour).and_then(|all| all.get(segment)) else {
-                    return;
-                };
+                let own = self.contours.get(contour).and_then(|all| all.get(segment));
+                let Some(own) = own else { return };
                 let distance = own.distance_to(place);
                 let share = own.share_of(place).clamp(0.0, 1.0);
-                let aside = place - own.point_at(share);
-                let left = left_normal(own.tangent_at(share)).dot(&aside);
+                let way = own.tangent_at(share);
+                let left = left_normal(way).dot(&(place - own.point_at(share)));
                 // At a corner the side is told by the segment that it is farther beside.
                 let is_nearer = best.is_none_or(|best| {
                     distance < best.distance - SAME
@@ -168,7 +132,7 @@ impl Walls {
                 if distance <= reach && is_nearer {
                     best = Some(Near {
                         contour,
-                        segment,
+                        way,
                         left,
                         distance,
                     });
@@ -179,4 +143,18 @@ impl Walls {
             ..near
         })
     }
+}
+
+/// Which of the [`DIRECTIONS`] a line has, whichever way it runs.
+fn direction(line: &Segment) -> i32 {
+    let way = line.start_tangent();
+    let angle = way.y.atan2(way.x).rem_euclid(PI);
+    ((angle / PI * f64::from(DIRECTIONS)) as i32).min(DIRECTIONS - 1)
+}
+
+/// Those of a sorted list whose key is in a range.
+fn within<T>(all: &[(f64, T)], range: Range<f64>) -> &[(f64, T)] {
+    let from = all.partition_point(|(key, _)| *key < range.start);
+    let to = all.partition_point(|(key, _)| *key < range.end);
+    all.get(from..to.max(from)).unwrap_or_default()
 }

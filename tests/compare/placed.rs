@@ -135,6 +135,22 @@ fn one_vertex_of_a_few_is_named_where_it_is() {
     }
 }
 
+/// A program that says nothing of where it lies: which of its sides are off, the others say.
+#[test]
+fn a_rectangle_that_is_drawn_longer_is_named_at_both_long_sides() {
+    let from_a_corner = "B5000B5000B5000GYL3\nB19800B0B19800GXL1\nB0B9800B9800GYL2\nB19800B0B19800GXL3\nB0B9800B9800GYL4\nB5000B5000B5000GYL1\nDD\n";
+    let from_a_side = "B5000B5000B5000GYL4\nB9900B0B9900GXL1\nB0B9800B9800GYL2\nB19800B0B19800GXL3\nB0B9800B9800GYL4\nB9900B0B9900GXL1\nB5000B5000B5000GYL2\nDD\n";
+    for text in [from_a_corner, from_a_side] {
+        for longer in [0.0, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 0.9] {
+            let shape = rectangle([0.0, 0.0], [20.0 + longer, 10.0], Role::Opening);
+            let own = document(&[shape], &settings_of("correction = 0.12\n"));
+            let found = lines_of(&own, text, Format::ThreeB);
+            let expected = if longer > 0.0 { vec![2, 4] } else { vec![] };
+            assert_eq!(found, expected, "{longer}\n{text}");
+        }
+    }
+}
+
 #[test]
 fn a_way_in_that_ends_beside_its_contour_is_named() {
     let shape = polygon(

@@ -39,4 +39,4 @@ pub use machine::travel;
 pub use parse::{Item, read, read_line};
 pub use words::Words;
 pub use write::write;
-pub(crate) use write::{of_part, write_four_b, write_with};
+pub(crate) use write::{write_four_b, write_with};

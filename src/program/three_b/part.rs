@@ -99,7 +99,7 @@ pub(super) fn rounded_with_tab(
 }
 
 /// The path of a part's contour in µm: rounded at its corners with `radius`, moved beside the contour by the correction, µm both.
-pub(super) fn rounded(
+fn rounded(
     path: &WirePath,
     scale: f64,
     correction: f64,

@@ -5,7 +5,7 @@ use super::block::PartArc;
 use super::encode;
 use super::layout::{push_block, push_start_point};
 use super::parse::{Item, read_line};
-use super::part::{CutCorners, is_concave, mm, rounded, rounded_with_tab, unwritable, wire_step};
+use super::part::{CutCorners, is_concave, mm, rounded_with_tab, unwritable, wire_step};
 use super::proof::{Proof, check_line};
 use super::stand::Planned;
 use super::words::{Word, Words};
@@ -16,10 +16,10 @@ use crate::program::grid::point_of;
 use crate::program::path::is_tight_in_four_b;
 use crate::program::write::{
     BETWEEN_PASSES, CutCorner, Piece, ProofError, Proved, ProvedProgram, TAB_STOP, Writer, cuts,
-    does_not_stop, nothing_to_write, room, scaled, walk, way,
+    does_not_stop, nothing_to_write, room, walk, way,
 };
 use crate::settings::Effective;
-use crate::toolpath::{Finished, PathSegment, Source, WirePath, each};
+use crate::toolpath::{Finished, Source, WirePath, each};
 use std::ops::Range;
 
 /// Blocks that one core reads back at a time.
@@ -133,32 +133,6 @@ fn rest(settings: &Effective) -> f64 {
         Some((correction - half.or(last)?) * 1000.0)
     });
     rest.flatten().fold(f64::INFINITY, f64::min)
-}
-
-/// A part's closed contour as 4B holds it, without leads, at its drawn place and in the drawing's unit; `None` where it
-/// cannot.
-pub(crate) fn of_part(
-    segments: Vec<PathSegment>,
-    side: Side,
-    settings: &Effective,
-    unit_mm: f64,
-) -> Option<Vec<PathSegment>> {
-    let scale = unit_mm * 1000.0;
-    let path = WirePath {
-        side: Some(side),
-        ..WirePath::along(segments.first()?.geometry.start(), segments)
-    };
-    let (correction, radius) = transitions(settings);
-    let mut corners = CutCorners::default();
-    let made = rounded(&path, scale, correction, radius, &mut corners).ok()?;
-    let mut segments = made.segments;
-    segments.retain(|piece| !matches!(piece.source, Source::LeadIn | Source::LeadOut));
-    // From the drawn start, not the wire's.
-    let by = path.thread_hole * scale - segments.first()?.geometry.start();
-    segments
-        .iter_mut()
-        .for_each(|piece| piece.geometry = scaled(&piece.geometry.moved(by), 1.0 / scale));
-    Some(segments)
 }
 
 /// The correction of the controller and the radius of the transitions, µm.
