@@ -1,6 +1,7 @@
 // Runs the scenarios named on the command line, or all, and counts.
 
 import { PageChecks } from "./checks";
+import { large } from "./large";
 import { look } from "./look";
 import { readme } from "./readme";
 import { strange } from "./strange";
@@ -8,7 +9,7 @@ import { work } from "./work";
 
 /** Made when it is asked for by name: it changes a picture that is committed. */
 const ONLY_BY_NAME = "readme";
-const scenarios: Record<string, (checks: PageChecks) => Promise<void>> = { work, strange, look, [ONLY_BY_NAME]: readme };
+const scenarios: Record<string, (checks: PageChecks) => Promise<void>> = { work, strange, look, large, [ONLY_BY_NAME]: readme };
 const checks = new PageChecks();
 const named = process.argv.slice(2);
 
