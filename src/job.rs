@@ -19,7 +19,7 @@ pub use pair::pair;
 pub(crate) use pair::{Cut, cuts, programs};
 pub use repairs::ROUNDS;
 pub(crate) use repairs::{Outcome, REPAIRED, Repairs, fix_all};
-pub(crate) use shown::{picture, picture_of_program};
+pub(crate) use shown::{drawn, picture, picture_of_program, program_drawn};
 
 use crate::analysis;
 use crate::document::{Document, Snapshot};

@@ -1,9 +1,9 @@
 // A drawing of many contours on a canvas: elements are batched by tile, and findings that lie close together become one mark with a count.
 
 import type { Box, Size } from "./frame";
+import { boxOf, dataOf, trace } from "./pieces";
+import type { Piece } from "./protocol";
 
-/** From this many elements on the page draws on the canvas instead of holding each in its tree. */
-export const MANY = 2_000;
 /** The number of tiles along each side of the drawing. */
 const TILES = 32;
 /** A frame may take this long, ms: while somebody moves a drawing that takes longer, its last picture is moved. */
@@ -13,18 +13,19 @@ const REST = 90;
 /** Findings nearer than this on the screen are one mark, pixels. */
 const NEAR = 26;
 const SEVERITIES = ["error", "warning", "remark", "hint"] as const;
+const SVG = "http://www.w3.org/2000/svg";
 
-interface Item {
-  element: SVGGraphicsElement;
-  /** The width of a line that is drawn to scale, in units of the sheet; else 0. */
-  width: number;
-  path: Path2D;
-  box: Box;
+export interface Item {
+  piece: Piece;
   kind: string;
+  box: Box;
+  /** Made when somebody asks for it. */
+  element?: SVGGraphicsElement;
 }
 
 interface Batch {
   kind: string;
+  /** The width of a line that is drawn to scale, in units of the sheet; else 0. */
   width: number;
   path: Path2D;
   box: Box;
@@ -33,23 +34,23 @@ interface Batch {
 export interface Cluster {
   x: number;
   y: number;
-  count: number;
   /** Index into [`SEVERITIES`]. */
   worst: number;
   items: Item[];
 }
 
 /** The order of drawing, from the bottom up. */
-const ORDER = ["part", "lost", "void", "kerf", "aside", "contour", "jump", "wire", "lead", "hint", "remark", "warning", "error"] as const;
+const ORDER = ["part", "lost", "void", "kerf", "aside", "contour", "upper", "jump", "wire", "lead", "hint", "remark", "warning", "error"] as const;
 
 export class Canvas {
   readonly #canvas = document.createElement("canvas");
   readonly #last = document.createElement("canvas");
-  #items: Item[] = [];
-  #grid = new Map<number, Item[]>();
+  readonly #items: Item[] = [];
+  readonly #named = new Map<string, Item[]>();
+  readonly #ofLine = new Map<number, Item[]>();
+  readonly #ofElement = new Map<Element, Item>();
   #batches: Batch[] = [];
-  #threads: { x: number; y: number; order: string }[] = [];
-  #matrix = new DOMMatrix();
+  readonly #threads: { x: number; y: number; order: string }[] = [];
   #extent: Box = { x: 0, y: 0, width: 1, height: 1 };
   #lastView: Box | null = null;
   #clusters: Cluster[] = [];
@@ -59,97 +60,111 @@ export class Canvas {
   #view: Box = this.#extent;
   #size: Size = { width: 1, height: 1 };
 
+  /** `left` and `bottom` are the place of the drawing on the sheet. */
+  constructor(
+    pieces: readonly Piece[],
+    private readonly left: number,
+    private readonly bottom: number,
+  ) {
+    for (const piece of pieces) {
+      const { at, order } = piece;
+      const classes = piece.class.split(" ");
+      const kind = ORDER.findLast((kind) => classes.includes(kind));
+      const box = boxOf(at, left, bottom);
+      if (piece.class === "thread") {
+        this.#threads.push({ x: box.x, y: box.y, order: order === undefined ? "" : String(order) });
+      } else if (kind !== undefined) {
+        const item = { piece, kind, box };
+        this.#items.push(item);
+        this.#name(item);
+      }
+    }
+    this.#arrange();
+  }
+
   get element(): HTMLCanvasElement {
     return this.#canvas;
   }
 
-  /** Takes the elements of a drawing out of the tree. False where they are few. */
-  take(drawing: SVGGElement): boolean {
-    const elements = [...drawing.querySelectorAll<SVGGraphicsElement>(":scope > path, :scope > rect, :scope > circle, :scope > g.thread, :scope > g.turned, :scope > text")];
-    this.#items = [];
-    this.#threads = [];
-    this.#lastView = null;
-    if (elements.length < MANY) {
-      return false;
+  #name(item: Item): void {
+    const { handle, segment, line } = item.piece;
+    if (handle !== undefined) {
+      add(this.#named, key(handle, null), item);
+      if (segment !== undefined) {
+        add(this.#named, key(handle, segment), item);
+      }
     }
-    const { a, b, c, d, e, f } = drawing.transform.baseVal.consolidate()?.matrix ?? new DOMMatrix();
-    this.#matrix = new DOMMatrix([a, b, c, d, e, f]);
-    for (const element of elements) {
-      this.#takeOne(element);
+    if (line !== undefined) {
+      add(this.#ofLine, line, item);
     }
-    // All at once: some browsers take the longer for each one the more of them there are.
-    const taken = new Set<Node>(elements);
-    drawing.replaceChildren(...[...drawing.childNodes].filter((node) => !taken.has(node)));
-    this.#arrange();
-    return true;
   }
 
-  #takeOne(element: SVGGraphicsElement): void {
-    const at = (x: number, y: number): { x: number; y: number } => new DOMPoint(x, y).matrixTransform(this.#matrix);
-    const attribute = (name: string): number => Number(element.getAttribute(name));
-    const kind = ORDER.findLast((kind) => element.classList.contains(kind));
-    if (element.classList.contains("thread")) {
-      const circle = element.querySelector("circle");
-      const own = /translate\(([-\d.]+)[ ,]([-\d.]+)\)/.exec(element.getAttribute("transform") ?? "");
-      const local = own === null ? [Number(circle?.getAttribute("cx")), Number(circle?.getAttribute("cy"))] : [Number(own[1]), Number(own[2])];
-      this.#threads.push({ ...at(local[0] ?? 0, local[1] ?? 0), order: "" });
-    } else if (element.classList.contains("turned")) {
-      const thread = this.#threads.at(-1);
-      const number = element.textContent;
-      if (thread !== undefined && /^\d+$/.test(number)) {
-        thread.order = number;
+  /** Elements that stand for the segment; with null, for the entity. */
+  ofSegment(handle: string, segment: number | null): SVGElement[] {
+    const items = this.#named.get(key(handle, segment)) ?? this.#named.get(key(handle, null)) ?? [];
+    return items.map((item) => this.#elementOf(item));
+  }
+
+  ofLine(line: number): SVGElement[] {
+    return (this.#ofLine.get(line) ?? []).map((item) => this.#elementOf(item));
+  }
+
+  #elementOf(item: Item): SVGGraphicsElement {
+    if (item.element === undefined) {
+      const { piece, kind } = item;
+      const isDot = piece.at.length < 3;
+      const element = document.createElementNS(SVG, isDot ? "circle" : "path");
+      element.setAttribute("class", piece.class);
+      const [x, y] = piece.at.map((each) => String(each / 1000));
+      const shape = isDot ? { cx: x ?? "", cy: y ?? "", r: kind === "error" ? "4.5" : "3.6" } : { d: dataOf(piece.at) };
+      for (const [name, value] of Object.entries(shape)) {
+        element.setAttribute(name, value);
       }
-    } else if (element.tagName === "circle" && kind !== undefined && !element.classList.contains("fine")) {
-      const { x, y } = at(attribute("cx"), attribute("cy"));
-      this.#items.push({ element, path: new Path2D(), box: { x, y, width: 0, height: 0 }, kind, width: 0 });
-    } else if (element.tagName === "rect" && kind !== undefined) {
-      const [left, low, width, height] = [attribute("x"), attribute("y"), attribute("width"), attribute("height")];
-      const own = new Path2D();
-      own.roundRect(left, low, width, height, attribute("rx"));
-      const path = new Path2D();
-      path.addPath(own, this.#matrix);
-      const [from, to] = [at(left, low), at(left + width, low + height)];
-      const box = { x: Math.min(from.x, to.x), y: Math.min(from.y, to.y), width: Math.abs(from.x - to.x), height: Math.abs(from.y - to.y) };
-      this.#items.push({ element, path, box, kind, width: 0 });
-    } else if (element.tagName === "path" && kind !== undefined && !element.classList.contains("back")) {
-      const data = element.getAttribute("d") ?? "";
-      const path = new Path2D();
-      path.addPath(new Path2D(data), this.#matrix);
-      const box = boxOf(data);
-      const [from, to] = [at(box.x, box.y), at(box.x + box.width, box.y + box.height)];
-      const [x, y] = [Math.min(from.x, to.x), Math.min(from.y, to.y)];
-      const width = kind === "kerf" ? Number(element.getAttribute("stroke-width")) : 0;
-      this.#items.push({ element, path, box: { x, y, width: Math.abs(from.x - to.x), height: Math.abs(from.y - to.y) }, kind, width });
+      for (const name of ["handle", "segment", "line"] as const) {
+        if (piece[name] !== undefined) {
+          element.dataset[name] = String(piece[name]);
+        }
+      }
+      item.element = element;
+      this.#ofElement.set(element, item);
     }
+    return item.element;
   }
 
   #arrange(): void {
-    const boxes = this.#items.map(({ box }) => box);
     // There may be more of them than a call takes arguments.
     let [left, top, right, bottom] = [Infinity, Infinity, -Infinity, -Infinity];
-    for (const { x, y, width, height } of boxes) {
-      [left, top] = [Math.min(left, x), Math.min(top, y)];
-      [right, bottom] = [Math.max(right, x + width), Math.max(bottom, y + height)];
+    for (const { box } of this.#items) {
+      [left, top] = [Math.min(left, box.x), Math.min(top, box.y)];
+      [right, bottom] = [Math.max(right, box.x + box.width), Math.max(bottom, box.y + box.height)];
     }
     this.#extent = { x: left, y: top, width: Math.max(right - left, 1e-9), height: Math.max(bottom - top, 1e-9) };
-    this.#grid = new Map();
-    this.#batches = [];
-    for (const kind of ORDER) {
-      const tiles = new Map<number, Batch>();
-      for (const item of this.#items.filter((item) => item.kind === kind)) {
-        const tile = this.#tileOf(item.box.x + item.box.width / 2, item.box.y + item.box.height / 2);
-        const here = this.#grid.get(tile) ?? [];
-        here.push(item);
-        this.#grid.set(tile, here);
-        const batch = tiles.get(tile) ?? { kind, width: item.width, path: new Path2D(), box: item.box };
-        batch.path.addPath(item.path);
-        batch.box = joined(batch.box, item.box);
-        tiles.set(tile, batch);
+    const batches = new Map<string, Map<string, Batch>>(ORDER.map((kind) => [kind, new Map<string, Batch>()]));
+    const put = (kind: string, { piece, box }: Item, width = 0): void => {
+      const tile = `${this.#tileOf(box.x + box.width / 2, box.y + box.height / 2)} ${width}`;
+      const tiles = batches.get(kind);
+      let batch = tiles?.get(tile);
+      if (batch === undefined) {
+        batch = { kind, width: width / 1000, path: new Path2D(), box };
+        tiles?.set(tile, batch);
       }
-      for (const batch of tiles.values()) {
-        this.#batches.push(batch);
+      trace(batch.path, piece.at, this.left, this.bottom);
+      batch.box = joined(batch.box, box);
+    };
+    for (const item of this.#items) {
+      const { piece, kind } = item;
+      // Dashes upon dashes of the other way would look solid.
+      if (piece.class === "lead back") {
+        continue;
+      }
+      if (piece.width !== undefined) {
+        put("kerf", item, piece.width);
+      }
+      if (kind !== "kerf") {
+        put(kind, item);
       }
     }
+    this.#batches = [...batches.values()].flatMap((tiles) => [...tiles.values()]);
   }
 
   #tileOf(x: number, y: number): number {
@@ -263,22 +278,25 @@ export class Canvas {
     const cells = new Map<string, Cluster>();
     for (const item of this.#items) {
       const worst = SEVERITIES.findIndex((severity) => severity === item.kind);
+      if (worst < 0) {
+        continue;
+      }
       const [x, y] = [item.box.x + item.box.width / 2, item.box.y + item.box.height / 2];
-      if (worst < 0 || !holds(this.#view, x, y)) {
+      if (!holds(this.#view, x, y)) {
         continue;
       }
       const cell = `${Math.floor((x - this.#view.x) / pixel / NEAR)} ${Math.floor((y - this.#view.y) / pixel / NEAR)}`;
-      const known = cells.get(cell) ?? { x, y, count: 0, worst, items: [] };
+      const known = cells.get(cell) ?? { x, y, worst, items: [] };
       known.items.push(item);
       known.worst = Math.min(known.worst, worst);
       known.x += (x - known.x) / known.items.length;
       known.y += (y - known.y) / known.items.length;
-      known.count += 1;
       cells.set(cell, known);
     }
     this.#clusters = [...cells.values()];
     context.textAlign = "center";
-    for (const { x, y, count, worst } of this.#clusters) {
+    for (const { x, y, items, worst } of this.#clusters) {
+      const count = items.length;
       const radius = (count > 1 ? 9 + Math.min(String(count).length - 1, 3) * 2 : 5) * pixel;
       context.fillStyle = colour(`--${SEVERITIES[worst] ?? "hint"}`);
       context.beginPath();
@@ -297,8 +315,8 @@ export class Canvas {
     return this.#clusters.find((cluster) => Math.hypot(cluster.x - x, cluster.y - y) <= 14 * pixel) ?? null;
   }
 
-  /** The element that is drawn nearest above a place of the sheet, within `reach`. */
-  at(x: number, y: number, reach: number): SVGGraphicsElement | null {
+  /** What is drawn on top at a place of the sheet, within `reach`. */
+  at(x: number, y: number, reach: number): Piece | null {
     const context = this.#canvas.getContext("2d");
     if (context === null) {
       return null;
@@ -306,18 +324,45 @@ export class Canvas {
     context.save();
     context.setTransform(1, 0, 0, 1, 0, 0);
     context.lineWidth = 2 * reach;
-    const [low, high] = [{ x: x - reach, y: y - reach }, { x: x + reach, y: y + reach }];
-    const around: Box = { x: low.x, y: low.y, width: high.x - low.x, height: high.y - low.y };
-    const named = this.#items.filter(({ element, box }) => meet(box, around) && (element.dataset["handle"] !== undefined || element.dataset["line"] !== undefined));
-    const found = named.findLast(({ path }) => context.isPointInStroke(path, x, y));
+    const around: Box = { x: x - reach, y: y - reach, width: 2 * reach, height: 2 * reach };
+    const found = this.#items.findLast(({ piece, box }) => {
+      if ((piece.handle === undefined && piece.line === undefined) || !meet(box, around)) {
+        return false;
+      }
+      const path = new Path2D();
+      trace(path, piece.at, this.left, this.bottom);
+      return context.isPointInStroke(path, x, y);
+    });
     context.restore();
-    return found?.element ?? null;
+    return found?.piece ?? null;
+  }
+
+  /** The pieces of the wire's way, in the order in which it is travelled. */
+  wire(): Piece[] {
+    const blocks = this.#items.filter(({ piece }) => piece.line !== undefined);
+    const way = blocks.length > 0 ? blocks : this.#items.filter(({ kind }) => kind === "wire" || kind === "lead" || kind === "jump");
+    return way.map(({ piece }) => piece);
   }
 
   boxOf(elements: readonly Element[]): Box | null {
-    const wanted = new Set(elements);
-    const boxes = this.#items.filter(({ element }) => wanted.has(element)).map(({ box }) => box);
-    return boxes.reduce<Box | null>((all, box) => (all === null ? box : joined(all, box)), null);
+    return boxOfItems(elements.flatMap((element) => this.#ofElement.get(element) ?? []));
+  }
+}
+
+export function boxOfItems(items: readonly Item[]): Box | null {
+  return items.reduce<Box | null>((all, { box }) => (all === null ? box : joined(all, box)), null);
+}
+
+function key(handle: string, segment: number | null): string {
+  return `${handle}\n${segment ?? ""}`;
+}
+
+function add<K>(map: Map<K, Item[]>, at: K, item: Item): void {
+  const list = map.get(at);
+  if (list === undefined) {
+    map.set(at, [item]);
+  } else {
+    list.push(item);
   }
 }
 
@@ -342,6 +387,7 @@ const STROKES: Record<string, [string, number, number[]]> = {
   kerf: ["--kerf", 1, []],
   contour: ["--ink", 1.5, []],
   aside: ["--faint", 1, []],
+  upper: ["--remark", 1.2, []],
   wire: ["--wire", 1.5, []],
   lead: ["--wire", 1.2, [5, 4]],
   jump: ["--faint", 1, [1, 4]],
@@ -371,27 +417,6 @@ function colour(name: string): string {
 /** Another theme has other colours. */
 export function forgetColours(): void {
   colours.clear();
-}
-
-/** The box of path data as the server writes it: M, L, A and Z with absolute coordinates. */
-export function boxOf(data: string): Box {
-  let [left, top, right, bottom] = [Infinity, Infinity, -Infinity, -Infinity];
-  let [lastX, lastY] = [0, 0];
-  const include = (x: number, y: number, about: number): void => {
-    left = Math.min(left, x - about);
-    right = Math.max(right, x + about);
-    top = Math.min(top, y - about);
-    bottom = Math.max(bottom, y + about);
-  };
-  for (const [, letter, numbers] of data.matchAll(/([MLA])([^MLAZ]*)/g)) {
-    const values = (numbers ?? "").trim().split(/[ ,]+/).map(Number);
-    const [x, y] = values.slice(-2) as [number, number];
-    // An arc of less than a half turn keeps within its chord of its ends.
-    const about = letter === "A" ? Math.min(values[0] ?? 0, Math.hypot(x - lastX, y - lastY)) : 0;
-    include(x, y, about);
-    [lastX, lastY] = [x, y];
-  }
-  return left <= right ? { x: left, y: top, width: right - left, height: bottom - top } : { x: 0, y: 0, width: 0, height: 0 };
 }
 
 function meet(a: Box, b: Box): boolean {

@@ -3,6 +3,7 @@
 import type { Contour, Fault, Severity } from "./messages";
 import { element } from "./host";
 import { markNumbers } from "./numbers";
+import { byHandle } from "./shown";
 import { t } from "./words";
 
 /** More chips than this nobody reads; all of them are under Problems. */
@@ -11,7 +12,7 @@ const WORST: readonly Severity[] = ["error", "warning", "information", "hint"];
 
 export class Faults {
   #all: readonly Fault[] = [];
-  #contours: readonly Contour[] = [];
+  #contours: ReadonlyMap<string, Contour> = new Map();
   /** The number of the mark of each finding. */
   #numbers: readonly (number | undefined)[] = [];
   /** The only rule that is shown, if one is chosen. */
@@ -21,7 +22,7 @@ export class Faults {
 
   put(faults: readonly Fault[], contours: readonly Contour[]): void {
     this.#all = faults;
-    this.#contours = contours;
+    this.#contours = byHandle(contours);
     this.#numbers = markNumbers(faults);
     if (!faults.some(({ rule }) => rule === this.#only)) {
       this.#only = null;
@@ -106,7 +107,7 @@ export class Faults {
     if (handle === undefined) {
       return line === undefined ? "" : t("line {0}", line + 1);
     }
-    const contour = this.#contours.find(({ handles }) => handles.includes(handle));
+    const contour = this.#contours.get(handle);
     if (contour !== undefined) {
       return t("contour {0}", contour.number);
     }

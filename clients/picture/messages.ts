@@ -1,6 +1,6 @@
 // What the picture and its host say to each other: VS Code's extension, or the page of `wedm view`.
 
-import type { ContourSettings, Repair, Role, SimulatedBlock } from "./protocol";
+import type { ContourSettings, Piece, Repair, Role, SimulatedBlock } from "./protocol";
 
 export type Severity = "error" | "warning" | "information" | "hint";
 
@@ -53,6 +53,8 @@ export interface Shown {
   /** With a fit there is no wire to play, and nothing to save. */
   kind: "drawing" | "program" | "fit";
   svg: string;
+  /** The drawing, where it has too many elements for its SVG. */
+  pieces?: Piece[];
   faults: Fault[];
   contours: Contour[];
   blocks: SimulatedBlock[];

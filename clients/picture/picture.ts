@@ -257,7 +257,7 @@ export class Picture {
 
   #show(message: Shown): void {
     const same = message.uri === this.#uri || (message.madeOf !== undefined && message.madeOf === this.#uri);
-    const sheet = new Sheet(message.svg);
+    const sheet = new Sheet(message.svg, message.pieces);
     const broken = message.faults.find(({ rule, severity }) => rule === "syntax" && severity === "error");
     const before = this.#shown;
     this.#uri = message.uri;

@@ -2,7 +2,7 @@
 
 import type { SimulatedBlock } from "./protocol";
 import { element, type Host } from "./host";
-import type { Sheet } from "./sheet";
+import type { Sheet, Way } from "./sheet";
 import { type Spot, Track } from "./track";
 import { t } from "./words";
 
@@ -22,7 +22,7 @@ export class Player {
   readonly #motion = element("motion", HTMLElement);
   readonly #block = element("block", HTMLElement);
   #sheet: Sheet | null = null;
-  #pieces: SVGPathElement[] = [];
+  #pieces: Way[] = [];
   #track = new Track([]);
   #blocks = new Map<number, SimulatedBlock>();
   #lines: readonly string[] = [];
@@ -37,6 +37,8 @@ export class Player {
   #toldLine: number | null = null;
   #wire: SVGCircleElement | null = null;
   #trail: SVGPathElement | null = null;
+  /** Knows the points of the present piece. */
+  readonly #place = document.createElementNS(SVG, "path");
 
   constructor(private readonly host: Host) {
     this.#button.addEventListener("click", () => {
@@ -63,10 +65,9 @@ export class Player {
     this.#pieces = sheet.wire();
     this.#blocks = new Map(blocks.map((block) => [block.line, block]));
     this.#lines = lines;
-    const lengths = this.#pieces.map((piece) => piece.getTotalLength());
-    this.#track = new Track(lengths);
+    this.#track = new Track(this.#pieces.map(({ length }) => length));
     let cut = 0;
-    this.#cut = this.#pieces.map((piece, index) => (cut += isJump(piece) ? 0 : (lengths[index] ?? 0)));
+    this.#cut = this.#pieces.map(({ length, isJump }) => (cut += isJump ? 0 : length));
     // The sheet is drawn with few digits: the length that is cut is the server's, and the picture only gives the shares of the pieces.
     this.#mmPerUnit = cut > 0 && sheet.cut > 0 ? sheet.cut / cut : sheet.unitsPerMm > 0 ? 1 / sheet.unitsPerMm : 0;
     this.#section.hidden = this.#track.length === 0;
@@ -106,7 +107,7 @@ export class Player {
 
   /** Goes to the beginning of the block in a line of the program. */
   toLine(line: number): void {
-    const piece = this.#playing ? -1 : this.#pieces.findIndex((each) => Number(each.dataset["line"]) === line);
+    const piece = this.#playing ? -1 : this.#pieces.findIndex((each) => each.line === line);
     if (piece >= 0) {
       // The end of the piece before is the same place, and another block.
       this.#put(this.#track.startOf(piece), { piece, along: 0 });
@@ -143,9 +144,9 @@ export class Player {
       return;
     }
     this.#put(Math.min(Math.max(distance, 0), this.#track.length), spot);
-    const line = this.#pieces[spot.piece]?.dataset["line"];
+    const line = this.#pieces[spot.piece]?.line;
     if (line !== undefined) {
-      this.#tell(Number(line));
+      this.#tell(line);
     }
   }
 
@@ -165,13 +166,13 @@ export class Player {
   #colour(piece: number): void {
     const [from, to] = [Math.min(this.#shown, piece), Math.max(this.#shown, piece)];
     for (let index = Math.max(from, 0); index <= to; index += 1) {
-      this.#pieces[index]?.classList.toggle("cut", index < piece);
+      this.#pieces[index]?.element?.classList.toggle("cut", index < piece);
     }
     this.#shown = piece;
   }
 
   /** The wire itself, and what of the present piece is cut. */
-  #mark(piece: SVGPathElement, along: number): void {
+  #mark(piece: Way, along: number): void {
     const parent = this.#sheet?.drawing;
     if (this.#wire === null || this.#trail === null) {
       this.#trail = document.createElementNS(SVG, "path");
@@ -182,11 +183,12 @@ export class Player {
     if (this.#wire.parentElement !== parent) {
       parent?.append(this.#trail, this.#wire);
     }
-    const total = piece.getTotalLength();
-    this.#trail.setAttribute("d", piece.getAttribute("d") ?? "");
+    const { length } = piece;
+    this.#place.setAttribute("d", piece.data());
+    this.#trail.setAttribute("d", piece.data());
     this.#trail.setAttribute("pathLength", "1");
-    this.#trail.setAttribute("stroke-dasharray", `${total > 0 ? along / total : 1} 2`);
-    const { x, y } = piece.getPointAtLength(along);
+    this.#trail.setAttribute("stroke-dasharray", `${length > 0 ? along / length : 1} 2`);
+    const { x, y } = this.#place.getPointAtLength(along);
     this.#wire.setAttribute("cx", String(x));
     this.#wire.setAttribute("cy", String(y));
   }
@@ -197,17 +199,17 @@ export class Player {
       this.#where.textContent = this.#motion.textContent = this.#block.textContent = "";
       return;
     }
-    const jumps = isJump(piece);
+    const jumps = piece.isJump;
     const before = this.#cut[spot.piece - 1] ?? 0;
     const cut = jumps ? before : before + spot.along;
     const mm = (length: number): string => (length * this.#mmPerUnit).toFixed(1);
     const travelled = this.#mmPerUnit > 0 ? t("cut {0} of {1} mm", mm(cut), mm(this.#cut.at(-1) ?? 0)) : "";
-    const line = piece.dataset["line"];
+    const { line } = piece;
     this.#motion.className = jumps ? "jumps" : "cuts";
     this.#motion.textContent = jumps ? t("Jump") : t("Cut");
-    this.#block.textContent = line === undefined ? "" : (this.#lines[Number(line)]?.trim() ?? "");
-    const block = line === undefined ? undefined : this.#blocks.get(Number(line));
-    const facts = [line === undefined ? "" : t("line {0}", Number(line) + 1), travelled];
+    this.#block.textContent = line === undefined ? "" : (this.#lines[line]?.trim() ?? "");
+    const block = line === undefined ? undefined : this.#blocks.get(line);
+    const facts = [line === undefined ? "" : t("line {0}", line + 1), travelled];
     if (block !== undefined) {
       const [x, y] = block.end;
       facts.splice(1, 0, t("to {0}, {1}", (x / 1000).toFixed(3), (y / 1000).toFixed(3)));
@@ -230,9 +232,4 @@ export class Player {
     this.#button.setAttribute("aria-label", this.#playing ? t("Pause") : t("Play"));
     this.#button.title = this.#playing ? t("Pause (space)") : t("Play (space)");
   }
-}
-
-/** Whether the wire does not cut there. */
-function isJump(piece: SVGPathElement): boolean {
-  return piece.classList.contains("jump");
 }

@@ -148,7 +148,7 @@ export interface Methods {
     result: Inspection;
   };
   "wedm/contours": {
-    params: DrawingName;
+    params: ContoursOf;
     result: Contours;
   };
   "wedm/toolpath": {
@@ -156,7 +156,7 @@ export interface Methods {
     result: Toolpath;
   };
   "wedm/picture": {
-    params: OptionsOf;
+    params: PictureOf;
     result: Picture;
   };
   "wedm/export": {
@@ -298,8 +298,15 @@ export interface FacingWall {
    */
   segment: number;
 }
-export interface DrawingName {
+/**
+ * Params of `wedm/contours`.
+ */
+export interface ContoursOf {
   uri: string;
+  /**
+   * `false`: instead of its segments each contour has the handles of its entities.
+   */
+  segments?: boolean;
 }
 /**
  * Contours in machining order.
@@ -342,6 +349,10 @@ export interface ContoursContour {
    * In the direction of travel.
    */
   segments: ContourPiece[];
+  /**
+   * The handles of its entities, where they are asked for instead.
+   */
+  handles?: string[];
   /**
    * Ends that lay apart within the join tolerance and were taken as one.
    */
@@ -389,7 +400,7 @@ export interface Gap {
   distance: number;
 }
 /**
- * Params of `wedm/toolpath`, `wedm/picture` and `wedm/fit`; `wedm/contours` takes the `uri` alone.
+ * Params of `wedm/toolpath` and `wedm/fit`.
  */
 export interface OptionsOf {
   uri: string;
@@ -1055,10 +1066,59 @@ export interface ToolpathPart {
   work: Work;
 }
 /**
+ * Params of `wedm/picture`.
+ */
+export interface PictureOf {
+  uri: string;
+  /**
+   * Laid over every other level of settings for this request.
+   */
+  options?: Settings;
+  /**
+   * A picture of more than 2,000 elements is wanted in pieces.
+   */
+  pieces?: boolean;
+}
+/**
  * Result of `wedm/picture`.
  */
 export interface Picture {
+  /**
+   * With `pieces` it has the heading and the legend only.
+   */
   svg: string;
+  /**
+   * The drawing, from the bottom up, where it is wanted in pieces and has many.
+   */
+  pieces?: Piece[];
+}
+/**
+ * A line or an area of the drawing.
+ */
+export interface Piece {
+  /**
+   * As the element of the SVG has it.
+   */
+  class: string;
+  handle?: string;
+  segment?: number;
+  /**
+   * In the picture of a program.
+   */
+  line?: number;
+  /**
+   * The width of the kerf that the wire cuts along it, thousandths of the local coordinates.
+   */
+  width?: number;
+  /**
+   * The number of a contour in the order of the cuts, at its thread hole.
+   */
+  order?: number;
+  /**
+   * `x, y` where it begins, then `x, y, radius` of each line and arc of it: where that ends, 0 for a line, and below 0 for an arc
+   * that runs clockwise; an arc is less than a half turn. Thousandths of the local coordinates, y upwards.
+   */
+  at: number[];
 }
 /**
  * Params of `wedm/export`.
@@ -1676,6 +1736,9 @@ export interface Located {
    * The number that a finding on the segment stands at, or the entity's name.
    */
   range: Range;
+}
+export interface DrawingName {
+  uri: string;
 }
 /**
  * Result of `wedm/settings`.

@@ -3,6 +3,7 @@
 import type { ContoursContour, InspectedEntity, InspectedSegment, Inspection } from "./protocol";
 import type { Fault } from "./messages";
 import { circled, markNumbers } from "./numbers";
+import { handlesOf } from "./shown";
 import { t } from "./words";
 
 export interface SegmentRow {
@@ -60,7 +61,7 @@ function contourRow(
   read: Read,
   onlyFaults: boolean,
 ): EntityRow {
-  const handles = [...new Set(contour.segments.map(({ handle }) => handle))];
+  const handles = handlesOf(contour);
   const segments = handles.flatMap((handle) => {
     const own = entities.get(handle)?.segments ?? [];
     return own.map((segment) => segmentRow(handle, segment, read, handles.length > 1));

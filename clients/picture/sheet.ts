@@ -1,8 +1,9 @@
 // Takes the server's SVG into the page, and knows which of its elements stand for which segment or line.
 
-import type { SegmentShape } from "./protocol";
+import type { Piece, SegmentShape } from "./protocol";
 import { Canvas } from "./canvas";
 import type { Box } from "./frame";
+import { dataOf, lengthOf, taken } from "./pieces";
 
 export interface Picked {
   handle?: string;
@@ -10,19 +11,30 @@ export interface Picked {
   line?: number;
 }
 
+/** A piece of the wire's way. */
+export interface Way {
+  length: number;
+  /** The wire does not cut there. */
+  isJump: boolean;
+  /** In a program. */
+  line: number | undefined;
+  data: () => string;
+  /** What shows it, where it is an element. */
+  element?: SVGPathElement;
+}
+
 export class Sheet {
   readonly svg: SVGSVGElement;
   readonly drawing: SVGGElement | null;
   readonly #bySegment = new Map<string, SVGElement[]>();
   readonly #byLine = new Map<number, SVGElement[]>();
-  readonly #wire: SVGPathElement[];
   /** Draws what is too large for the page's own tree. */
   readonly canvas: Canvas | null;
   #selected: SVGElement[] = [];
   #ghost: SVGPathElement | null = null;
 
-  /** Throws when the text is no SVG. */
-  constructor(text: string) {
+  /** Throws when the text is no SVG. What the server has sent in pieces is drawn on a canvas below it. */
+  constructor(text: string, pieces?: readonly Piece[]) {
     // The page has its own colours, those of the theme. A policy that allows no style complains of the server's, so it goes first.
     const parsed = new DOMParser().parseFromString(text.replace(/<style>[^<]*<\/style>/, ""), "image/svg+xml");
     const root = parsed.documentElement;
@@ -37,14 +49,14 @@ export class Sheet {
     this.svg.removeAttribute("width");
     this.svg.removeAttribute("height");
     this.drawing = this.svg.querySelector<SVGGElement>("g.drawing");
-    this.#index();
-    const blocks = [...this.svg.querySelectorAll<SVGPathElement>("g.drawing path[data-line]")];
-    this.#wire = blocks.length > 0 ? blocks : [...this.svg.querySelectorAll<SVGPathElement>("g.drawing :is(path.wire, path.lead, path.jump)")];
-    const canvas = new Canvas();
-    this.canvas = this.drawing !== null && canvas.take(this.drawing) ? canvas : null;
-    if (this.canvas !== null) {
+    const place = this.drawing?.transform.baseVal.consolidate()?.matrix;
+    const many = pieces ?? (this.drawing === null ? null : taken(this.drawing));
+    this.canvas = many === null || place === undefined ? null : new Canvas(many, place.e, place.f);
+    if (this.canvas === null) {
+      this.#index();
+    } else {
       // The canvas has marks of its own, with counts.
-      for (const mark of this.svg.querySelectorAll(".mark")) {
+      for (const mark of this.svg.querySelectorAll(".mark, .lens")) {
         mark.remove();
       }
     }
@@ -216,12 +228,15 @@ export class Sheet {
 
   /** Every element that stands for the segment; with null, for the entity. */
   ofSegment(handle: string, segment: number | null): SVGElement[] {
+    if (this.canvas !== null) {
+      return this.canvas.ofSegment(handle, segment);
+    }
     const exact = segment === null ? undefined : this.#bySegment.get(key(handle, String(segment)));
     return exact ?? this.#bySegment.get(key(handle, undefined)) ?? [];
   }
 
   ofLine(line: number): SVGElement[] {
-    return this.#byLine.get(line) ?? [];
+    return this.canvas?.ofLine(line) ?? this.#byLine.get(line) ?? [];
   }
 
   select(elements: SVGElement[]): void {
@@ -286,9 +301,20 @@ export class Sheet {
     return scale === undefined ? 0 : Number(scale) / Number(unitMm ?? 1);
   }
 
-  /** The pieces of the wire's way, in the order in which it is travelled. */
-  wire(): SVGPathElement[] {
-    return this.#wire;
+  /** The wire's way, in the order in which it is travelled. */
+  wire(): Way[] {
+    if (this.canvas !== null) {
+      return this.canvas.wire().map(({ at, line, class: kind }) => ({ length: lengthOf(at), isJump: kind.startsWith("jump"), line, data: () => dataOf(at) }));
+    }
+    const blocks = [...this.svg.querySelectorAll<SVGPathElement>("g.drawing path[data-line]")];
+    const way = blocks.length > 0 ? blocks : [...this.svg.querySelectorAll<SVGPathElement>("g.drawing :is(path.wire, path.lead, path.jump)")];
+    return way.map((element) => ({
+      length: element.getTotalLength(),
+      isJump: element.classList.contains("jump"),
+      line: element.dataset["line"] === undefined ? undefined : Number(element.dataset["line"]),
+      data: () => element.getAttribute("d") ?? "",
+      element,
+    }));
   }
 }
 

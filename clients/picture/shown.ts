@@ -1,7 +1,7 @@
 // What the server answers, as the picture shows it.
 
 import type { Contour, Fault, Severity } from "./messages";
-import type { Contours, Fit, SettingsInForce } from "./protocol";
+import type { Contours, ContoursContour, Fit, SettingsInForce } from "./protocol";
 import { t } from "./words";
 
 /** A finding of an editor's or of the protocol's own kind, the severity counted from 0. */
@@ -30,10 +30,20 @@ export function faultOf({ severity, rule, message, line, data }: Found, toMm: nu
   };
 }
 
+/** The handles of a contour's entities. */
+export function handlesOf({ handles, segments }: ContoursContour): string[] {
+  return [...new Set(handles ?? segments.map(({ handle }) => handle))];
+}
+
+/** The contour of each entity. */
+export function byHandle(contours: readonly Contour[]): Map<string, Contour> {
+  return new Map(contours.flatMap((contour) => contour.handles.map((handle) => [handle, contour] as const)));
+}
+
 /** The contours with their settings. */
 export function contoursOf(listed: Contours, settings: Pick<SettingsInForce, "contours">): Contour[] {
   return listed.contours.map((contour, index) => {
-    const handles = [...new Set(contour.segments.map(({ handle }) => handle))];
+    const handles = handlesOf(contour);
     const said = handles.map((handle) => settings.contours?.[handle]).find((each) => each !== undefined) ?? {};
     const { closed, role } = contour;
     return { number: (contour.order ?? index) + 1, handles, closed, role, length: contour.length * listed.unitsToMm, said };

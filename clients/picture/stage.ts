@@ -1,6 +1,7 @@
 // The window through which the sheet is seen: pan by dragging, zoom by the wheel, the keys and the buttons.
 
 import { type Box, centred, fitted, moved, roundLength, sees, unitsPerPixel, zoomed } from "./frame";
+import { boxOfItems } from "./canvas";
 import { type Picked, pickedFrom, type Sheet } from "./sheet";
 import { element } from "./host";
 
@@ -150,11 +151,11 @@ export class Stage {
       const { x, y } = this.#onSheet(event);
       const pixel = unitsPerPixel(this.#view, this.#size());
       const cluster = canvas.clusterAt(x, y, pixel);
-      if (cluster !== null && cluster.count > 1) {
-        this.approach(canvas.boxOf(cluster.items.map(({ element }) => element)));
+      if (cluster !== null && cluster.items.length > 1) {
+        this.approach(boxOfItems(cluster.items));
         return null;
       }
-      return pickedFrom(cluster?.items[0]?.element ?? canvas.at(x, y, REACH * pixel));
+      return cluster?.items[0]?.piece ?? canvas.at(x, y, REACH * pixel);
     }
     const ring = [0, 1, 2, 3, 4, 5, 6, 7].map((step) => (step * Math.PI) / 4);
     const about = [REACH / 2, REACH].flatMap((far) => ring.map((angle) => [Math.cos(angle) * far, Math.sin(angle) * far] as const));

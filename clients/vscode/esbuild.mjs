@@ -62,7 +62,7 @@ if (asked.has("--browser")) {
     entryPoints: ["tests/browser/run.ts"],
     outfile: "dist/browser/run.mjs",
     format: "esm",
-    external: ["playwright-core"],
+    external: ["playwright-core", "vscode-jsonrpc"],
     minify: false,
   });
 }

@@ -3,7 +3,7 @@
 use super::{Cut, Refusal, Watch, cuts};
 use crate::document::{Document, Snapshot};
 use crate::finding::{self, Finding, Telling};
-use crate::picture::{self, PartShare, View};
+use crate::picture::{self, Drawn, PartShare, View};
 use crate::program;
 use crate::settings::part_title;
 
@@ -13,6 +13,17 @@ pub(crate) fn picture(
     findings: &[Finding],
     watch: &dyn Watch,
 ) -> (Result<Vec<Cut>, Refusal>, String) {
+    let (cuts, drawn) = drawn(snapshot, findings, watch, false);
+    (cuts, drawn.svg)
+}
+
+/// The same; `in_pieces` as [`picture::drawn`] has it.
+pub(crate) fn drawn(
+    snapshot: &Snapshot,
+    findings: &[Finding],
+    watch: &dyn Watch,
+    in_pieces: bool,
+) -> (Result<Vec<Cut>, Refusal>, Drawn) {
     let settings = &snapshot.settings;
     let cuts = cuts(snapshot, watch);
     let why = cuts.as_ref().err().map(|refusal| {
@@ -49,12 +60,21 @@ pub(crate) fn picture(
             .map(|(severity, why)| (*severity, why.as_str())),
         settings,
     };
-    let svg = picture::svg(&view);
-    (cuts, svg)
+    let drawn = picture::drawn(&view, in_pieces);
+    (cuts, drawn)
 }
 
 /// The picture of a program.
 pub(crate) fn picture_of_program(document: &Document, program: &program::Document) -> String {
+    program_drawn(document, program, false).svg
+}
+
+/// The same; `in_pieces` as [`picture::drawn`] has it.
+pub(crate) fn program_drawn(
+    document: &Document,
+    program: &program::Document,
+    in_pieces: bool,
+) -> Drawn {
     let of = |finding: &Finding| {
         let line = document
             .text()?
@@ -64,5 +84,5 @@ pub(crate) fn picture_of_program(document: &Document, program: &program::Documen
     let findings = document.all_findings();
     let faults: Vec<_> = findings.iter().filter_map(of).collect();
     let name = document.settings().document.as_deref();
-    picture::program_svg(&program.trace(), &faults, name, program.mills())
+    picture::program(&program.trace(), &faults, name, program.mills(), in_pieces)
 }

@@ -1,8 +1,9 @@
 //! Areas of the drawing: what is material, what the wire cuts, and what it leaves of what it should cut.
 
-use super::numbers::number;
+use super::numbers::{number, thousandths};
+use super::pieces::What;
 use super::reach::FARTHEST;
-use super::sheet::{Frame, Sheet, path_data};
+use super::sheet::{Frame, Sheet};
 use super::subject::Subject;
 use crate::drawing::{Drawing, Outline, Role, winding};
 use crate::geometry::{Bounds, Grid, Point, Segment};
@@ -11,6 +12,8 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 /// How far the material reaches beyond an opening that no outline holds.
 const GROUND: f64 = 22.0;
+/// The radius of its corners.
+const ROUND: f64 = 8.0;
 
 /// A closed outline.
 struct Area {
@@ -25,10 +28,8 @@ pub(super) fn areas(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
     let areas = told_apart(subject.drawing, subject.outlines);
     if areas.first().is_some_and(|largest| largest.is_void) {
         let [width, height] = [subject.bounds.width(), subject.bounds.height()]
-            .map(|length| number(length * frame.scale + 2.0 * GROUND));
-        sheet.line(format_args!(
-            r#"<rect class="part" x="-{GROUND}" y="-{GROUND}" width="{width}" height="{height}" rx="8"/>"#
-        ));
+            .map(|length| length * frame.scale + 2.0 * GROUND);
+        ground(sheet, width, height);
     }
     let mut of: FxHashMap<usize, Vec<(&WirePath, f64)>> = FxHashMap::default();
     for (path, half) in subject.paths.iter().zip(&subject.half_kerfs) {
@@ -41,31 +42,62 @@ pub(super) fn areas(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
             continue;
         };
         let contour = &outline.contour;
-        let segments = contour.segments(subject.drawing);
-        let data = path_data(frame, segments.map(|segment| segment.geometry), true);
+        let own: Vec<Segment> = contour
+            .segments(subject.drawing)
+            .map(|segment| segment.geometry)
+            .collect();
         let paths = of.remove(&area.outline).unwrap_or_default();
         let swept = round_of(frame, &paths);
-        let fill = |sheet: &mut Sheet, class: &str, data: &str| {
-            sheet.path(&format!(r#"class="{class}""#), data, "");
+        let fill = |sheet: &mut Sheet, class: &str, segments: &[Segment]| {
+            let segments = segments.iter().copied();
+            sheet.draw(frame, &What::of(class), segments, true, String::new);
         };
         match (area.is_void, &swept) {
             (true, Some(round)) => {
-                fill(sheet, "lost", &data);
+                fill(sheet, "lost", &own);
                 fill(sheet, "void", round);
             }
             (false, Some(round)) => fill(sheet, "lost", round),
-            (true, None) => fill(sheet, "void", &data),
-            (false, None) => fill(sheet, "part", &data),
+            (true, None) => fill(sheet, "void", &own),
+            (false, None) => fill(sheet, "part", &own),
         }
         kerfs(sheet, frame, &paths);
         if !area.is_void && swept.is_some() {
-            fill(sheet, "part", &data);
+            fill(sheet, "part", &own);
         }
     }
     // Open contours have no inside.
     for index in 0..subject.outlines.len() {
         kerfs(sheet, frame, &of.remove(&index).unwrap_or_default());
     }
+}
+
+/// Material as a box with rounded corners.
+fn ground(sheet: &mut Sheet, width: f64, height: f64) {
+    let Some(pieces) = &mut sheet.pieces else {
+        let [width, height] = [width, height].map(number);
+        return sheet.line(format_args!(
+            r#"<rect class="part" x="-{GROUND}" y="-{GROUND}" width="{width}" height="{height}" rx="{ROUND}"/>"#
+        ));
+    };
+    let [low, right, top] = [-GROUND, width - GROUND, height - GROUND].map(thousandths);
+    let round = thousandths(ROUND);
+    let sides = [
+        [low + round, low],
+        [right - round, low],
+        [right, low + round],
+        [right, top - round],
+        [right - round, top],
+        [low + round, top],
+        [low, top - round],
+        [low, low + round],
+        [low + round, low],
+    ];
+    let mut at = sides[0].to_vec();
+    for (index, [x, y]) in sides.into_iter().enumerate().skip(1) {
+        at.extend([x, y, if index % 2 == 0 { round } else { 0 }]);
+    }
+    pieces.push(What::of("part").piece(at));
 }
 
 /// The outlines that have no material in them.
@@ -117,7 +149,7 @@ fn told_apart(drawing: &Drawing, outlines: &[Outline]) -> Vec<Area> {
 
 /// The loop of the first pass around an outline, where the kerf of the wire is known: everything
 /// between that and the contour that no kerf covers is left standing.
-fn round_of(frame: &Frame, paths: &[(&WirePath, f64)]) -> Option<String> {
+fn round_of(frame: &Frame, paths: &[(&WirePath, f64)]) -> Option<Vec<Segment>> {
     let own = |cut_off: bool| {
         let is_it = |path: &WirePath| path.pass == 1 && path.cut_off == cut_off;
         let (path, _) = paths.iter().find(|(path, _)| is_it(path))?;
@@ -136,21 +168,25 @@ fn round_of(frame: &Frame, paths: &[(&WirePath, f64)]) -> Option<String> {
     } else if is_end(tab.last().map(Segment::end)) {
         round.extend(tab.iter().rev().map(Segment::reversed));
     }
-    Some(path_data(frame, round, true))
+    Some(round)
 }
 
-/// The kerf along an outline in all its passes, leads and tab included, to scale.
+/// The width of a kerf on the sheet.
+pub(super) fn kerf_width(frame: &Frame, half: f64) -> f64 {
+    (2.0 * half * frame.scale).min(FARTHEST)
+}
+
+/// The kerf along an outline in all its passes, leads and tab included, to scale; pieces of the path have it themselves.
 fn kerfs(sheet: &mut Sheet, frame: &Frame, paths: &[(&WirePath, f64)]) {
+    if sheet.pieces.is_some() {
+        return;
+    }
     for (path, half) in paths {
+        let what = What {
+            width: Some(kerf_width(frame, *half)),
+            ..What::of("kerf")
+        };
         let pieces = path.segments.iter().map(|piece| piece.geometry);
-        let (data, width) = (path_data(frame, pieces, false), 2.0 * half * frame.scale);
-        if !data.is_empty() {
-            let width = number(width.min(FARTHEST));
-            sheet.path(
-                &format!(r#"class="kerf" stroke-width="{width}""#),
-                &data,
-                "",
-            );
-        }
+        sheet.draw(frame, &what, pieces, false, String::new);
     }
 }

@@ -3,10 +3,11 @@
 use super::areas;
 use super::marks::{self, Spot};
 use super::numbers::number;
+use super::pieces::What;
 use super::room::Room;
-use super::sheet::{Frame, Sheet, escaped, named, path_data};
+use super::sheet::{Frame, Sheet};
 use super::style::class_of;
-use super::subject::{Subject, is_other, mark_numbers};
+use super::subject::{Subject, TOOLTIP_SEGMENTS, is_other, mark_numbers};
 use crate::drawing::{Entity, EntityId, Geometry};
 use crate::finding::{Detail, Finding, Place, Severity};
 use crate::geometry::{Point, Segment};
@@ -23,8 +24,6 @@ const fn dot_of(severity: Severity) -> f64 {
 }
 /// A segment that is shorter on the sheet is shown as a dot.
 const TOO_SHORT: f64 = 4.5;
-/// Up to this many segments each one is an element of its own, with a tooltip; beyond it each entity is.
-const TOOLTIP_SEGMENTS: usize = 4000;
 
 /// Draws it, and notes in `room` where there is something. The places of the marks that have a number come back, by number.
 pub(super) fn figure(
@@ -61,22 +60,31 @@ pub(super) fn figure(
         .for_each(|other| other.draw(sheet, frame));
     for fault in &subject.faults {
         let (handle, segment, detail) = (&fault.handle, fault.segment, fault.detail);
-        let (radius, required) = (subject.mm(detail.radius), subject.mm(detail.required));
-        let label = say!(
-            a_segment_tighter_than_the_correction,
-            handle,
-            segment,
-            radius,
-            required
-        );
-        let data = path_data(frame, [Segment::Arc(fault.arc())], false);
         let class = format!("fault {}", class_of(fault.severity));
-        sheet.path(&named(&class, handle, segment), &data, &label);
-        let middle = frame.local(fault.correction_disc());
-        let radius = detail.required * frame.scale;
-        sheet.circle(r#"class="correction fine""#, middle, radius, "");
+        let what = What {
+            handle: Some(handle),
+            segment: Some(segment),
+            ..What::of(&class)
+        };
+        sheet.draw(frame, &what, [Segment::Arc(fault.arc())], false, || {
+            let (radius, required) = (subject.mm(detail.radius), subject.mm(detail.required));
+            say!(
+                a_segment_tighter_than_the_correction,
+                handle,
+                segment,
+                radius,
+                required
+            )
+        });
+        if sheet.pieces.is_none() {
+            let middle = frame.local(fault.correction_disc());
+            let radius = detail.required * frame.scale;
+            sheet.circle(r#"class="correction fine""#, middle, radius, "");
+        }
     }
-    note(room, frame, subject);
+    if sheet.pieces.is_none() {
+        note(room, frame, subject);
+    }
     marks::thread_holes(sheet, frame, subject, room);
     sheet.line(format_args!("</g>"));
     others.into_iter().map(|other| other.spot).collect()
@@ -102,13 +110,6 @@ fn note(room: &mut Room, frame: &Frame, subject: &Subject) {
     pieces.for_each(|piece| room.line(frame, &piece.geometry));
 }
 
-/// The segments of an entity as path data.
-fn data_of(frame: &Frame, subject: &Subject, entity: &Entity) -> String {
-    let geometry = &entity.geometry;
-    let segments = geometry.segments_of(subject.drawing.flat());
-    path_data(frame, segments, geometry.is_closed())
-}
-
 /// Entities that are drawn and not cut.
 fn asides(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
     let entities = subject.drawing.entities();
@@ -116,20 +117,21 @@ fn asides(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
         if let Geometry::Text { at, text } = &entity.geometry {
             let is_hole = |hole: Point| (hole - at).norm() * frame.scale < 1.0;
             let mut holes = subject.paths.iter().map(|path| path.thread_hole);
-            if !text.is_empty() && !holes.any(is_hole) {
+            if sheet.pieces.is_none() && !text.is_empty() && !holes.any(is_hole) {
                 marks::text(sheet, frame, *at, text);
             }
             continue;
         }
-        let data = data_of(frame, subject, entity);
         let (kind, handle, layer) = (entity.kind, &entity.handle, &entity.layer);
-        if !data.is_empty() {
-            sheet.path(
-                &format!(r#"class="aside" data-handle="{}""#, escaped(handle)),
-                &data,
-                &say!(on_layer_not_cut, kind, handle, layer),
-            );
-        }
+        let what = What {
+            handle: Some(handle),
+            ..What::of("aside")
+        };
+        let segments = entity.geometry.segments_of(subject.drawing.flat());
+        let closed = entity.geometry.is_closed();
+        sheet.draw(frame, &what, segments, closed, || {
+            say!(on_layer_not_cut, kind, handle, layer)
+        });
     }
 }
 
@@ -141,31 +143,36 @@ fn contours(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
             continue;
         };
         let (kind, handle) = (entity.kind, &entity.handle);
+        let what = What {
+            handle: Some(handle),
+            ..What::of("contour")
+        };
+        let segments = entity.geometry.segments_of(subject.drawing.flat());
         if count > TOOLTIP_SEGMENTS {
-            sheet.path(
-                &format!(r#"class="contour" data-handle="{}""#, escaped(handle)),
-                &data_of(frame, subject, entity),
-                &format!("{kind} {handle} · {}", say!(segments, piece.count())),
-            );
+            let closed = entity.geometry.is_closed();
+            sheet.draw(frame, &what, segments, closed, || {
+                format!("{kind} {handle} · {}", say!(segments, piece.count()))
+            });
             continue;
         }
-        let segments = entity.geometry.segments_of(subject.drawing.flat());
         for (index, segment) in segments.enumerate() {
-            let what = match segment {
-                Segment::Line(line) => say!(line_mm, subject.mm(line.length())),
-                Segment::Arc(arc) => {
-                    let (radius, sweep) = (subject.mm(arc.radius), arc.sweep.to_degrees());
-                    say!(arc_r_mm, radius, format!("{sweep:.1}"))
-                }
+            let what = What {
+                segment: Some(index),
+                ..what
             };
-            sheet.path(
-                &named("contour", handle, index),
-                &path_data(frame, [segment], false),
-                &format!(
-                    "{kind} {handle} · {} · {what}",
+            sheet.draw(frame, &what, [segment], false, || {
+                let shape = match segment {
+                    Segment::Line(line) => say!(line_mm, subject.mm(line.length())),
+                    Segment::Arc(arc) => {
+                        let (radius, sweep) = (subject.mm(arc.radius), arc.sweep.to_degrees());
+                        say!(arc_r_mm, radius, format!("{sweep:.1}"))
+                    }
+                };
+                format!(
+                    "{kind} {handle} · {} · {shape}",
                     say!(segment_by_number, index)
-                ),
-            );
+                )
+            });
         }
     }
 }
@@ -174,9 +181,9 @@ fn contours(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
 fn jump(sheet: &mut Sheet, frame: &Frame, subject: &Subject, from: Point, to: Point) {
     if from != to {
         let way = Segment::line(from, to);
-        let label = say!(way_without_a_cut_mm, subject.mm(way.length()));
-        let data = path_data(frame, [way], false);
-        sheet.path(r#"class="jump""#, &data, &label);
+        sheet.draw(frame, &What::of("jump"), [way], false, || {
+            say!(way_without_a_cut_mm, subject.mm(way.length()))
+        });
     }
 }
 
@@ -184,55 +191,66 @@ fn jump(sheet: &mut Sheet, frame: &Frame, subject: &Subject, from: Point, to: Po
 fn wire(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
     let is_lead = |source: &Source| matches!(source, Source::LeadIn | Source::LeadOut);
     let mut before = None;
-    let mut drawn: FxHashSet<String> = FxHashSet::default();
+    let mut drawn: FxHashSet<Vec<Vec<i64>>> = FxHashSet::default();
+    let has_passes = subject.paths.iter().any(|path| path.pass > 1);
     let parts = subject.parts.iter();
     let of_part = parts.flat_map(|part| {
         let paths = part.paths.iter().enumerate();
         paths.map(move |(index, path)| (path, part.title, index == 0))
     });
-    for ((path, part, is_first), correction) in of_part.zip(&subject.corrections) {
+    let corrections = subject.corrections.iter().zip(&subject.half_kerfs);
+    for ((path, part, is_first), (correction, half_kerf)) in of_part.zip(corrections) {
         if let Some(end) = before.replace(path.end()).filter(|_| !is_first) {
             jump(sheet, frame, subject, end, path.begin());
         }
-        let distance = subject.mm(*correction);
-        let mut label = match subject.mills {
-            false if path.side.is_some() => say!(contour_that_the_control_offsets, distance),
-            false => say!(path_of_the_wire_centre, distance),
-            true => say!(path_of_the_electrode_axis, distance),
+        let label = || {
+            let distance = subject.mm(*correction);
+            let mut label = match subject.mills {
+                false if path.side.is_some() => say!(contour_that_the_control_offsets, distance),
+                false => say!(path_of_the_wire_centre, distance),
+                true => say!(path_of_the_electrode_axis, distance),
+            };
+            if has_passes {
+                label += &say!(of_pass, path.pass);
+            }
+            match part {
+                Some(part) => say!(of_a_part, part, label),
+                None => label,
+            }
         };
-        if path.pass > 1 || subject.paths.iter().any(|path| path.pass > 1) {
-            label += &say!(of_pass, path.pass);
-        }
-        if let Some(part) = part {
-            label = say!(of_a_part, part, label);
-        }
         // Runs of one kind: the way round the contour is one line, the leads are others.
         for run in path
             .segments
             .chunk_by(|a, b| is_lead(&a.source) == is_lead(&b.source))
         {
-            let data = path_data(frame, run.iter().map(|segment| segment.geometry), false);
-            let back = || run.iter().rev().map(|segment| segment.geometry.reversed());
-            let (class, label) = match run.first() {
-                // Dashes upon dashes of the other way would look solid.
-                Some(first) if is_lead(&first.source) => {
-                    match drawn.contains(&path_data(frame, back(), false)) {
-                        true => ("lead back", say!(lead_in_and_lead_out)),
+            let along = || run.iter().map(|segment| segment.geometry);
+            let is_of_lead = run.first().is_some_and(|first| is_lead(&first.source));
+            let class = match is_of_lead {
+                true => {
+                    let back = run.iter().rev().map(|segment| segment.geometry.reversed());
+                    // Dashes upon dashes of the other way would look solid.
+                    match drawn.contains(&frame.runs(back, false)) {
+                        true => "lead back",
                         false => {
-                            drawn.insert(data.clone());
-                            ("lead", say!(lead_in_and_lead_out))
+                            drawn.insert(frame.runs(along(), false));
+                            "lead"
                         }
                     }
                 }
-                _ if path.cut_off => ("wire tab", say!(the_tab)),
-                _ => ("wire", label.as_str()),
+                false if path.cut_off => "wire tab",
+                false => "wire",
             };
-            let pass = path.pass;
-            sheet.path(
-                &format!(r#"class="{class}" data-pass="{pass}""#),
-                &data,
-                label,
-            );
+            let width = half_kerf.map(|half| areas::kerf_width(frame, half));
+            let what = What {
+                pass: Some(path.pass),
+                width: width.filter(|_| sheet.pieces.is_some()),
+                ..What::of(class)
+            };
+            sheet.draw(frame, &what, along(), false, || match is_of_lead {
+                true => say!(lead_in_and_lead_out).into(),
+                false if path.cut_off => say!(the_tab).into(),
+                false => label(),
+            });
         }
     }
 }
@@ -242,24 +260,32 @@ struct Other<'a> {
     finding: &'a Finding,
     spot: Spot,
     label: String,
-    /// Path data where a segment is marked.
-    data: Option<String>,
+    /// What is marked, where it is no point.
+    marked: Option<Vec<Segment>>,
 }
 
 impl Other<'_> {
     fn draw(&self, sheet: &mut Sheet, frame: &Frame) {
         let (spot, severity) = (&self.spot, class_of(self.finding.severity));
-        let named = |what: &str| named(&format!("{what} {severity}"), &spot.handle, spot.segment);
-        match &self.data {
-            Some(data) => sheet.path(&named("other"), data, &self.label),
+        let shape = if self.marked.is_some() {
+            "other"
+        } else {
+            "dot"
+        };
+        let class = format!("{shape} {severity}");
+        let what = What {
+            handle: Some(&spot.handle),
+            segment: Some(spot.segment),
+            ..What::of(&class)
+        };
+        match &self.marked {
+            Some(segments) => {
+                let segments = segments.iter().copied();
+                sheet.draw(frame, &what, segments, false, || self.label.clone());
+            }
             None => {
                 let at = (spot.at.0 - frame.left, frame.bottom - spot.at.1);
-                sheet.circle(
-                    &named("dot"),
-                    at,
-                    dot_of(self.finding.severity),
-                    &self.label,
-                );
+                sheet.dot(&what, at, dot_of(self.finding.severity), &self.label);
             }
         }
     }
@@ -325,10 +351,7 @@ fn other<'a>(
         false => segment,
     };
     let all = entity.geometry.segments_of(flat).skip(from).take(count);
-    let data = match point {
-        Some(_) => None,
-        None => Some(path_data(frame, all, false)),
-    };
+    let marked = point.is_none().then(|| all.collect());
     Some(Other {
         finding,
         label: format!(
@@ -342,6 +365,6 @@ fn other<'a>(
             segment,
             severity: finding.severity,
         },
-        data,
+        marked,
     })
 }

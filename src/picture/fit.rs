@@ -30,7 +30,7 @@ pub(crate) fn fit_svg(drawing: &Drawing, fit: &Fit, unit_mm: f64) -> String {
         all.for_each(|segment| bounds.merge(&segment.bounds()));
     }
     if bounds.is_empty() {
-        return style::empty(say!(no_contour_is_of_a_pair));
+        return style::empty(say!(no_contour_is_of_a_pair)).text;
     }
     let frame = Frame::fitting(&bounds);
     let mut worst: Vec<&Spot> = fit.spots().collect();
@@ -108,7 +108,7 @@ pub(crate) fn fit_svg(drawing: &Drawing, fit: &Fit, unit_mm: f64) -> String {
     let right = SHEET_WIDTH - MARGIN;
     style::scale_bar(&mut sheet, right, legend_top + 12.0, frame.scale / unit_mm);
     sheet.line(format_args!("</g>\n</svg>"));
-    sheet.0
+    sheet.text
 }
 
 /// The plate as background with its opening, the punch in it.
@@ -117,7 +117,7 @@ fn outlines(sheet: &mut Sheet, fit: &Fit, frame: &Frame) {
         let data = |outline: &[Segment]| path_data(frame, outline.iter().copied(), true);
         let (plate, punch) = rayon::join(|| data(&pair.plate), || data(&pair.punch));
         let [plate_id, punch_id] = ["plate", "punch"].map(|part| format!("fit-{part}-{index}"));
-        sheet.0.reserve(plate.len() + punch.len());
+        sheet.text.reserve(plate.len() + punch.len());
         sheet.line(format_args!("<defs>"));
         for (id, data) in [(&plate_id, &plate), (&punch_id, &punch)] {
             sheet.path(&format!(r#"id="{id}""#), data, "");

@@ -1,6 +1,7 @@
 //! Numbered marks beside the faults, thread holes, starting points and texts.
 
 use super::numbers::number;
+use super::pieces::{Piece, What};
 use super::room::{Area, Room};
 use super::sheet::{Frame, MARGIN, SHEET_WIDTH, Sheet, escaped, named};
 use super::style::class_of;
@@ -195,6 +196,13 @@ pub(super) fn thread_holes(sheet: &mut Sheet, frame: &Frame, subject: &Subject, 
     // The passes of a contour share it.
     let first = || subject.paths.iter().filter(|path| path.is_first());
     let are_numbered = (2..=MOST_NUMBERED).contains(&first().count());
+    if let Some(pieces) = &mut sheet.pieces {
+        pieces.extend(first().enumerate().map(|(index, path)| Piece {
+            order: are_numbered.then_some(index + 1),
+            ..What::of("thread").piece(frame.place(path.thread_hole).to_vec())
+        }));
+        return;
+    }
     for path in first() {
         let hole = path.thread_hole;
         let at = frame.local(hole);

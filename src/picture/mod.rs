@@ -14,6 +14,7 @@ mod fit;
 mod lens;
 mod marks;
 mod numbers;
+mod pieces;
 mod program;
 mod reach;
 mod room;
@@ -24,7 +25,8 @@ mod window;
 
 pub(crate) use export::Image;
 pub(crate) use fit::fit_svg;
-pub(crate) use program::program_svg;
+pub(crate) use pieces::Piece;
+pub(crate) use program::program;
 pub(crate) use sheet::escaped;
 pub(crate) use subject::mark_numbers;
 
@@ -33,7 +35,7 @@ use crate::finding::{Detail, Finding, Severity};
 use crate::settings::Effective;
 use crate::toolpath::{StartHole, WirePath, lengths};
 use room::Room;
-use sheet::{FIGURE_TOP, Frame, MARGIN, SHEET_WIDTH};
+use sheet::{FIGURE_TOP, Frame, MARGIN, SHEET_WIDTH, Sheet};
 use subject::{PartPaths, Subject, is_other};
 
 /// The contents of a picture.
@@ -72,6 +74,23 @@ pub struct PartShare<'a> {
 /// spark gap, else the last correction; of a pair, whose parts are cut out of other plates, there are only the paths. All figures in texts are in mm. The y axis points up, as in the drawing. A
 /// drawing without geometry gives a sheet that says so.
 pub fn svg(view: &View) -> String {
+    drawn(view, false).svg
+}
+
+/// A picture, and in numbers what of it is not in its SVG.
+pub(crate) struct Drawn {
+    pub(crate) svg: String,
+    pub(crate) pieces: Option<Vec<Piece>>,
+}
+
+impl From<Sheet> for Drawn {
+    fn from(Sheet { text, pieces }: Sheet) -> Drawn {
+        Drawn { svg: text, pieces }
+    }
+}
+
+/// As [`svg`]. With `in_pieces` a drawing of many elements comes as numbers: the SVG has its heading and its legend only.
+pub(crate) fn drawn(view: &View, in_pieces: bool) -> Drawn {
     let View {
         findings,
         paths,
@@ -79,7 +98,7 @@ pub fn svg(view: &View) -> String {
         ..
     } = *view;
     let Some(subject) = Subject::new(view) else {
-        return style::empty(say!(the_drawing_has_no_lines));
+        return style::empty(say!(the_drawing_has_no_lines)).into();
     };
     let unit_mm = subject.unit_mm;
     let faults = &subject.faults;
@@ -116,29 +135,30 @@ pub fn svg(view: &View) -> String {
     };
     let entries = style::entries(&shown);
     let mut sheet = style::opening(legend_top + style::height_of(&entries), &title);
+    sheet.pieces = (in_pieces && subject.elements() > pieces::MANY).then(Vec::new);
     let (severity, alert) = alert(view, faults);
     let alert = (!alert.is_empty()).then_some((style::class_of(severity), alert.as_str()));
     sheet.heading(&title, &facts(&subject), alert);
     sheet.line(format_args!("<g class=\"figure\">"));
     let mut room = Room::default();
     let spots = figure::figure(&mut sheet, &frame, &subject, &mut room);
-    marks::faults(
-        &mut sheet,
-        &frame,
-        faults,
-        unit_mm,
-        FIGURE_TOP - 26.0,
-        &mut room,
-    );
-    marks::numbers(&mut sheet, &spots, &mut room);
+    // A viewer that paints pieces makes marks of its own.
+    let is_whole = sheet.pieces.is_none();
+    if is_whole {
+        let top = FIGURE_TOP - 26.0;
+        marks::faults(&mut sheet, &frame, faults, unit_mm, top, &mut room);
+        marks::numbers(&mut sheet, &spots, &mut room);
+    }
     sheet.line(format_args!("</g>"));
-    lens::row(&mut sheet, &subject, details_top);
+    if is_whole {
+        lens::row(&mut sheet, &subject, details_top);
+    }
     sheet.line(format_args!("<g class=\"chrome\">"));
     style::legend(&mut sheet, legend_top + 12.0, &entries);
     let right = SHEET_WIDTH - MARGIN;
     style::scale_bar(&mut sheet, right, legend_top + 12.0, frame.scale / unit_mm);
     sheet.line(format_args!("</g>\n</svg>"));
-    sheet.0
+    sheet.into()
 }
 
 /// True where something that should be cut is left there.

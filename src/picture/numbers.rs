@@ -17,11 +17,13 @@ pub(super) fn number(value: f64) -> String {
 /// A number in thousandths, rounded as `{:.3}` does it: a half goes to the even side.
 pub(super) fn thousandths(value: f64) -> i64 {
     let scaled = value * 1e3;
-    let nearest = scaled.round();
-    // A product is off by its rounding: about the middle between two, digits decide.
-    let from_middle = 0.5 - (scaled - nearest).abs();
-    if from_middle > 1e-6 && scaled.abs() < 1e9 {
-        return nearest as i64;
+    if scaled.abs() < 1e9 {
+        let nearest = (scaled + 0.5_f64.copysign(scaled)) as i64;
+        // A product is off by its rounding: about the middle between two, digits decide.
+        let from_middle = 0.5 - (scaled - nearest as f64).abs();
+        if from_middle > 1e-6 {
+            return nearest;
+        }
     }
     let digits = format!("{:.3}", value.clamp(-LARGEST, LARGEST)).replace('.', "");
     digits.parse().unwrap_or_default()

@@ -4,9 +4,10 @@
 //! them; beyond [`MOST_BLOCKS`] consecutive blocks share a path with the line of the first.
 
 use super::numbers::number;
-use super::sheet::{Frame, MARGIN, SHEET_WIDTH, Sheet, path_data};
+use super::pieces::{MANY, Piece, What};
+use super::sheet::{Frame, MARGIN, SHEET_WIDTH, Sheet};
 use super::style::{self, JUMP, THREAD, WIRE, class_of};
-use super::{marks, titled};
+use super::{Drawn, marks, titled};
 use crate::finding::Severity;
 use crate::geometry::{Arc, Bounds, Point, Segment};
 use crate::program::path::{Kind, Step, Trace};
@@ -17,18 +18,20 @@ use std::fmt::Write;
 /// Up to this many blocks have a path each.
 const MOST_BLOCKS: usize = 20_000;
 
-/// The picture of a program, with the name of its file. `faults` are lines (from 0) with their faults, worst first.
-pub(crate) fn program_svg(
+/// The picture of a program, with the name of its file. `faults` are lines (from 0) with their faults, worst first. With `in_pieces`
+/// a program of many blocks comes as numbers, as drawings do.
+pub(crate) fn program(
     trace: &Trace,
     faults: &[(usize, Severity, String)],
     name: Option<&str>,
     mills: bool,
-) -> String {
+    in_pieces: bool,
+) -> Drawn {
     let Some(bounds) = trace.bounds().map(|bounds| Bounds {
         min: mm(bounds.min),
         max: mm(bounds.max),
     }) else {
-        return style::empty(say!(the_program_moves_nothing));
+        return style::empty(say!(the_program_moves_nothing)).into();
     };
     let frame = Frame::fitting(&bounds);
     let legend_top = frame.bottom + 48.0;
@@ -51,6 +54,7 @@ pub(crate) fn program_svg(
     let severities: BTreeSet<Severity> = of_step.map(|fault| fault.1).collect();
     entries.extend(severities.into_iter().map(style::of_severity));
     let mut sheet = style::opening(legend_top + style::height_of(&entries), &title);
+    sheet.pieces = (in_pieces && moving.len() > MANY).then(Vec::new);
     let closure = trace.closure();
     let (cut, jumps) = trace.lengths();
     let facts = [
@@ -84,7 +88,7 @@ pub(crate) fn program_svg(
     let right = SHEET_WIDTH - MARGIN;
     style::scale_bar(&mut sheet, right, legend_top + 12.0, frame.scale);
     sheet.line(format_args!("</svg>"));
-    sheet.0
+    sheet.into()
 }
 
 /// µm to mm.
@@ -105,10 +109,10 @@ fn leans_on(a: &Leaning, b: &Leaning) -> bool {
 /// The path of the wire's upper end along consecutive moves.
 fn upper_path(sheet: &mut Sheet, frame: &Frame, run: &[Leaning]) {
     let pieces = run.iter().flat_map(|(_, pieces)| pieces.iter());
-    let data = path_data(frame, pieces.map(|piece| scaled(*piece)), false);
-    if !data.is_empty() {
-        sheet.path(r#"class="upper""#, &data, say!(the_upper_end));
-    }
+    let pieces = pieces.map(|piece| scaled(*piece));
+    sheet.draw(frame, &What::of("upper"), pieces, false, || {
+        say!(the_upper_end).into()
+    });
 }
 
 fn in_mm(step: &Step) -> Segment {
@@ -158,10 +162,6 @@ fn path(
     faults: &FxHashMap<usize, &(usize, Severity, String)>,
 ) {
     let Some(first) = steps.first() else { return };
-    let data = path_data(frame, steps.iter().map(|step| in_mm(step)), false);
-    if data.is_empty() {
-        return;
-    }
     let fault = steps.iter().find_map(|step| faults.get(&step.line));
     let way = match first.kind {
         Kind::Rapid => "jump",
@@ -171,16 +171,18 @@ fn path(
         Some((_, severity, _)) => format!("{way} fault {}", class_of(*severity)),
         None => way.into(),
     };
-    let mut label = label(first);
-    if let Some((_, _, sentence)) = fault {
-        let _ = write!(label, " · {sentence}");
-    }
-    let line = first.line;
-    sheet.path(
-        &format!(r#"class="{class}" data-line="{line}""#),
-        &data,
-        &label,
-    );
+    let what = What {
+        line: Some(first.line),
+        ..What::of(&class)
+    };
+    let segments = steps.iter().map(|step| in_mm(step));
+    sheet.draw(frame, &what, segments, false, || {
+        let mut label = label(first);
+        if let Some((_, _, sentence)) = fault {
+            let _ = write!(label, " · {sentence}");
+        }
+        label
+    });
 }
 
 fn label(step: &Step) -> String {
@@ -207,14 +209,22 @@ fn thread_holes(sheet: &mut Sheet, frame: &Frame, moving: &[&Step]) {
         let before = index.checked_sub(1).and_then(|before| moving.get(before));
         step.kind != Kind::Rapid && before.is_none_or(|before| before.contour != step.contour)
     });
-    let begins: Vec<(f64, f64)> = begins
-        .map(|(_, step)| frame.local(mm(step.start)))
-        .collect();
-    for (index, &place) in begins.iter().enumerate() {
-        if begins.len() > 1 {
-            marks::order(sheet, place, (13.0, -9.0), index + 1);
+    let begins: Vec<Point> = begins.map(|(_, step)| mm(step.start)).collect();
+    for (index, &begin) in begins.iter().enumerate() {
+        let order = (begins.len() > 1).then_some(index + 1);
+        if let Some(pieces) = &mut sheet.pieces {
+            let at = frame.place(begin).to_vec();
+            pieces.push(Piece {
+                order,
+                ..What::of("thread").piece(at)
+            });
+            continue;
         }
-        let (x, y) = (number(place.0), number(place.1));
+        let at = frame.local(begin);
+        if let Some(order) = order {
+            marks::order(sheet, at, (13.0, -9.0), order);
+        }
+        let (x, y) = (number(at.0), number(at.1));
         sheet.line(format_args!(
             r#"<g class="thread" transform="translate({x} {y})"><circle r="5"/><path d="M-8 0h16M0 -8v16"/></g>"#
         ));

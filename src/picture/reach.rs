@@ -22,6 +22,14 @@ pub(super) enum Reach {
 /// Hands out the parts of a segment, in its direction; `origin` is where the picture's coordinates are 0, `scale` its units in
 /// one of the drawing.
 pub(super) fn each_part(origin: Point, scale: f64, segment: Segment, each: &mut impl FnMut(Reach)) {
+    // Nearly all is near, and an arc is where its circle is.
+    let far = match &segment {
+        Segment::Line(line) => (line.start - origin).amax().max((line.end - origin).amax()),
+        Segment::Arc(arc) => (arc.center - origin).amax() + arc.radius,
+    };
+    if far * scale <= FARTHEST {
+        return each(Reach::Near(segment));
+    }
     let near = Bounds {
         min: origin,
         max: origin,

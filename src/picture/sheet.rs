@@ -1,10 +1,10 @@
 //! The sheet as SVG: the layout, geometry as path data, and how elements, numbers and texts are written.
 
 use super::numbers::{number, push_thousandths, thousandths};
-use super::reach::{FARTHEST, Reach, each_part};
+use super::pieces::{Local, Piece, What, data_of_runs, runs};
+use super::reach::FARTHEST;
 use crate::geometry::{Bounds, Point, Segment};
 use crate::message::columns;
-use std::f64::consts::PI;
 use std::fmt::{Arguments, Write};
 
 /// Width of the sheet and of the margin round it, in the picture's own units.
@@ -18,14 +18,44 @@ pub(super) const FIGURE_TOP: f64 = 112.0;
 const COLUMNS: usize = 132;
 const COLUMNS_OF_TITLE: usize = 86;
 
-/// The SVG written so far.
+/// The picture so far.
 #[derive(Default)]
-pub(super) struct Sheet(pub String);
+pub(super) struct Sheet {
+    /// The SVG.
+    pub(super) text: String,
+    /// The parts of the drawing, where they are no elements of the SVG.
+    pub(super) pieces: Option<Vec<Piece>>,
+}
 
 impl Sheet {
     /// A line of SVG.
     pub(crate) fn line(&mut self, svg: Arguments) {
-        let _ = writeln!(self.0, "{svg}");
+        let _ = writeln!(self.text, "{svg}");
+    }
+
+    /// A part of the drawing along segments, with a tooltip where `title` is not empty; `close` joins its end to its start.
+    pub(crate) fn draw(
+        &mut self,
+        frame: &Frame,
+        what: &What,
+        segments: impl IntoIterator<Item = Segment>,
+        close: bool,
+        title: impl FnOnce() -> String,
+    ) {
+        let runs = frame.runs(segments, close);
+        match &mut self.pieces {
+            Some(pieces) => pieces.extend(runs.into_iter().map(|run| what.piece(run))),
+            None if runs.is_empty() => {}
+            None => self.path(&attributes(what), &data_of_runs(&runs, close), &title()),
+        }
+    }
+
+    /// A dot at a place of the drawing, in local coordinates.
+    pub(crate) fn dot(&mut self, what: &What, at: (f64, f64), radius: f64, title: &str) {
+        match &mut self.pieces {
+            Some(pieces) => pieces.push(what.piece(vec![thousandths(at.0), thousandths(at.1)])),
+            None => self.circle(&attributes(what), at, radius, title),
+        }
     }
 
     /// A path, with a tooltip where `title` is not empty.
@@ -137,6 +167,27 @@ impl Frame {
         (shifted.x, shifted.y)
     }
 
+    fn as_local(&self) -> Local {
+        Local {
+            origin: self.origin,
+            scale: self.scale,
+        }
+    }
+
+    /// A place in the group, in thousandths.
+    pub(crate) fn place(&self, point: Point) -> [i64; 2] {
+        self.as_local().place(point)
+    }
+
+    /// Segments in the group.
+    pub(crate) fn runs(
+        &self,
+        segments: impl IntoIterator<Item = Segment>,
+        area: bool,
+    ) -> Vec<Vec<i64>> {
+        runs(self.as_local(), segments, area)
+    }
+
     /// Coordinates on the sheet, y down, where text is written.
     pub(crate) fn on_sheet(&self, point: Point) -> (f64, f64) {
         let (x, y) = self.local(point);
@@ -144,76 +195,37 @@ impl Frame {
     }
 }
 
-/// The segments as one path, in the frame's local coordinates; `close` joins its end to its start. What lies farther
-/// away than [`FARTHEST`] is left out; of an area the edge there takes its place.
-///
-/// An arc is split into pieces of less than a half turn, so that a full circle is drawn, and so that no viewer has to
-/// guess which of two arcs is meant.
+/// What an element is, as its attributes.
+fn attributes(what: &What) -> String {
+    let mut text = format!(r#"class="{}""#, what.class);
+    if let Some(handle) = what.handle {
+        let _ = write!(text, r#" data-handle="{}""#, escaped(handle));
+    }
+    let numbers = [
+        ("data-segment", what.segment),
+        ("data-pass", what.pass),
+        ("data-line", what.line),
+    ];
+    for (name, number) in numbers {
+        if let Some(number) = number {
+            let _ = write!(text, r#" {name}="{number}""#);
+        }
+    }
+    if let Some(width) = what.width {
+        text.push_str(r#" stroke-width=""#);
+        push_thousandths(&mut text, thousandths(width));
+        text.push('"');
+    }
+    text
+}
+
+/// The segments as one path, in the frame's local coordinates; `close` joins its end to its start.
 pub(super) fn path_data(
     frame: &Frame,
     segments: impl IntoIterator<Item = Segment>,
     close: bool,
 ) -> String {
-    let mut path = PathData::default();
-    for segment in segments {
-        each_part(frame.origin, frame.scale, segment, &mut |part| match part {
-            Reach::Near(segment) => path.push(frame, &segment),
-            Reach::Far(along) if close => path.push(frame, &along),
-            // A line that leaves the sheet comes back to it in another place.
-            Reach::Far(_) => path.pen = None,
-        });
-    }
-    if close && !path.data.is_empty() {
-        path.data.push('Z');
-    }
-    path.data
-}
-
-/// Path data, and where its pen stands.
-#[derive(Default)]
-struct PathData {
-    data: String,
-    pen: Option<[i64; 2]>,
-}
-
-impl PathData {
-    fn push(&mut self, frame: &Frame, segment: &Segment) {
-        let data = &mut self.data;
-        let start = place(frame, segment.start());
-        match self.pen {
-            None => push_place(data, 'M', start),
-            Some(stands) if stands != start => push_place(data, 'L', start),
-            Some(_) => {}
-        }
-        let end = place(frame, segment.end());
-        match segment {
-            Segment::Line(_) => push_place(data, 'L', end),
-            Segment::Arc(arc) => {
-                let pieces = (arc.sweep.abs() / (0.9 * PI)).ceil().max(1.0);
-                let radius = number(arc.radius * frame.scale);
-                let direction = u8::from(arc.sweep > 0.0);
-                for piece in 1..=pieces as u32 {
-                    let to = place(frame, arc.point_at(f64::from(piece) / pieces));
-                    let _ = write!(data, "A{radius} {radius} 0 0 {direction}");
-                    push_place(data, ' ', to);
-                }
-            }
-        }
-        self.pen = Some(end);
-    }
-}
-
-/// A place of the drawing in the frame's local coordinates, in thousandths.
-fn place(frame: &Frame, point: Point) -> [i64; 2] {
-    let (x, y) = frame.local(point);
-    [x, y].map(thousandths)
-}
-
-fn push_place(data: &mut String, before: char, [x, y]: [i64; 2]) {
-    data.push(before);
-    push_thousandths(data, x);
-    data.push(' ');
-    push_thousandths(data, y);
+    data_of_runs(&frame.runs(segments, close), close)
 }
 
 /// As much of a text as fits in this many columns, with the whole of it as a tooltip where that is not all.

@@ -126,19 +126,20 @@ pub(super) fn without_dark(svg: &str) -> String {
 pub(super) fn opening(height: f64, title: &str) -> Sheet {
     let [width, height] = [SHEET_WIDTH, height.ceil()].map(number);
     let (title, style) = (escaped(title), style());
-    Sheet(format!(
+    let text = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" height=\"{height}\" role=\"img\">\n\
          <title>{title}</title>\n<style>\n{style}{DARK_ENDS}\n<rect class=\"sheet\" width=\"{width}\" height=\"{height}\"/>\n"
-    ))
+    );
+    Sheet { text, pieces: None }
 }
 
 /// The picture where there is nothing to draw, and `why`.
-pub(super) fn empty(why: &str) -> String {
+pub(super) fn empty(why: &str) -> Sheet {
     let mut sheet = opening(120.0, say!(nothing_to_draw));
     sheet.line(format_args!(
         "<text class=\"note\" x=\"{MARGIN}\" y=\"64\">{why}</text>\n</svg>"
     ));
-    sheet.0
+    sheet
 }
 
 /// The kinds of marks in a picture.

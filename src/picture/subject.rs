@@ -1,13 +1,16 @@
 //! The subject of a picture: the drawing with its contours, its faults and the paths of the wire.
 
 use super::View;
-use crate::drawing::{Drawing, EntityId, Outline};
+use crate::drawing::{Contour, Drawing, EntityId, Outline};
 use crate::finding::{Detail, Finding, Place, Severity, SmallRadius};
 use crate::geometry::{Arc, Bounds, Point};
 use crate::settings::Effective;
 use crate::toolpath::WirePath;
 use rustc_hash::FxHashSet;
 use std::collections::BTreeMap;
+
+/// Up to this many segments each one is an element of its own, with a tooltip; beyond it each entity is.
+pub(super) const TOOLTIP_SEGMENTS: usize = 4000;
 
 /// Everything shown.
 pub(super) struct Subject<'a> {
@@ -144,6 +147,19 @@ impl<'a> Subject<'a> {
             unit_mm,
             origin: settings.origins.correction.title(),
         })
+    }
+
+    /// About how many elements it is drawn with.
+    pub(crate) fn elements(&self) -> usize {
+        let contours = || self.outlines.iter().map(|outline| &outline.contour);
+        let segments: usize = contours().map(Contour::len).sum();
+        let of_contours = match segments > TOOLTIP_SEGMENTS {
+            true => self.cut.len(),
+            false => segments,
+        };
+        let asides = self.drawing.entities().count() - self.cut.len();
+        // A path has two leads, the way between them, its kerf and a jump.
+        of_contours + asides + 5 * self.paths.len() + self.findings.len()
     }
 
     /// The box of everything that is cut, or of everything shown where nothing is cut.

@@ -1,4 +1,5 @@
 use super::numbers::number;
+use super::pieces::{MANY, data_of_runs};
 use super::sheet::path_data;
 use super::*;
 use crate::drawing::{Contour, Entity, EntityId, Geometry, Kind, Role, Unit, Vertex};
@@ -333,4 +334,44 @@ fn what_the_wire_cuts_and_leaves_is_shown_to_scale() {
     let twice = [paths[0].clone(), paths[0].clone()];
     let twice = shown(&twice, &findings, &settings());
     assert_eq!(twice.matches(r#"class="order""#).count(), 2, "{twice}");
+}
+
+/// What a viewer paints by itself are the elements that there would be.
+#[test]
+fn many_elements_come_in_pieces_where_that_is_asked() {
+    let settings = settings();
+    let shown = |count: usize| {
+        let mut drawing = Drawing::new(None);
+        for index in 0..count {
+            let geometry = Geometry::Circle {
+                center: Point::new(3.0 * index as f64, 0.0),
+                radius: 1.0,
+            };
+            drawing.push(entity(&format!("{index:X}"), "0", Kind::Circle, geometry));
+        }
+        let view = View {
+            name: None,
+            drawing: &drawing,
+            outlines: &[],
+            findings: &[],
+            paths: &[],
+            parts: &[],
+            holes: &[],
+            why: None,
+            settings: &settings,
+        };
+        (svg(&view), super::drawn(&view, true))
+    };
+    let (whole, few) = shown(10);
+    assert_eq!((few.svg, few.pieces), (whole, None));
+    let (whole, many) = shown(MANY + 1);
+    assert!(!many.svg.contains("data-handle"));
+    let pieces = many.pieces.unwrap();
+    assert_eq!(pieces.len(), MANY + 1);
+    for piece in pieces {
+        let (class, handle) = (piece.class, piece.handle.unwrap());
+        let data = data_of_runs(&[piece.at], true);
+        let element = format!(r#"class="{class}" data-handle="{handle}" d="{data}""#);
+        assert!(whole.contains(&element), "{element}");
+    }
 }

@@ -46,6 +46,9 @@ pub(crate) struct ContoursContour {
     pub(crate) mark: Option<[f64; 2]>,
     /// In the direction of travel.
     pub(crate) segments: Vec<ContourPiece>,
+    /// The handles of its entities, where they are asked for instead.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(crate) handles: Vec<String>,
     /// Ends that lay apart within the join tolerance and were taken as one.
     pub(crate) gaps: Vec<Gap>,
 }
@@ -72,8 +75,26 @@ pub(crate) struct Gap {
 
 impl Contours {
     pub fn new(drawing: &Drawing, outlines: &[Outline], settings: &Effective) -> Contours {
+        Contours::ordered(drawing, outlines, settings, false)
+    }
+
+    /// With handles instead of segments.
+    pub(crate) fn in_short(
+        drawing: &Drawing,
+        outlines: &[Outline],
+        settings: &Effective,
+    ) -> Contours {
+        Contours::ordered(drawing, outlines, settings, true)
+    }
+
+    fn ordered(
+        drawing: &Drawing,
+        outlines: &[Outline],
+        settings: &Effective,
+        in_short: bool,
+    ) -> Contours {
         let unit_mm = settings.unit_of(drawing).mm;
-        let mut contours = Contours::unordered(drawing, outlines, unit_mm);
+        let mut contours = Contours::unordered(drawing, outlines, unit_mm, in_short);
         for (order, cut) in toolpath::cuts(drawing, outlines, settings)
             .into_iter()
             .flatten()
@@ -88,18 +109,23 @@ impl Contours {
     }
 
     /// `unit_mm` is the drawing's unit in mm.
-    fn unordered(drawing: &Drawing, outlines: &[Outline], unit_mm: f64) -> Contours {
+    fn unordered(
+        drawing: &Drawing,
+        outlines: &[Outline],
+        unit_mm: f64,
+        in_short: bool,
+    ) -> Contours {
         Contours {
             units_to_mm: unit_mm,
             contours: outlines
                 .iter()
-                .map(|outline| contour(drawing, outline, unit_mm))
+                .map(|outline| contour(drawing, outline, unit_mm, in_short))
                 .collect(),
         }
     }
 }
 
-fn contour(drawing: &Drawing, outline: &Outline, unit_mm: f64) -> ContoursContour {
+fn contour(drawing: &Drawing, outline: &Outline, unit_mm: f64, in_short: bool) -> ContoursContour {
     // What is smaller is no gap, see `Limits::least`.
     let least = Tolerances::default().in_units(unit_mm).resolution;
     let segments: Vec<_> = outline.contour.segments(drawing).collect();
@@ -123,6 +149,8 @@ fn contour(drawing: &Drawing, outline: &Outline, unit_mm: f64) -> ContoursContou
     } else {
         Direction::Ccw
     };
+    let entities = outline.contour.pieces.iter().map(|piece| piece.entity);
+    let handles = entities.filter_map(|entity| Some(drawing.get(entity)?.handle.to_string()));
     ContoursContour {
         closed,
         direction: (closed && outline.twice_area != 0.0).then_some(direction),
@@ -135,8 +163,11 @@ fn contour(drawing: &Drawing, outline: &Outline, unit_mm: f64) -> ContoursContou
         order: None,
         mark: None,
         gaps: gaps.collect(),
-        segments: segments
-            .iter()
+        handles: match in_short {
+            true => handles.collect(),
+            false => Vec::new(),
+        },
+        segments: (segments.iter().filter(|_| !in_short))
             .filter_map(|segment| {
                 Some(ContourPiece {
                     handle: drawing.get(segment.entity)?.handle.to_string(),
@@ -183,7 +214,7 @@ mod tests {
                 role: Role::Both,
                 twice_area: 1.0,
             };
-            let listed = Contours::unordered(&drawing, &[outline], 1.0)
+            let listed = Contours::unordered(&drawing, &[outline], 1.0, false)
                 .contours
                 .remove(0)
                 .gaps;

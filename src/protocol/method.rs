@@ -56,9 +56,9 @@ messages! {
     DidChangeDrawing "wedm/didChangeDrawing" (ChangeDrawing);
     DidCloseDrawing "wedm/didCloseDrawing" (CloseDrawing);
     Inspect "wedm/inspect" (Inspect) -> Inspection;
-    Contours "wedm/contours" (DrawingName) -> Contours;
+    Contours "wedm/contours" (ContoursOf) -> Contours;
     Toolpath "wedm/toolpath" (OptionsOf) -> Toolpath;
-    Picture "wedm/picture" (OptionsOf) -> Picture;
+    Picture "wedm/picture" (PictureOf) -> Picture;
     Export "wedm/export" (Export) -> Exported;
     Holes "wedm/holes" (Holes) -> Exported;
     Repairs "wedm/repairs" (RepairsOf) -> Repairs;

@@ -46,9 +46,10 @@ pub(crate) use inspection::{InspectedEntity, InspectedSegment};
 pub(crate) use locate::{Locate, Located};
 pub(crate) use milling::Milling;
 pub(crate) use requests::{
-    Applied, ApplyDrawingEdit, ChangeDrawing, CloseDrawing, DrawingEdit, DrawingName, Export,
-    Exported, FixAllData, HoleForm, Holes, Inspect, OpenDrawing, OptionsOf, Picture, PictureForm,
-    Repair, Repairs, RepairsOf, ResendDrawing, Resent, RulePage, RulePageText, ScaleProgram,
+    Applied, ApplyDrawingEdit, ChangeDrawing, CloseDrawing, ContoursOf, DrawingEdit, DrawingName,
+    Export, Exported, FixAllData, HoleForm, Holes, Inspect, OpenDrawing, OptionsOf, Picture,
+    PictureForm, PictureOf, Repair, Repairs, RepairsOf, ResendDrawing, Resent, RulePage,
+    RulePageText, ScaleProgram,
 };
 pub use schema::schema;
 pub(crate) use schema::settings_schema;

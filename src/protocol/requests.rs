@@ -3,6 +3,7 @@
 use super::change::DrawingChange;
 use super::drawing::Drawing;
 use super::segment::SegmentShape;
+use crate::picture::Piece;
 use crate::settings::Settings;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -106,7 +107,7 @@ pub(crate) struct Inspect {
     pub(crate) handle: Option<String>,
 }
 
-/// Params of `wedm/toolpath`, `wedm/picture` and `wedm/fit`; `wedm/contours` takes the `uri` alone.
+/// Params of `wedm/toolpath` and `wedm/fit`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub(crate) struct OptionsOf {
     pub(crate) uri: String,
@@ -115,10 +116,35 @@ pub(crate) struct OptionsOf {
     pub(crate) options: Option<Settings>,
 }
 
+/// Params of `wedm/picture`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub(crate) struct PictureOf {
+    pub(crate) uri: String,
+    /// Laid over every other level of settings for this request.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) options: Option<Settings>,
+    /// A picture of more than 2,000 elements is wanted in pieces.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub(crate) pieces: bool,
+}
+
 /// Result of `wedm/picture`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub(crate) struct Picture {
+    /// With `pieces` it has the heading and the legend only.
     pub(crate) svg: String,
+    /// The drawing, from the bottom up, where it is wanted in pieces and has many.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) pieces: Option<Vec<Piece>>,
+}
+
+/// Params of `wedm/contours`.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub(crate) struct ContoursOf {
+    pub(crate) uri: String,
+    /// `false`: instead of its segments each contour has the handles of its entities.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) segments: Option<bool>,
 }
 
 /// What a picture can be written as.

@@ -3,7 +3,7 @@
 import type { Host } from "../../picture/host";
 import type { Contour, Fault, FromPage, Shown } from "../../picture/messages";
 import { Picture } from "../../picture/picture";
-import type { Contours, Diagnostic, Repair, SettingsInForce } from "../../picture/protocol";
+import type { Contours, Diagnostic, Picture as Drawn, Repair, SettingsInForce, SimulatedBlock } from "../../picture/protocol";
 import { contoursOf, faultOf, faultsOfFit } from "../../picture/shown";
 import { t } from "../../picture/words";
 import { whyOf } from "../../picture/why";
@@ -14,6 +14,9 @@ import { nameOf } from "./dom";
 import type { Right } from "./right";
 import { Refusal } from "./rpc";
 import { CONTENT_MODIFIED, type Server } from "./server";
+
+/** What the server answers about a document. */
+type Answers = [Drawn, SettingsInForce, Contours | null, SimulatedBlock[]];
 
 /** What the bench hands on. */
 export interface Around {
@@ -34,6 +37,8 @@ export class Bench implements Host {
   #doc: Doc | null = null;
   #version = 0;
   #found: readonly Diagnostic[] | null = null;
+  /** What was asked with the text itself; the first picture of it takes it. */
+  #answers: Promise<Answers> | null = null;
   #faults: readonly Fault[] = [];
   #listed: Contours | null = null;
   #contours: readonly Contour[] = [];
@@ -125,6 +130,7 @@ export class Bench implements Host {
     const isSame = last?.uri === doc.uri;
     this.#doc = doc;
     this.#found = null;
+    this.#answers = null;
     this.#madeOf = madeOf;
     this.#isFit = false;
     if (!isSame) {
@@ -139,7 +145,13 @@ export class Bench implements Host {
       return;
     }
     this.#picture.receive({ type: "busy", busy: true });
-    this.#version = await this.server.put(doc.uri, doc.language, doc.source.text);
+    const version = await this.server.put(doc.uri, doc.language, doc.source.text);
+    if (doc === this.#doc) {
+      this.#version = version;
+      this.#answers = this.#ask(doc);
+      // It is asked again where this fails.
+      this.#answers.catch(() => undefined);
+    }
   }
 
   /** The file of the document has been written: its new text takes the place of the old one, and what is new and gone is said. */
@@ -236,14 +248,9 @@ export class Bench implements Host {
       this.#show(doc, { kind: "fit", svg: fit.svg, faults: faultsOfFit(fit), contours: [], blocks: [], lines: [] });
       return;
     }
-    const isDxf = isDrawing(doc);
-    const [{ svg }, settings, listed, blocks] = await Promise.all([
-      this.server.request("wedm/picture", { uri }),
-      this.server.request("wedm/settings", { uri }),
-      isDxf ? this.server.request("wedm/contours", { uri }) : null,
-      // Without its blocks the wire can still be played; only its figures are missing.
-      isDxf ? [] : this.server.request("wedm/simulate", { uri }).then((answer) => answer.blocks, () => []),
-    ]);
+    const early = this.#answers ?? this.#ask(doc);
+    this.#answers = null;
+    const [{ svg, pieces }, settings, listed, blocks] = await early.catch(() => this.#ask(doc));
     if (doc !== this.#doc || found !== this.#found) {
       this.#isStale = true;
       return;
@@ -254,11 +261,23 @@ export class Bench implements Host {
     const faults = found.map(({ severity, code, message, range, data }) =>
       faultOf({ severity: severity - 1, rule: code, message, line: range.start.line, data }, listed?.unitsToMm ?? 1));
     this.#compare(name, faults);
+    const isDxf = isDrawing(doc);
     const lines = isDxf ? [] : doc.source.text.split(/\r\n|\n|\r/);
-    this.#show(doc, { kind: isDxf ? "drawing" : "program", svg, faults, contours, blocks, lines });
+    this.#show(doc, { kind: isDxf ? "drawing" : "program", svg, ...(pieces === undefined ? {} : { pieces }), faults, contours, blocks, lines });
   }
 
-  #show({ uri, name }: Doc, shown: Pick<Shown, "kind" | "svg" | "faults" | "contours" | "blocks" | "lines">): void {
+  #ask({ uri, language }: Doc): Promise<Answers> {
+    const isDxf = language === "dxf";
+    return Promise.all([
+      this.server.request("wedm/picture", { uri, pieces: true }),
+      this.server.request("wedm/settings", { uri }),
+      isDxf ? this.server.request("wedm/contours", { uri, segments: false }) : null,
+      // Without its blocks the wire can still be played; only its figures are missing.
+      isDxf ? [] : this.server.request("wedm/simulate", { uri }).then((answer) => answer.blocks, () => []),
+    ]);
+  }
+
+  #show({ uri, name }: Doc, shown: Pick<Shown, "kind" | "svg" | "pieces" | "faults" | "contours" | "blocks" | "lines">): void {
     this.#faults = shown.faults;
     this.#contours = shown.contours;
     const madeOf = this.#madeOf === undefined ? {} : { madeOf: this.#madeOf };

@@ -115,7 +115,10 @@ async function begin(): Promise<void> {
       files.putMemory(there().memory);
       files.mark(doc.uri);
       bar.turned(doc);
-      history.replaceState(null, "", doc.revision === null ? "/" : `#${encodeURIComponent(doc.uri)}`);
+      const address = doc.revision === null ? "" : `#${encodeURIComponent(doc.uri)}`;
+      if (location.hash !== address) {
+        history.replaceState(null, "", address === "" ? "/" : address);
+      }
     },
     repairsOf: (doc, finding) => repairs.of(doc, finding),
     fix: (finding, title) => repairs.one(finding, title),

@@ -162,7 +162,7 @@ export class Right {
     if (this.#tab === "radii" && this.#radiiAreOld && this.#listed.isDrawing) {
       this.#radiiAreOld = false;
       this.acts.radii().then(({ inspection, contours }) => {
-        this.#radii.put(radiusRows(inspection, contours, this.#only.checked));
+        this.#radii.put(radiusRows(inspection, contours, this.#only.checked, this.#listed.faults));
       }, complain);
     }
   }

@@ -3,7 +3,9 @@
 import { Faults } from "../../picture/faults";
 import type { Contour, Fault, Severity } from "../../picture/messages";
 import type { Contours, Inspection } from "../../picture/protocol";
+import { circled, markNumbers } from "../../picture/numbers";
 import { rows as radii } from "../../picture/rows";
+import { byHandle } from "../../picture/shown";
 import { t } from "../../picture/words";
 import type { FileEntry } from "./api";
 import { keyOf } from "./doc";
@@ -52,31 +54,40 @@ export function findingRows(
   const groups = new Map<string, number[]>();
   for (const index of Faults.sorted(faults)) {
     const rule = faults[index]?.rule ?? "";
-    groups.set(rule, [...(groups.get(rule) ?? []), index]);
+    const group = groups.get(rule) ?? [];
+    group.push(index);
+    groups.set(rule, group);
   }
+  const [ofHandle, marks] = [byHandle(contours), markNumbers(faults)];
   return [...groups].flatMap(([rule, indices]) => {
     const severity: Severity = faults[indices[0] ?? 0]?.severity ?? "hint";
     const isFolded = folded.has(rule);
     const head: Row = { key: `rule ${rule}`, text: `${isFolded ? "▸" : "▾"} ${rule}`, kind: `head ${severity}`, badges: badge(indices.length, severity, "") };
-    return [head, ...(isFolded ? [] : indices.flatMap((index) => findingRow(faults[index], index, contours, fresh)))];
+    return [head, ...(isFolded ? [] : indices.flatMap((index) => findingRow(faults[index], index, marks[index], ofHandle, fresh)))];
   });
 }
 
-function findingRow(fault: Fault | undefined, index: number, contours: readonly Contour[], fresh: ReadonlySet<string>): Row[] {
+function findingRow(
+  fault: Fault | undefined,
+  index: number,
+  mark: number | undefined,
+  contours: ReadonlyMap<string, Contour>,
+  fresh: ReadonlySet<string>,
+): Row[] {
   if (fault === undefined) {
     return [];
   }
   const { severity, message, handle, segment, line } = fault;
-  const contour = contours.find(({ handles }) => handle !== undefined && handles.includes(handle));
+  const contour = contours.get(handle ?? "");
   const entity = segment === undefined ? (handle ?? "") : `${handle ?? ""} · ${segment}`;
   const place = handle === undefined ? t("line {0}", (line ?? 0) + 1) : contour === undefined ? entity : `${t("contour {0}", contour.number)} · ${entity}`;
   const isNew = fresh.has(keyOf(fault));
   const badges = isNew ? [{ text: t("new"), kind: "new" }] : [];
-  return [{ key: `fault ${index}`, text: message, detail: place, kind: `finding ${severity}${isNew ? " new" : ""}`, badges }];
+  return [{ key: `fault ${index}`, text: message, detail: mark === undefined ? place : `${circled(mark)} ${place}`, kind: `finding ${severity}${isNew ? " new" : ""}`, badges }];
 }
 
-export function radiusRows(inspection: Inspection, contours: Contours, onlyFaults: boolean): Row[] {
-  return radii(inspection, onlyFaults, contours.contours).flatMap((entity) => [
+export function radiusRows(inspection: Inspection, contours: Contours, onlyFaults: boolean, faults: readonly Fault[]): Row[] {
+  return radii(inspection, onlyFaults, contours.contours, faults).flatMap((entity) => [
     { key: `entity ${entity.handle}`, text: entity.label, detail: entity.description, kind: "head", badges: badge(entity.faults, "error", "") },
     ...entity.segments.map(({ handle, segment, label, description, faulty }) => ({
       key: `segment ${handle} ${segment.index}`, text: label, detail: description, kind: faulty ? "error" : "",

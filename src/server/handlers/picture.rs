@@ -5,16 +5,17 @@ use super::Task;
 use crate::drawing::{Drawing, DrawingEdit, Touched};
 use crate::finding::{Edit, Finding, Place};
 use crate::job;
-use crate::picture::Image;
+use crate::picture::{Drawn, Image};
 use crate::protocol::{
-    Export, Exported, OptionsOf, Picture, PictureForm, Repair, Repairs, RepairsOf, SegmentShape,
+    Export, Exported, Picture, PictureForm, PictureOf, Repair, Repairs, RepairsOf, SegmentShape,
 };
 use crate::server::context::RequestContext;
 use crate::server::errors::{internal, refused};
 use tower_lsp::jsonrpc::Result;
 
-pub(in crate::server) fn picture(context: &RequestContext, _: OptionsOf) -> Result<Picture> {
-    Ok(Picture { svg: svg(context)? })
+pub(in crate::server) fn picture(context: &RequestContext, asked: PictureOf) -> Result<Picture> {
+    let Drawn { svg, pieces } = drawn(context, asked.pieces)?;
+    Ok(Picture { svg, pieces })
 }
 
 pub(in crate::server) fn export(context: &RequestContext, params: Export) -> Result<Exported> {
@@ -23,17 +24,17 @@ pub(in crate::server) fn export(context: &RequestContext, params: Export) -> Res
         PictureForm::Png => Image::Png,
         PictureForm::Pdf => Image::Pdf,
     };
-    let bytes = form.of_svg(&svg(context)?).map_err(internal)?;
+    let bytes = form.of_svg(&drawn(context, false)?.svg).map_err(internal)?;
     Ok(Exported::new(&bytes))
 }
 
-fn svg(context: &RequestContext) -> Result<String> {
+fn drawn(context: &RequestContext, in_pieces: bool) -> Result<Drawn> {
     if let (Some(document), Some(program)) = (context.document(), context.program()) {
-        return Ok(job::picture_of_program(document, program));
+        return Ok(job::program_drawn(document, program, in_pieces));
     }
     let task = Task::of(context)?;
     // Without a path the picture shows the contours and says why.
-    Ok(job::picture(&task.snapshot, &task.findings(), context).1)
+    Ok(job::drawn(&task.snapshot, &task.findings(), context, in_pieces).1)
 }
 
 pub(in crate::server) fn repairs(context: &RequestContext, asked: RepairsOf) -> Result<Repairs> {

@@ -21,6 +21,8 @@ test("findings stand under their rule; of a folded rule only the head is seen", 
   const rows = findingRows(faults, [], new Set([keyOf(faults[2] as Fault)]), new Set(["gap"]));
   assert.deepEqual(rows.map(({ key }) => key), ["rule small-radius", "fault 1", "fault 2", "rule gap"]);
   assert.deepEqual(rows.map(({ kind }) => kind?.includes("new")), [false, false, true, false]);
+  // As the marks of the picture are numbered.
+  assert.deepEqual(rows.slice(1, 3).map(({ detail }) => detail?.slice(0, 2)), ["① ", "② "]);
 });
 
 test("what is new and what is gone is told by handles, not by order", () => {

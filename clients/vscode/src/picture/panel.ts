@@ -209,14 +209,14 @@ export class Picture implements vscode.Disposable {
       return;
     }
     const kind = isDrawing(document.languageId) ? "drawing" : "program";
-    const { svg } = await this.server.request("wedm/picture", { uri: uri.toString() });
+    const drawn = await this.server.request("wedm/picture", { uri: uri.toString(), pieces: true });
     const blocks = kind === "program" ? await this.#blocks(uri) : [];
     const { contours, toMm, keeps } = kind === "drawing" ? await this.#contours(uri) : { contours: [], toMm: 1, keeps: false };
     const lines = kind === "program" ? document.getText().split(/\r?\n/) : [];
     this.#found = findings(uri);
     const faults = this.#found.map((diagnostic) => faultOf(diagnostic, toMm));
     const isEditor = this.role.isEditor === true;
-    await this.#tell({ type: "picture", uri: uri.toString(), name, kind, svg, faults, contours, blocks, lines, isEditor, keeps, makes: true });
+    await this.#tell({ type: "picture", uri: uri.toString(), name, kind, ...drawn, faults, contours, blocks, lines, isEditor, keeps, makes: true });
     const editor = vscode.window.visibleTextEditors.find((editor) => editor.document.uri.toString() === uri.toString());
     if (this.#marked !== null) {
       await this.#tell({ type: "contour", handles: [...this.#marked] });
@@ -242,7 +242,7 @@ export class Picture implements vscode.Disposable {
   /** The contours with their settings. */
   async #contours(uri: vscode.Uri): Promise<{ contours: Contour[]; toMm: number; keeps: boolean }> {
     const [listed, settings] = await Promise.all([
-      this.server.request("wedm/contours", { uri: uri.toString() }),
+      this.server.request("wedm/contours", { uri: uri.toString(), segments: false }),
       this.server.request("wedm/settings", { uri: uri.toString() }),
     ]);
     return { contours: contoursOf(listed, settings), toMm: listed.unitsToMm, keeps: uri.scheme === "file" };

@@ -22,9 +22,10 @@ export async function openAlone(browser: Browser, folder: string): Promise<Page>
 }
 
 export async function tell(page: Page, message: ToPage): Promise<void> {
+  // As text: what drives the browser takes long for many objects.
   await page.evaluate((told) => {
-    window.postMessage(told, "*");
-  }, message);
+    window.postMessage(JSON.parse(told), "*");
+  }, JSON.stringify(message));
 }
 
 /** A picture as the extension sends it, but for what is said. */

@@ -1,10 +1,11 @@
 // A drawing of 5,000 contours: the page alone in the browser, zoomed frame by frame.
 
-import { execFile } from "node:child_process";
-import { mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
+import { spawn } from "node:child_process";
+import { mkdtemp, rm } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { promisify } from "node:util";
+import { createMessageConnection, StreamMessageReader, StreamMessageWriter } from "vscode-jsonrpc/node.js";
+import type { Picture } from "../../../picture/protocol";
 import { openAlone, shown, tell } from "./alone";
 import { type WindowChecks, expectEqual, expectSoon } from "./checks";
 import { WEDM } from "./paths";
@@ -28,23 +29,37 @@ function plates(): string {
   return `0\nSECTION\n2\nENTITIES\n${contours.join("")}0\nENDSEC\n0\nEOF\n`;
 }
 
+/** The picture of a drawing, as a client has it from the server. */
+async function drawn(text: string): Promise<Picture> {
+  const server = spawn(WEDM);
+  const connection = createMessageConnection(new StreamMessageReader(server.stdout), new StreamMessageWriter(server.stdin));
+  connection.listen();
+  const uri = "file:///plates.dxf";
+  await connection.sendRequest("initialize", { processId: null, rootUri: null, capabilities: {}, initializationOptions: { side: "opening" } });
+  await connection.sendNotification("initialized", {});
+  await connection.sendNotification("textDocument/didOpen", { textDocument: { uri, languageId: "dxf", version: 1, text } });
+  const picture = await connection.sendRequest<Picture>("wedm/picture", { uri, pieces: true });
+  connection.dispose();
+  server.kill();
+  return picture;
+}
+
 export async function large(checks: WindowChecks): Promise<void> {
   const folder = await mkdtemp(join(tmpdir(), "large-"));
   const browser = await startBrowser();
   try {
-    await writeFile(join(folder, "plates.dxf"), plates());
-    await promisify(execFile)(WEDM, ["draw", "plates.dxf", "--side", "opening", "-o", "plates.svg"], { cwd: folder });
-    const svg = await readFile(join(folder, "plates.svg"), "utf8");
+    const picture = await drawn(plates());
     const page = await openAlone(browser, folder);
     checks.page = page;
     await checks.check("5,000 contours are drawn, with what is too tight as marks with counts", async () => {
-      const faults = [...svg.matchAll(/class="fault error" data-handle="([^"]*)" data-segment="(\d+)"/g)].map(([, handle, segment]) => ({
-        severity: "error" as const, rule: "small-radius", message: "too tight", handle: handle ?? "", segment: Number(segment), radius: 0.05,
+      const tight = picture.pieces?.filter((piece) => piece.class === "fault error") ?? [];
+      const faults = tight.map(({ handle = "", segment = 0 }) => ({
+        severity: "error" as const, rule: "small-radius", message: "too tight", handle, segment, radius: 0.05,
       }));
       expectEqual("faults", faults.length, 500);
       // The slow parts are listed one by one, so that a slow machine shows what it waits for.
       const began = Date.now();
-      await tell(page, shown({ svg, faults }));
+      await tell(page, shown({ ...picture, faults }));
       await page.evaluate(() => document.title);
       console.log(`  the page has taken it in after ${Date.now() - began} ms`);
       await page.locator("#stage > canvas").waitFor({ timeout: 300_000 });

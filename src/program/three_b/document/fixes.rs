@@ -259,14 +259,24 @@ impl Document {
         }
         let (places, blocks) = self.numbered(self.view.end);
         let mut numbers = blocks.iter().filter_map(|block| block.number);
-        let all = numbers.next().zip(numbers.next()).map(|(first, second)| {
+        let all = numbers.next().zip(numbers.next());
+        let all = all.and_then(|(first, second)| {
             let step = second.saturating_sub(first).max(1);
-            let edits = places.iter().enumerate().filter_map(|(index, at)| {
-                let number = first.saturating_add(step.saturating_mul(u32::try_from(index).ok()?));
-                let is_other = self.entry(*at)?.number() != Some(number);
-                (is_other && is_read(*at)).then(|| edit(*at, number))
-            });
-            ([first, step], edits.collect())
+            let mut edits = Vec::new();
+            for (index, at) in places.iter().enumerate() {
+                let turn = step.saturating_mul(u32::try_from(index).ok()?);
+                let (own, number) = (self.entry(*at)?.number(), first.saturating_add(turn));
+                if own == Some(number) {
+                    continue;
+                }
+                match is_read(*at) {
+                    true => edits.push(edit(*at, number)),
+                    // One that stays as it is would be in the way.
+                    false if own.is_some() => return None,
+                    false => {}
+                }
+            }
+            Some(([first, step], edits))
         });
         Some(numbering::fixes(own, all))
     }
