@@ -27,17 +27,18 @@ const ACTING: Duration = Duration::from_secs(10);
 struct Told(Vec<Value>);
 
 impl Told {
-    fn errors(&self) -> usize {
-        self.0
-            .iter()
-            .filter(|finding| finding["severity"] == 1)
-            .count()
+    fn errors(&self) -> u64 {
+        self.count(|finding| finding["severity"] == 1)
     }
 
-    /// How much is found of a rule: a finding may stand for several places.
     fn of_rule(&self, code: &Value) -> u64 {
-        let of_rule = self.0.iter().filter(|finding| finding["code"] == *code);
-        of_rule
+        self.count(|finding| finding["code"] == *code)
+    }
+
+    /// How much is found: a finding may stand for several places.
+    fn count(&self, is_counted: impl Fn(&Value) -> bool) -> u64 {
+        let counted = self.0.iter().filter(|finding| is_counted(finding));
+        counted
             .map(|finding| finding["data"]["count"].as_u64().unwrap_or(1))
             .sum()
     }
