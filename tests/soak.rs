@@ -282,7 +282,8 @@ impl Soak {
     }
 
     fn judge(&self, at: usize, kept: &Model, action: &Value, before: &Told, after: &Told) {
-        // A line that could not be read may have hidden something, and so may what stood behind the end of the program.
+        // What was not judged may have hidden something: a line that could not be read, what stood behind the end of the program, a contour
+        // of which only was told that it is open.
         // What is only written otherwise or turned brings nothing to a sound program; in another one the likeliest fault may come to lie
         // elsewhere. In the mirror it is the same one.
         let is_sound = before
@@ -298,8 +299,12 @@ impl Soak {
                 .is_some_and(|kind| kind.contains("mirror"));
             is_sound || mirrors
         } else {
-            let code = &action["diagnostics"][0]["code"];
-            code != "syntax" && code != "text-after-end"
+            const HIDING: [&str; 3] = ["syntax", "text-after-end", "open-contour"];
+            !HIDING.contains(
+                &action["diagnostics"][0]["code"]
+                    .as_str()
+                    .unwrap_or_default(),
+            )
         };
         if is_proved && after.errors() > before.errors() {
             self.fail(
