@@ -1,6 +1,6 @@
 """Runs the parts of a test run in lanes, says what it does and how long that takes usually, and ends with one summary.
 
-A part is a command. Parts of one lane run one after the other, lanes beside each other: compiling keeps the cores busy, editors and
+A part is a command. Lanes run beside each other, and whoever works in a lane takes its next part: compiling keeps the cores busy, editors and
 CAD programs mostly wait. What a part prints is kept in `target/tests/NAME.log`; where one part alone is run it is shown as it comes.
 
 The last lines are one line for each failure, then `N passed, N failed, N skipped`.
@@ -15,6 +15,7 @@ import subprocess
 import sys
 import threading
 import time
+from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -27,6 +28,8 @@ LOGS = ROOT / "target" / "tests"
 SILENCE = 30
 # How a part begins the line of a failure: our scripts, cargo, pytest.
 FAILURE = re.compile(r"^\s*(?:FAILED|SHORT|BROKEN|HOLDS|!!|not ok)\s+(.*)$|^test (\S+) \.\.\. FAILED$|^FAILED? (\S+::\S+)", re.M)
+# How many parts of a lane run at a time, where it is not one.
+WORKERS = {"clients": 2}
 # Lines that are shown of a part that failed: from each failure on, of so many failures, and at its end.
 FROM_FAILURE, FAILURES, AT_END = 12, 10, 40
 
@@ -130,10 +133,11 @@ class Run:
 
     def run(self) -> int:
         LOGS.mkdir(parents=True, exist_ok=True)
-        lanes: dict[str, list[Part]] = {}
+        lanes: dict[str, deque[Part]] = {}
         for part in self.parts:
-            lanes.setdefault(part.lane, []).append(part)
-        threads = [threading.Thread(target=self.lane, args=(parts,), daemon=True) for parts in lanes.values()]
+            lanes.setdefault(part.lane, deque()).append(part)
+        working = [(lane, worker) for lane in lanes for worker in range(WORKERS.get(lane, 1))]
+        threads = [threading.Thread(target=self.lane, args=(lanes[lane],), daemon=True) for lane, _ in working]
         for thread in threads:
             thread.start()
         try:
@@ -155,8 +159,12 @@ class Run:
         for _, process in list(self.running.values()):
             end_group(process)
 
-    def lane(self, parts: list[Part]) -> None:
-        for part in parts:
+    def lane(self, parts: deque[Part]) -> None:
+        while True:
+            try:
+                part = parts.popleft()
+            except IndexError:
+                return
             for name in (*part.needs, *part.after):
                 if name in self.ended:
                     self.ended[name].wait()
