@@ -76,8 +76,7 @@ export async function chinese(checks: WindowChecks): Promise<void> {
       await host.page.keyboard.press("Control+Shift+m");
     });
     await checks.check("so are the commands and the settings", async () => {
-      await host.page.keyboard.press("F1");
-      await host.page.locator(".quick-input-widget input").fill(">线切割 3B");
+      await window.ask("F1", ">线切割 3B");
       await host.page.locator(".quick-input-widget .monaco-list-row", { hasText: "生成 3B 程序" }).first().waitFor();
       await checks.shot("chinese-commands");
       await host.page.keyboard.press("Escape");

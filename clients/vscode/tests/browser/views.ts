@@ -125,9 +125,7 @@ export async function views(checks: WindowChecks): Promise<void> {
       await checks.shot("broken-file");
     });
     await checks.check("a binary DXF opens as a picture that is looked at only", async () => {
-      await host.page.keyboard.press("Control+p");
-      await host.page.locator(".quick-input-widget input").fill("binary.dxf");
-      await host.page.locator(".quick-input-widget .monaco-list-row.focused", { hasText: "binary.dxf" }).waitFor();
+      await window.ask("Control+p", "binary.dxf", "binary.dxf");
       await host.page.keyboard.press("Enter");
       const shown = await window.pictureOf("binary.dxf");
       await expectSoon("four faults", async () => (await shown.locator("svg .drawing .fault").count()) === 4);

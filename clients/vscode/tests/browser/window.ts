@@ -29,7 +29,7 @@ export class Window {
   /** Brings a file to the front of the first group, by its name. */
   async turnTo(name: string): Promise<void> {
     await this.page.keyboard.press("Control+1");
-    await this.#ask("Control+p", name, name);
+    await this.ask("Control+p", name, name);
     await this.page.keyboard.press("Enter");
     await this.tab(name);
     await this.status.waitFor();
@@ -45,15 +45,17 @@ export class Window {
   }
 
   async command(title: string): Promise<void> {
-    await this.#ask("F1", `>${title}`, title);
+    await this.ask("F1", `>${title}`, title);
     await this.page.keyboard.press("Enter");
   }
 
   async goToLine(line: number, column = 1): Promise<void> {
     await this.page.keyboard.press("Control+1");
-    await this.#ask("Control+g", `:${line},${column}`);
-    await this.page.keyboard.press("Enter");
-    await this.page.locator(".quick-input-widget").waitFor({ state: "hidden" });
+    await this.ask("Control+g", `:${line},${column}`);
+    const box = this.page.locator(".quick-input-widget");
+    // In the box itself: once that is closed, a second Enter would go into the text.
+    const enter = async (): Promise<void> => box.locator("input").press("Enter", { timeout: 2_000 }).catch(() => undefined);
+    await actUntil("the box is closed", enter, () => box.isHidden());
   }
 
   /** Presses keys until something is seen. */
@@ -85,7 +87,7 @@ export class Window {
   }
 
   /** Types into the box that a key opens. A part that takes the focus just then closes it: it is opened again. */
-  async #ask(key: string, text: string, offered?: string): Promise<void> {
+  async ask(key: string, text: string, offered?: string): Promise<void> {
     const box = this.page.locator(".quick-input-widget");
     for (let attempt = 1; ; attempt += 1) {
       // Where the machine is too slow at the first try, the next one waits longer.
