@@ -1,6 +1,7 @@
 // A drawing of many contours on a canvas: elements are batched by tile, and findings that lie close together become one mark with a count.
 
 import type { Box, Size } from "./frame";
+import { Named } from "./named";
 import { boxOf, dataOf, trace } from "./pieces";
 import type { Piece } from "./protocol";
 
@@ -46,8 +47,7 @@ export class Canvas {
   readonly #canvas = document.createElement("canvas");
   readonly #last = document.createElement("canvas");
   readonly #items: Item[] = [];
-  readonly #named = new Map<string, Item[]>();
-  readonly #ofLine = new Map<number, Item[]>();
+  readonly #named = new Named<Item>();
   readonly #ofElement = new Map<Element, Item>();
   #batches: Batch[] = [];
   readonly #threads: { x: number; y: number; order: string }[] = [];
@@ -76,7 +76,7 @@ export class Canvas {
       } else if (kind !== undefined) {
         const item = { piece, kind, box };
         this.#items.push(item);
-        this.#name(item);
+        this.#named.add(piece, item);
       }
     }
     this.#arrange();
@@ -86,27 +86,13 @@ export class Canvas {
     return this.#canvas;
   }
 
-  #name(item: Item): void {
-    const { handle, segment, line } = item.piece;
-    if (handle !== undefined) {
-      add(this.#named, key(handle, null), item);
-      if (segment !== undefined) {
-        add(this.#named, key(handle, segment), item);
-      }
-    }
-    if (line !== undefined) {
-      add(this.#ofLine, line, item);
-    }
-  }
-
   /** Elements that stand for the segment; with null, for the entity. */
   ofSegment(handle: string, segment: number | null): SVGElement[] {
-    const items = this.#named.get(key(handle, segment)) ?? this.#named.get(key(handle, null)) ?? [];
-    return items.map((item) => this.#elementOf(item));
+    return this.#named.ofSegment(handle, segment).map((item) => this.#elementOf(item));
   }
 
   ofLine(line: number): SVGElement[] {
-    return (this.#ofLine.get(line) ?? []).map((item) => this.#elementOf(item));
+    return this.#named.ofLine(line).map((item) => this.#elementOf(item));
   }
 
   #elementOf(item: Item): SVGGraphicsElement {
@@ -351,19 +337,6 @@ export class Canvas {
 
 export function boxOfItems(items: readonly Item[]): Box | null {
   return items.reduce<Box | null>((all, { box }) => (all === null ? box : joined(all, box)), null);
-}
-
-function key(handle: string, segment: number | null): string {
-  return `${handle}\n${segment ?? ""}`;
-}
-
-function add<K>(map: Map<K, Item[]>, at: K, item: Item): void {
-  const list = map.get(at);
-  if (list === undefined) {
-    map.set(at, [item]);
-  } else {
-    list.push(item);
-  }
 }
 
 function paint(context: CanvasRenderingContext2D, kind: string, path: Path2D, pixel: number, scaled: number): void {

@@ -5,9 +5,10 @@ import { type Asking, Cards } from "./card";
 import { Faults } from "./faults";
 import { element, type Host } from "./host";
 import { MADE, type Shown, type ToPage } from "./messages";
+import type { Picked } from "./named";
 import { Player } from "./player";
 import type { Repair } from "./protocol";
-import { type Picked, Sheet } from "./sheet";
+import { Sheet } from "./sheet";
 import { Stage } from "./stage";
 import { t } from "./words";
 

@@ -1,6 +1,7 @@
 // The pieces of a drawing in numbers: `x, y` where one begins, then `x, y, radius` of each line and arc of it, in thousandths, y upwards.
 
 import type { Box } from "./frame";
+import { namesOf } from "./named";
 import type { Piece } from "./protocol";
 
 const THOUSAND = 1000;
@@ -97,12 +98,9 @@ export function taken(drawing: SVGGElement): Piece[] | null {
   const pieces: Piece[] = [];
   for (const element of elements) {
     const number = (name: string): number => Math.round(Number(element.getAttribute(name)) * THOUSAND);
-    const { handle, segment, line } = element.dataset;
     const named = {
       class: element.getAttribute("class") ?? "",
-      ...(handle === undefined ? {} : { handle }),
-      ...(segment === undefined ? {} : { segment: Number(segment) }),
-      ...(line === undefined ? {} : { line: Number(line) }),
+      ...namesOf(element),
       ...(element.hasAttribute("stroke-width") ? { width: number("stroke-width") } : {}),
     };
     if (element.classList.contains("turned")) {

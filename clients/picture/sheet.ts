@@ -3,13 +3,8 @@
 import type { Piece, SegmentShape } from "./protocol";
 import { Canvas } from "./canvas";
 import type { Box } from "./frame";
+import { Named, namesOf, type Picked } from "./named";
 import { dataOf, lengthOf, taken } from "./pieces";
-
-export interface Picked {
-  handle?: string;
-  segment?: number;
-  line?: number;
-}
 
 /** A piece of the wire's way. */
 export interface Way {
@@ -26,8 +21,7 @@ export interface Way {
 export class Sheet {
   readonly svg: SVGSVGElement;
   readonly drawing: SVGGElement | null;
-  readonly #bySegment = new Map<string, SVGElement[]>();
-  readonly #byLine = new Map<number, SVGElement[]>();
+  readonly #named = new Named<SVGElement>();
   /** Draws what is too large for the page's own tree. */
   readonly canvas: Canvas | null;
   #selected: SVGElement[] = [];
@@ -63,15 +57,8 @@ export class Sheet {
   }
 
   #index(): void {
-    for (const element of this.svg.querySelectorAll<SVGElement>("[data-handle]")) {
-      const { handle, segment } = element.dataset;
-      add(this.#bySegment, key(handle, segment), element);
-      if (segment !== undefined) {
-        add(this.#bySegment, key(handle, undefined), element);
-      }
-    }
-    for (const element of this.svg.querySelectorAll<SVGElement>("[data-line]")) {
-      add(this.#byLine, Number(element.dataset["line"]), element);
+    for (const element of this.svg.querySelectorAll<SVGElement>("[data-handle], [data-line]")) {
+      this.#named.add(namesOf(element), element);
     }
     // The style gives these a scale of their own, which would take the place of the attribute.
     for (const symbol of this.svg.querySelectorAll<SVGElement>(":is(.dot, .thread, .arrow)[transform]")) {
@@ -228,15 +215,11 @@ export class Sheet {
 
   /** Every element that stands for the segment; with null, for the entity. */
   ofSegment(handle: string, segment: number | null): SVGElement[] {
-    if (this.canvas !== null) {
-      return this.canvas.ofSegment(handle, segment);
-    }
-    const exact = segment === null ? undefined : this.#bySegment.get(key(handle, String(segment)));
-    return exact ?? this.#bySegment.get(key(handle, undefined)) ?? [];
+    return this.canvas?.ofSegment(handle, segment) ?? [...this.#named.ofSegment(handle, segment)];
   }
 
   ofLine(line: number): SVGElement[] {
-    return this.canvas?.ofLine(line) ?? this.#byLine.get(line) ?? [];
+    return this.canvas?.ofLine(line) ?? [...this.#named.ofLine(line)];
   }
 
   select(elements: SVGElement[]): void {
@@ -321,28 +304,7 @@ export class Sheet {
 /** What an element, or one that holds it, stands for. */
 export function pickedFrom(element: Element | null): Picked | null {
   const named = element?.closest<SVGElement>("[data-handle], [data-line]");
-  if (named === null || named === undefined) {
-    return null;
-  }
-  const { handle, segment, line } = named.dataset;
-  return {
-    ...(handle === undefined ? {} : { handle }),
-    ...(segment === undefined ? {} : { segment: Number(segment) }),
-    ...(line === undefined ? {} : { line: Number(line) }),
-  };
-}
-
-function key(handle: string | undefined, segment: string | undefined): string {
-  return `${handle ?? ""}\n${segment ?? ""}`;
-}
-
-function add<K>(map: Map<K, SVGElement[]>, at: K, element: SVGElement): void {
-  const list = map.get(at);
-  if (list === undefined) {
-    map.set(at, [element]);
-  } else {
-    list.push(element);
-  }
+  return named === null || named === undefined ? null : namesOf(named);
 }
 
 function joined(a: Box, b: Box): Box {

@@ -2,7 +2,8 @@
 
 import { type Box, centred, fitted, moved, roundLength, sees, unitsPerPixel, zoomed } from "./frame";
 import { boxOfItems } from "./canvas";
-import { type Picked, pickedFrom, type Sheet } from "./sheet";
+import type { Picked } from "./named";
+import { pickedFrom, type Sheet } from "./sheet";
 import { element } from "./host";
 
 /** Pixels about a thin line that count as upon it. */

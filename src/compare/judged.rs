@@ -161,8 +161,8 @@ impl Judged {
                 .filter(|way| walk.segment(*way).is_some());
             match way {
                 Some(way) if !is_there && runs_into && walk.opening.is_none() => {
-                    let all = [0.0, walk.ring.length * (1.0 - 1e-12)];
-                    let away = walk.ring.nearest(start, all[0], all[1]);
+                    let [from, to] = walk.ring.whole();
+                    let away = walk.ring.nearest(start, from, to);
                     return named(way, away.map_or(0.0, |near| near.1), DifferenceKind::Astray);
                 }
                 _ if is_there || runs_into => {

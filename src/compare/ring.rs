@@ -104,6 +104,11 @@ impl Ring {
         }
     }
 
+    /// From its begin to just before its end, which on a closed one is its begin.
+    pub(super) fn whole(&self) -> [f64; 2] {
+        [0.0, self.length * (1.0 - 1e-12)]
+    }
+
     /// The number of the piece at a place along the ring, which may lie beyond its end.
     pub(super) fn index(&self, along: f64) -> usize {
         let along = match self.closed {

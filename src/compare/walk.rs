@@ -142,7 +142,7 @@ impl Walk<'_> {
         places: &[Vector],
         is_part: bool,
     ) -> Option<(usize, At)> {
-        let whole = [0.0, self.ring.length * (1.0 - 1e-12)];
+        let whole = self.ring.whole();
         let begins = |index: usize, at: At, along: Option<f64>| {
             let complete = self.complete(at);
             let Some(along) = along else {

@@ -1,7 +1,7 @@
 //! Numbered marks beside the faults, thread holes, starting points and texts.
 
 use super::numbers::number;
-use super::pieces::{Piece, What};
+use super::pieces::Piece;
 use super::room::{Area, Room};
 use super::sheet::{Frame, MARGIN, SHEET_WIDTH, Sheet, escaped, named};
 use super::style::class_of;
@@ -197,9 +197,9 @@ pub(super) fn thread_holes(sheet: &mut Sheet, frame: &Frame, subject: &Subject, 
     let first = || subject.paths.iter().filter(|path| path.is_first());
     let are_numbered = (2..=MOST_NUMBERED).contains(&first().count());
     if let Some(pieces) = &mut sheet.pieces {
-        pieces.extend(first().enumerate().map(|(index, path)| Piece {
-            order: are_numbered.then_some(index + 1),
-            ..What::of("thread").piece(frame.place(path.thread_hole).to_vec())
+        pieces.extend(first().enumerate().map(|(index, path)| {
+            let order = are_numbered.then_some(index + 1);
+            Piece::thread(frame.place(path.thread_hole), order)
         }));
         return;
     }

@@ -33,6 +33,17 @@ pub(crate) struct Piece {
     pub(crate) at: Vec<i64>,
 }
 
+impl Piece {
+    /// A thread hole at a place in thousandths.
+    pub(super) fn thread(at: [i64; 2], order: Option<usize>) -> Piece {
+        let at = at.to_vec();
+        Piece {
+            order,
+            ..What::of("thread").piece(at)
+        }
+    }
+}
+
 /// What an element of the drawing is, and what it stands for.
 #[derive(Clone, Copy, Default)]
 pub(super) struct What<'a> {

@@ -213,11 +213,7 @@ fn thread_holes(sheet: &mut Sheet, frame: &Frame, moving: &[&Step]) {
     for (index, &begin) in begins.iter().enumerate() {
         let order = (begins.len() > 1).then_some(index + 1);
         if let Some(pieces) = &mut sheet.pieces {
-            let at = frame.place(begin).to_vec();
-            pieces.push(Piece {
-                order,
-                ..What::of("thread").piece(at)
-            });
+            pieces.push(Piece::thread(frame.place(begin), order));
             continue;
         }
         let at = frame.local(begin);

@@ -75,19 +75,11 @@ pub(crate) struct Gap {
 
 impl Contours {
     pub fn new(drawing: &Drawing, outlines: &[Outline], settings: &Effective) -> Contours {
-        Contours::ordered(drawing, outlines, settings, false)
+        Contours::listed(drawing, outlines, settings, false)
     }
 
-    /// With handles instead of segments.
-    pub(crate) fn in_short(
-        drawing: &Drawing,
-        outlines: &[Outline],
-        settings: &Effective,
-    ) -> Contours {
-        Contours::ordered(drawing, outlines, settings, true)
-    }
-
-    fn ordered(
+    /// The same; `in_short` with handles instead of segments.
+    pub(crate) fn listed(
         drawing: &Drawing,
         outlines: &[Outline],
         settings: &Effective,

@@ -266,8 +266,9 @@ export class Bench implements Host {
     this.#show(doc, { kind: isDxf ? "drawing" : "program", svg, ...(pieces === undefined ? {} : { pieces }), faults, contours, blocks, lines });
   }
 
-  #ask({ uri, language }: Doc): Promise<Answers> {
-    const isDxf = language === "dxf";
+  #ask(doc: Doc): Promise<Answers> {
+    const { uri } = doc;
+    const isDxf = isDrawing(doc);
     return Promise.all([
       this.server.request("wedm/picture", { uri, pieces: true }),
       this.server.request("wedm/settings", { uri }),

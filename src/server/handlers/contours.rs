@@ -7,14 +7,12 @@ use tower_lsp::jsonrpc::Result;
 
 pub(in crate::server) fn contours(context: &RequestContext, asked: ContoursOf) -> Result<Contours> {
     let task = Task::of(context)?;
-    let list = match asked.segments {
-        Some(false) => Contours::in_short,
-        _ => Contours::new,
-    };
     let snapshot = &task.snapshot;
-    Ok(list(
+    let in_short = asked.segments == Some(false);
+    Ok(Contours::listed(
         &snapshot.drawing,
         &snapshot.outlines,
         &snapshot.settings,
+        in_short,
     ))
 }

@@ -45,7 +45,7 @@ pub(in crate::server) fn full(
         return Ok(None);
     };
     keep(context, None, &tokens);
-    Ok(Some(named(context, &tokens).into()))
+    Ok(Some(named(context, tokens).into()))
 }
 
 /// Answers with the difference to the answer that the client names, if that is known, else with all tokens.
@@ -66,7 +66,7 @@ pub(in crate::server) fn delta(
     };
     Ok(Some(match keep(context, Some(&previous), &tokens) {
         Some(edit) => edits(vec![edit]).into(),
-        None => named(context, &tokens).into(),
+        None => named(context, tokens).into(),
     }))
 }
 
@@ -81,11 +81,11 @@ fn keep(
 }
 
 /// All tokens, with a name where the client asks for differences to them.
-fn named(context: &RequestContext, tokens: &[SemanticToken]) -> SemanticTokens {
+fn named(context: &RequestContext, tokens: Arc<Vec<SemanticToken>>) -> SemanticTokens {
     let is_named = context.abilities.token_deltas;
     SemanticTokens {
         result_id: is_named.then(|| context.stamp.to_string()),
-        data: tokens.to_vec(),
+        data: Arc::unwrap_or_clone(tokens),
     }
 }
 

@@ -247,13 +247,13 @@ impl Document {
         let own = self.entry_at(range);
         let at = own.filter(|at| self.range_of(*at) == *range)?;
         let meant = *self.view.faulty_numbers.get(&at)?;
-        let edit = |at: At, number: u32| {
-            self.with_number(self.digits_before(at), self.range_of(at).start, number)
-        };
         // Where the number of an unreadable block stands is not known: digits before what is wrong with it may be those of X.
-        let is_read = |at: At| self.entry(at).is_some_and(|own| own.what != What::Unread);
-        let own = meant.filter(|_| is_read(at));
-        let own = own.map(|meant| (meant, edit(at, meant)));
+        let edit = |at: At, number: u32| {
+            let is_read = self.entry(at)?.what != What::Unread;
+            is_read
+                .then(|| self.with_number(self.digits_before(at), self.range_of(at).start, number))
+        };
+        let own = meant.and_then(|meant| Some((meant, edit(at, meant)?)));
         if renumbering == Renumbering::LeftOut {
             return Some(numbering::fixes(own, None));
         }
@@ -269,11 +269,10 @@ impl Document {
                 if own == Some(number) {
                     continue;
                 }
-                match is_read(*at) {
-                    true => edits.push(edit(*at, number)),
+                match edit(*at, number) {
                     // One that stays as it is would be in the way.
-                    false if own.is_some() => return None,
-                    false => {}
+                    None if own.is_some() => return None,
+                    of_block => edits.extend(of_block),
                 }
             }
             Some(([first, step], edits))
