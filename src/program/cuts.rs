@@ -145,7 +145,11 @@ impl<C: Send + Sync, S: Clone + PartialEq + Send + Sync> Cuts<C, S> {
             from -= 1;
         }
         let to = places.partition_point(|place| place.lines.start <= last);
-        let to = to.max(from);
+        let mut to = to.max(from);
+        // What was read together with an edited one is read again with it: its places count from a byte that is gone.
+        while places.get(to).is_some_and(|place| place.shares) {
+            to += 1;
+        }
         text.replace(start..end, replacement);
         for place in self.places.iter_mut().skip(to) {
             let moved = |line: usize| line + text.line_count() - old_count;

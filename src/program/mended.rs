@@ -218,15 +218,16 @@ fn speaks_for_itself(rule: Rule) -> bool {
             | Rule::Syntax
             | Rule::ZeroBlock
             | Rule::PositionMismatch
-    ) || is_of_writing(rule)
+            | Rule::BlockNumber
+    ) || is_of_end(rule)
 }
 
-/// True for faults whose repairs change the writing alone: they cannot spoil the machine's way, and what comes to light was there
-/// before.
-fn is_of_writing(rule: Rule) -> bool {
+/// True for faults whose repairs change where the program ends: they cannot spoil the machine's way, and what comes to light was
+/// there before. The numbers of blocks are no such thing: two blocks that are equal but for them are no longer one block twice.
+fn is_of_end(rule: Rule) -> bool {
     matches!(
         rule,
-        Rule::MissingEnd | Rule::TextAfterEnd | Rule::MissingReturn | Rule::BlockNumber
+        Rule::MissingEnd | Rule::TextAfterEnd | Rule::MissingReturn
     )
 }
 
@@ -343,7 +344,7 @@ fn spoils(finding: &Finding, was: &[Found], is: &[Found]) -> bool {
         gap > gap_before
     };
     let is_wider = is_too_wide && count(is, Rule::NotClosed) == count(was, Rule::NotClosed);
-    (has_come || is_wider) && !is_of_writing(finding.rule)
+    (has_come || is_wider) && !is_of_end(finding.rule)
 }
 
 /// A finding by its line.
