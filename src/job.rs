@@ -15,8 +15,8 @@ mod tabs;
 
 pub(crate) use convert::{Converted, Target, convert};
 pub(crate) use corners::is_of_program;
-pub use pair::pair;
 pub(crate) use pair::{Cut, cuts, programs};
+pub use pair::{PartProgram, pair};
 pub use repairs::ROUNDS;
 pub(crate) use repairs::{Outcome, REPAIRED, Repairs, fix_all};
 pub(crate) use shown::{drawn, picture, picture_of_program, program_drawn};

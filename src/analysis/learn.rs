@@ -5,7 +5,9 @@ use super::contours::role_of;
 use super::known::Known;
 use super::notable::{Notability, Notable};
 use super::{Analysis, MANY};
-use crate::drawing::{ContourIndex, ContourKey, Drawing, EntityId, Piece, RUN, stated_role};
+use crate::drawing::{
+    Contour, ContourIndex, ContourKey, Drawing, EntityId, Piece, RUN, stated_role,
+};
 use crate::rules::{AtHand, CONTOUR_RULES, NEIGHBOURS, Outlook, units};
 use rayon::prelude::*;
 use rustc_hash::FxHashSet;
@@ -192,20 +194,10 @@ impl Analysis {
         if piece.count() > 0 {
             own.extend([0..1, piece.count() - 1..piece.count()]);
         }
-        let is_all = contour.pieces.len() == 1;
         let ranges = own.into_iter().map(|range| within(&piece, range));
         let ranges: Vec<Range<usize>> = ranges.collect();
-        // What a pair rule sees at a segment depends on its neighbours, too.
-        let mut runs: BTreeSet<usize> = forgotten.iter().copied().collect();
-        for (nth, range) in ranges.iter().enumerate() {
-            // For an entity that is a contour by itself there is nothing to check as a whole where
-            // no other comes near its ends.
-            let is_end = nth >= changed && is_all;
-            let bounds_of = |index: usize| known.index.bounds_of_run(known.index.run_of(index));
-            if !is_end || self.pairs.comes_near_others(key, &bounds_of(range.start)) {
-                runs.extend(runs_about(&known.index, contour.closed, range));
-            }
-        }
+        let mut runs = self.runs_beside(key, contour, &known.index, (&ranges, changed));
+        runs.extend(&forgotten);
         // Two closed outlines that lie on each other may begin anywhere: what is known of both is kept where one of them begins.
         let is_ring = geometry.is_closed() && known.index.run_count() > 1;
         let beginnings = match is_ring {
@@ -213,11 +205,8 @@ impl Analysis {
             false => Vec::new(),
         };
         for &(other, run) in &beginnings {
-            if let Some(bounds) = self
-                .known
-                .get(&other)
-                .map(|known| known.index.bounds_of_run(run as usize))
-            {
+            if let Some(known) = self.known.get(&other) {
+                let bounds = known.index.bounds_of_run(run as usize);
                 self.pairs.forget_run((other, run), &bounds);
             }
         }
@@ -239,6 +228,30 @@ impl Analysis {
         let runs: Vec<RunId> = runs.chain(beginnings).collect();
         self.look_at_pairs(drawing, &runs);
         true
+    }
+
+    /// The runs of a contour at which a pair rule may see something else after an edit of these segments, of which the first
+    /// `changed` ranges have changed, and the others are the ends of the entity.
+    fn runs_beside(
+        &self,
+        key: ContourKey,
+        contour: &Contour,
+        index: &ContourIndex,
+        (ranges, changed): (&[Range<usize>], usize),
+    ) -> BTreeSet<usize> {
+        let is_all = contour.pieces.len() == 1;
+        let mut runs = BTreeSet::new();
+        for (nth, range) in ranges.iter().enumerate() {
+            // For an entity that is a contour by itself there is nothing to check as a whole where
+            // no other comes near its ends.
+            let is_end = nth >= changed && is_all;
+            let bounds = || index.bounds_of_run(index.run_of(range.start));
+            if !is_end || self.pairs.comes_near_others(key, &bounds()) {
+                // What a pair rule sees at a segment depends on its neighbours, too.
+                runs.extend(runs_about(index, contour.closed, range));
+            }
+        }
+        runs
     }
 
     /// Of the contours that are seen beside one, and are one closed entity each, the run with the first segment.

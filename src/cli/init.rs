@@ -71,31 +71,16 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         defaults.wire_diameter(),
     )?;
     let gap = number(arguments.gap, say!(spark_gap_mm), defaults.gap())?;
-    let names: Vec<&str> = std::iter::once("3b").chain(shipped_profiles()).collect();
-    let machine = match &arguments.machine {
-        Some(machine) => machine.clone(),
-        None if asks => ask(
-            &say!(what_the_machine_reads, names.join(", ")),
-            "3b",
-            |text| {
-                let known = names.contains(&text).then(|| text.to_owned());
-                known.ok_or_else(|| names.join(", "))
-            },
-        )?,
-        None => "3b".into(),
+    let machines: Vec<&str> = std::iter::once("3b").chain(shipped_profiles()).collect();
+    let of = |said: &Option<String>, question: String, known: &[&str]| match said {
+        Some(word) => Ok(Some(word.clone())),
+        None if asks => one_of(&question, known).map(Some),
+        None => Ok(None),
     };
-    let side = match &arguments.side {
-        Some(side) => Some(side.clone()),
-        None if asks => Some(ask(
-            &say!(side_of_the_wire, SIDES.join(", ")),
-            SIDES[0],
-            |text| {
-                let known = SIDES.contains(&text).then(|| text.to_owned());
-                known.ok_or_else(|| SIDES.join(", "))
-            },
-        )?),
-        None => None,
-    };
+    let question = say!(what_the_machine_reads, machines.join(", "));
+    let machine = of(&arguments.machine, question, &machines)?.unwrap_or_else(|| "3b".into());
+    let question = say!(side_of_the_wire, SIDES.join(", "));
+    let side = of(&arguments.side, question, &SIDES)?;
     let passes = match arguments.passes {
         Some(passes) => passes,
         None if asks => ask(say!(passes_along_each_contour), "1", passes)?,
@@ -110,14 +95,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
         set.push(("side", format!("\"{side}\"")));
     }
     if passes > 1 {
-        let fine_gap = arguments.fine_gap.unwrap_or(gap / 2.0);
-        let skims = usize::from(passes - 1);
-        let corrections =
-            settings::passes_table(wire / 2.0, [gap, fine_gap], arguments.stock, skims);
-        set.push(("passes.corrections", list(&corrections)));
-        let gaps = |pass: usize| if pass == 0 { gap } else { fine_gap };
-        let gaps: Vec<f64> = (0..=skims).map(gaps).collect();
-        set.push(("passes.gaps", list(&gaps)));
+        set.extend(of_passes(arguments, wire, gap, usize::from(passes - 1)));
     }
     if machine != "3b" {
         set.push(("program.format", "\"iso\"".to_owned()));
@@ -139,10 +117,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     output::write(Some(&path), text.as_bytes(), true)?;
     output::say(&say!(written_file, output::name(&path)));
     let is_given = [arguments.wire.is_some(), arguments.gap.is_some()];
-    for ((key, value), given) in set
-        .iter()
-        .zip(is_given.into_iter().chain(std::iter::repeat(true)))
-    {
+    let is_given = is_given.into_iter().chain(std::iter::repeat(true));
+    for ((key, value), given) in set.iter().zip(is_given) {
         let why = match (given, asks) {
             (true, false) => say!(an_option),
             (_, true) => say!(as_answered),
@@ -153,14 +129,38 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     if is_silent_of_side {
         output::say(&say!(no_side_is_set, SIDES.join(", ")));
     }
-    let effective = Effective::of(&written);
-    let corrections = effective.each_correction();
+    let corrections = Effective::of(&written).each_correction();
     let listed: Vec<String> = corrections.iter().map(|mm| format!("{mm:.4}")).collect();
     output::say(&match listed.len() {
         1 => say!(the_correction_that_follows, listed.join(" / "), wire, gap),
         _ => say!(the_corrections_that_follow, listed.join(" / ")),
     });
     Ok(Verdict::Clean)
+}
+
+/// One of the known words, the first of them by default.
+fn one_of(question: &str, known: &[&str]) -> Result<String, Failure> {
+    ask(question, known[0], |text| {
+        let word = known.contains(&text).then(|| text.to_owned());
+        word.ok_or_else(|| known.join(", "))
+    })
+}
+
+/// The keys of a rough pass and skims after it.
+fn of_passes(
+    arguments: &Arguments,
+    wire: f64,
+    gap: f64,
+    skims: usize,
+) -> [(&'static str, String); 2] {
+    let fine_gap = arguments.fine_gap.unwrap_or(gap / 2.0);
+    let corrections = settings::passes_table(wire / 2.0, [gap, fine_gap], arguments.stock, skims);
+    let gaps = |pass: usize| if pass == 0 { gap } else { fine_gap };
+    let gaps: Vec<f64> = (0..=skims).map(gaps).collect();
+    [
+        ("passes.corrections", list(&corrections)),
+        ("passes.gaps", list(&gaps)),
+    ]
 }
 
 /// Lengths as a list of TOML, mm.

@@ -4,8 +4,9 @@ use super::options::{Common, Pairing, Program};
 use super::output::{self, styled};
 use super::{Failure, Verdict, ending, files, report};
 use crate::disk;
+use crate::document::Document;
 use crate::finding::{Detail, Finding, Rule};
-use crate::job::{self, Wanted};
+use crate::job::{self, PartProgram, Wanted};
 use crate::message::lengths;
 use crate::program::Format;
 use crate::settings::part_title;
@@ -95,52 +96,58 @@ pub(super) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     for (part, target) in made.iter().zip(&targets) {
         let program = &part.made.program;
         output::write(Some(target), program.text.as_bytes(), true)?;
-        let corrections: Vec<String> = part
-            .corrections
-            .iter()
-            .map(|correction| format!("{correction:.4}"))
-            .collect();
-        output::say(&say!(
-            the_program_of_a_part_is_written,
-            styled(output::GOOD, say!(written)),
-            output::target_name(Some(target)),
-            part_title(&part.part),
-            corrections.join(" / "),
-            say!(blocks, program.blocks),
-            lengths(program.length, program.jumps, say!(comma))
-        ));
-        let mut said = part.made.warnings.clone();
-        said.retain(|finding| {
-            let is_of_tab = finding.rule == Rule::LeadIn && !output::is_what_holds(finding);
-            is_of_tab || job::is_of_program(finding)
-        });
-        report::say(path, document, &said);
-        if let Some(line) = output::offsets(program) {
-            output::say(&line);
-        }
-        output::say_thread_hole(&part.made.holes, document.unit_mm());
-        output::say_what_holds(&part.made.warnings, document.telling());
-        let beyond: Vec<String> = (1..)
-            .zip(&part.corrections)
-            .filter(|(_, correction)| **correction < 0.0)
-            .map(|(pass, _): (usize, _)| pass.to_string())
-            .collect();
-        if !beyond.is_empty() {
-            output::say(&say!(
-                some_passes_run_on_the_other_side,
-                part_title(&part.part),
-                beyond.join(say!(comma))
-            ));
-        }
-        if part.is_other_side {
-            output::say(&say!(
-                the_wire_runs_on_the_other_side,
-                part_title(&part.part)
-            ));
-        }
+        say_written(path, document, part, target);
     }
     output::say_against(document);
     Ok(Verdict::Clean)
+}
+
+/// Says what was written for a part, what it rests upon, and where its wire runs otherwise than expected.
+fn say_written(path: &Path, document: &Document, part: &PartProgram, target: &Path) {
+    let program = &part.made.program;
+    let corrections: Vec<String> = part
+        .corrections
+        .iter()
+        .map(|correction| format!("{correction:.4}"))
+        .collect();
+    output::say(&say!(
+        the_program_of_a_part_is_written,
+        styled(output::GOOD, say!(written)),
+        output::target_name(Some(target)),
+        part_title(&part.part),
+        corrections.join(" / "),
+        say!(blocks, program.blocks),
+        lengths(program.length, program.jumps, say!(comma))
+    ));
+    let mut said = part.made.warnings.clone();
+    said.retain(|finding| {
+        let is_of_tab = finding.rule == Rule::LeadIn && !output::is_what_holds(finding);
+        is_of_tab || job::is_of_program(finding)
+    });
+    report::say(path, document, &said);
+    if let Some(line) = output::offsets(program) {
+        output::say(&line);
+    }
+    output::say_thread_hole(&part.made.holes, document.unit_mm());
+    output::say_what_holds(&part.made.warnings, document.telling());
+    let beyond: Vec<String> = (1..)
+        .zip(&part.corrections)
+        .filter(|(_, correction)| **correction < 0.0)
+        .map(|(pass, _): (usize, _)| pass.to_string())
+        .collect();
+    if !beyond.is_empty() {
+        output::say(&say!(
+            some_passes_run_on_the_other_side,
+            part_title(&part.part),
+            beyond.join(say!(comma))
+        ));
+    }
+    if part.is_other_side {
+        output::say(&say!(
+            the_wire_runs_on_the_other_side,
+            part_title(&part.part)
+        ));
+    }
 }
 
 /// Refuses parts whose names differ in nothing that a name of a file can hold, on every machine.

@@ -140,6 +140,108 @@ impl Frame {
     }
 }
 
+fn has(tags: &[Tag], code: i16) -> bool {
+    tags.iter().any(|tag| tag.code == code)
+}
+
+/// How new records are written: as those that are there.
+struct Records<'a> {
+    lines: Lines<'a>,
+    style: Style,
+    /// The next free handle.
+    free: u64,
+    /// The tags of the records on which new ones are modelled.
+    of_layer: Vec<Tag>,
+    of_entity: Vec<Tag>,
+}
+
+impl Records<'_> {
+    fn handle(&mut self) -> String {
+        let own = format!("{:X}", self.free);
+        self.free = self.free.saturating_add(1);
+        own
+    }
+
+    fn copy(&self, tags: &[Tag], codes: &[i16], into: &mut Vec<u8>) {
+        for tag in tags.iter().filter(|tag| codes.contains(&tag.code)) {
+            let value = self.lines.content(tag.value_line());
+            self.style.tag(tag.code, value, into);
+        }
+    }
+
+    fn layer(&mut self, name: &str) -> Vec<u8> {
+        let mut layer = Vec::new();
+        let into = &mut layer;
+        self.style.tag(0, b"LAYER", into);
+        if has(&self.of_layer, 5) {
+            let handle = self.handle();
+            self.style.tag(5, handle.as_bytes(), into);
+        }
+        self.copy(&self.of_layer, &OF_LAYER[..1], into);
+        if has(&self.of_layer, 100) {
+            self.style.tag(100, b"AcDbSymbolTableRecord", into);
+            self.style.tag(100, b"AcDbLayerTableRecord", into);
+        }
+        self.style.tag(2, name.as_bytes(), into);
+        self.style.tag(70, b"0", into);
+        self.style.tag(62, b"7", into);
+        self.style.tag(6, b"CONTINUOUS", into);
+        self.copy(&self.of_layer, &OF_LAYER[1..], into);
+        layer
+    }
+
+    /// The circles and texts that are not there yet.
+    fn entities(&mut self, added: &Added, there: &[There]) -> Vec<u8> {
+        let mut entities = Vec::new();
+        let into = &mut entities;
+        for &place in added.places {
+            let is_there = |size: Option<f64>| {
+                let is_it = |there: &There| {
+                    there.is_circle == size.is_some()
+                        && size.is_none_or(|size| is_same(size, there.size))
+                        && there.is_at(place)
+                };
+                there.iter().any(is_it)
+            };
+            if let Some(radius) = added.radius.filter(|radius| !is_there(Some(*radius))) {
+                self.begin([b"CIRCLE", b"AcDbCircle"], added.layer, place, into);
+                self.style.number(40, radius, DECIMALS, into);
+            }
+            if is_there(None) {
+                continue;
+            }
+            self.begin([b"TEXT", b"AcDbText"], added.layer, place, into);
+            self.style.number(40, added.height, DECIMALS, into);
+            self.style.tag(1, added.mark.as_bytes(), into);
+            if has(&self.of_entity, 100) {
+                self.style.tag(100, b"AcDbText", into);
+            }
+        }
+        entities
+    }
+
+    /// The beginning of an entity of this kind and class, to its first point.
+    fn begin(&mut self, [kind, class]: [&[u8]; 2], layer: &str, at: Point, into: &mut Vec<u8>) {
+        let is_marked = has(&self.of_entity, 100);
+        self.style.tag(0, kind, into);
+        if has(&self.of_entity, 5) {
+            let handle = self.handle();
+            self.style.tag(5, handle.as_bytes(), into);
+        }
+        self.copy(&self.of_entity, &[330], into);
+        if is_marked {
+            self.style.tag(100, b"AcDbEntity", into);
+        }
+        self.style.tag(8, layer.as_bytes(), into);
+        if is_marked {
+            self.style.tag(100, class, into);
+        }
+        for (code, value) in [(10, at.x), (20, at.y), (30, 0.0)] {
+            self.style.number(code, value, DECIMALS, into);
+        }
+    }
+}
+
 impl Document {
     /// The text with what is added and not there yet: the layer, and the entities, with handles that are free. Every other byte stays, except
     /// of the next free handle. `None` for a binary file, and for a text in which the end of its entities is not found.
@@ -154,96 +256,28 @@ impl Document {
             let tags = line.map(|line| own_tags(lines, line..lines.count()));
             tags.into_iter().flatten().collect()
         };
-        let (of_layer, of_entity) = (of_record(frame.layer), of_record(frame.entity));
-        let has = |tags: &[Tag], code: i16| tags.iter().any(|tag| tag.code == code);
-        let mut free = record::free_handle(lines)?;
-        let mut handle = || {
-            let own = format!("{free:X}");
-            free = free.saturating_add(1);
-            own
+        let mut records = Records {
+            lines,
+            style: Style::of(&self.text, lines, frame.entities_end?),
+            free: record::free_handle(lines)?,
+            of_layer: of_record(frame.layer),
+            of_entity: of_record(frame.entity),
         };
-        let style = Style::of(&self.text, lines, frame.entities_end?);
         let mut edits = Vec::new();
-        if let Some(end) = frame.layers_end.filter(|_| !frame.is_layer_there) {
-            let mut layer = Vec::new();
-            style.tag(0, b"LAYER", &mut layer);
-            if has(&of_layer, 5) {
-                style.tag(5, handle().as_bytes(), &mut layer);
-            }
-            let copy = |codes: &[i16], into: &mut Vec<u8>| {
-                for tag in of_layer.iter().filter(|tag| codes.contains(&tag.code)) {
-                    style.tag(tag.code, lines.content(tag.value_line()), into);
-                }
-            };
-            copy(&OF_LAYER[..1], &mut layer);
-            if has(&of_layer, 100) {
-                style.tag(100, b"AcDbSymbolTableRecord", &mut layer);
-                style.tag(100, b"AcDbLayerTableRecord", &mut layer);
-            }
-            style.tag(2, added.layer.as_bytes(), &mut layer);
-            style.tag(70, b"0", &mut layer);
-            style.tag(62, b"7", &mut layer);
-            style.tag(6, b"CONTINUOUS", &mut layer);
-            copy(&OF_LAYER[1..], &mut layer);
-            let at = self.text.line_start(end);
-            edits.push(TextEdit::new(at..at, style.inserted(&self.text, at, layer)));
-        }
-        let (has_handles, marked) = (has(&of_entity, 5), has(&of_entity, 100));
-        let mut records = Vec::new();
-        let mut begin = |kind: &[u8], class: &[u8], into: &mut Vec<u8>| {
-            style.tag(0, kind, into);
-            if has_handles {
-                style.tag(5, handle().as_bytes(), into);
-            }
-            for owner in of_entity.iter().filter(|tag| tag.code == 330) {
-                style.tag(330, lines.content(owner.value_line()), into);
-            }
-            if marked {
-                style.tag(100, b"AcDbEntity", into);
-            }
-            style.tag(8, added.layer.as_bytes(), into);
-            if marked {
-                style.tag(100, class, into);
-            }
+        let mut insert = |at: usize, new: Vec<u8>, style: &Style| {
+            edits.push(TextEdit::new(at..at, style.inserted(&self.text, at, new)));
         };
-        for place in added.places {
-            let point = |into: &mut Vec<u8>| {
-                for (code, value) in [(10, place.x), (20, place.y), (30, 0.0)] {
-                    style.number(code, value, DECIMALS, into);
-                }
-            };
-            let is_there = |size: Option<f64>| {
-                let is_it = |there: &There| {
-                    there.is_circle == size.is_some()
-                        && size.is_none_or(|size| is_same(size, there.size))
-                        && there.is_at(*place)
-                };
-                frame.there.iter().any(is_it)
-            };
-            if let Some(radius) = added.radius.filter(|radius| !is_there(Some(*radius))) {
-                begin(b"CIRCLE", b"AcDbCircle", &mut records);
-                point(&mut records);
-                style.number(40, radius, DECIMALS, &mut records);
-            }
-            if is_there(None) {
-                continue;
-            }
-            begin(b"TEXT", b"AcDbText", &mut records);
-            point(&mut records);
-            style.number(40, added.height, DECIMALS, &mut records);
-            style.tag(1, added.mark.as_bytes(), &mut records);
-            if marked {
-                style.tag(100, b"AcDbText", &mut records);
-            }
+        if let Some(end) = frame.layers_end.filter(|_| !frame.is_layer_there) {
+            let layer = records.layer(added.layer);
+            insert(self.text.line_start(end), layer, &records.style);
         }
-        let is_any = !records.is_empty();
-        edits.push(TextEdit::new(
-            at..at,
-            style.inserted(&self.text, at, records),
-        ));
+        let entities = records.entities(added, &frame.there);
+        let is_any = !entities.is_empty();
+        insert(at, entities, &records.style);
+        let has_handles = has(&records.of_entity, 5);
         if let Some(line) = frame.seed.filter(|_| has_handles && is_any) {
             let range = lines.trimmed_range(line);
-            edits.push(TextEdit::new(range, format!("{free:X}")));
+            edits.push(TextEdit::new(range, format!("{:X}", records.free)));
         }
         edits.sort_by_key(|edit| edit.range.start);
         edited(self.text.bytes(), &edits)

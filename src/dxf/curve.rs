@@ -116,107 +116,143 @@ impl Points {
     }
 }
 
-pub(super) fn read_spline(
-    start: Tag,
-    lexer: &mut Lexer,
-    layers: &mut Layers,
-) -> Result<Read, Refused> {
-    const CLOSED: i64 = 1;
-    let mut common = Common::default();
-    let (mut controls, mut through) = (Points::default(), Points::default());
-    let (mut knots, mut weights) = (Vec::new(), Vec::new());
-    let (mut degree, mut flags) = (None, 0);
-    let (mut first, mut last) = ([None; 3], [None; 3]);
-    while let Some(tag) = tag_of_record(lexer) {
-        if common.take(lexer, tag) {
-            continue;
-        }
-        match tag.code {
-            10..=13 | 20..=23 | 30..=33 | 40 | 41 => {
-                // A value that is not a number has its finding.
-                let Some(value) = common.coordinate(lexer, tag) else {
-                    continue;
-                };
-                match tag.code {
-                    10 => controls.x(value),
-                    20 => controls.y(value),
-                    30 => controls.z(value),
-                    11 => through.x(value),
-                    21 => through.y(value),
-                    31 => through.z(value),
-                    12 => first[0] = Some(value),
-                    22 => first[1] = Some(value),
-                    32 => first[2] = Some(value),
-                    13 => last[0] = Some(value),
-                    23 => last[1] = Some(value),
-                    33 => last[2] = Some(value),
-                    40 => knots.push(value),
-                    _ => weights.push(value),
-                }
+/// What the tags of a SPLINE say.
+#[derive(Default)]
+struct SplineTags {
+    controls: Points,
+    through: Points,
+    knots: Vec<f64>,
+    weights: Vec<f64>,
+    degree: Option<i64>,
+    is_closed: bool,
+    /// The tangents at the ends of a curve through points.
+    first: [Option<f64>; 3],
+    last: [Option<f64>; 3],
+}
+
+impl SplineTags {
+    fn gather(lexer: &mut Lexer, common: &mut Common) -> SplineTags {
+        const CLOSED: i64 = 1;
+        let mut tags = SplineTags::default();
+        while let Some(tag) = tag_of_record(lexer) {
+            if common.take(lexer, tag) {
+                continue;
             }
-            70 => flags = common.flags(lexer, tag),
-            71 => degree = Some(common.flags(lexer, tag)),
-            _ => {}
+            match tag.code {
+                10..=13 | 20..=23 | 30..=33 | 40 | 41 => {
+                    // A value that is not a number has its finding.
+                    if let Some(value) = common.coordinate(lexer, tag) {
+                        tags.take(tag.code, value);
+                    }
+                }
+                70 => tags.is_closed = common.flags(lexer, tag) & CLOSED != 0,
+                71 => tags.degree = Some(common.flags(lexer, tag)),
+                _ => {}
+            }
+        }
+        tags
+    }
+
+    fn take(&mut self, code: i16, value: f64) {
+        match code {
+            10 => self.controls.x(value),
+            20 => self.controls.y(value),
+            30 => self.controls.z(value),
+            11 => self.through.x(value),
+            21 => self.through.y(value),
+            31 => self.through.z(value),
+            12 => self.first[0] = Some(value),
+            22 => self.first[1] = Some(value),
+            32 => self.first[2] = Some(value),
+            13 => self.last[0] = Some(value),
+            23 => self.last[1] = Some(value),
+            33 => self.last[2] = Some(value),
+            40 => self.knots.push(value),
+            _ => self.weights.push(value),
         }
     }
-    if common.bad || lexer.out_of_step {
-        return Err(Refused::Damaged);
+
+    /// It has fit points alone.
+    fn is_through(&self) -> bool {
+        self.controls.points.is_empty()
     }
-    common.is_in_the_model()?;
-    if controls.points.is_empty() && through.points.is_empty() {
-        missing(start, lexer, &[(10, false), (20, false)]);
-        return Err(Refused::Damaged);
+
+    fn lacks_knots(&self) -> bool {
+        !self.is_through() && self.knots.is_empty()
     }
-    let used = if controls.points.is_empty() {
-        &mut through
-    } else {
-        &mut controls
-    };
-    if used.is_bad() {
-        let sentence = say!(spline_has_a_point_that_lacks_x_or_y).to_owned();
-        lexer.damage(start.value_line(), sentence);
-        return Err(Refused::Damaged);
+
+    fn used(&mut self) -> &mut Points {
+        match self.is_through() {
+            true => &mut self.through,
+            false => &mut self.controls,
+        }
     }
-    let mut lies = Lies::Level(used.heights.first().copied().unwrap_or(0.0));
-    if used.differ_in_height() {
+
+    /// Puts the points into the plane in which they lie; `None` where they lie in none.
+    fn flatten(&mut self) -> Option<Lies> {
+        let used = self.used();
+        if !used.differ_in_height() {
+            return Some(Lies::Level(used.heights.first().copied().unwrap_or(0.0)));
+        }
         let points = used.in_space();
-        let Some(plane) = Space::through(&points) else {
-            return Err(Refused::Unsupported(say!(its_points_differ_in_z)));
-        };
+        let plane = Space::through(&points)?;
         used.points = points
             .into_iter()
             .map(|point| plane.seen_from(point))
             .collect();
-        for tangent in [&mut first, &mut last] {
+        for tangent in [&mut self.first, &mut self.last] {
             if let [Some(x), Some(y), z] = *tangent {
                 let seen = plane.seen_from(plane.origin + Vector3::new(x, y, z.unwrap_or(0.0)));
                 *tangent = [Some(seen.x), Some(seen.y), None];
             }
         }
-        lies = Lies::Aslant(Box::new(plane), say!(its_points_differ_in_z));
+        Some(Lies::Aslant(Box::new(plane), say!(its_points_differ_in_z)))
     }
-    let is_through = controls.points.is_empty();
-    let lacks_knots = !is_through && knots.is_empty();
-    let spline = if is_through {
-        let points = through.points;
-        let [first, last] = [first, last].map(|[x, y, _]| Some(Vector::new(x?, y?)));
-        let closed = if flags & CLOSED != 0 {
-            Spline::round(&points)
-        } else {
-            None
-        };
-        closed
-            .or_else(|| Spline::through(&points, first, last))
-            .ok_or_else(|| say!(has_less_than_two_different_points).to_owned())
-    } else {
-        let degree = degree.unwrap_or(3);
-        usize::try_from(degree)
-            .map_err(|_| say!(has_the_degree, degree))
-            .and_then(|degree| match lacks_knots {
-                true => Spline::clamped(degree, controls.points, weights),
-                false => Spline::new(degree, knots, controls.points, weights),
-            })
+
+    /// The curve, or why there is none.
+    fn spline(self) -> Result<Spline, String> {
+        if self.is_through() {
+            let points = self.through.points;
+            let [first, last] = [self.first, self.last].map(|[x, y, _]| Some(Vector::new(x?, y?)));
+            let closed = self.is_closed.then(|| Spline::round(&points)).flatten();
+            return closed
+                .or_else(|| Spline::through(&points, first, last))
+                .ok_or_else(|| say!(has_less_than_two_different_points).to_owned());
+        }
+        let degree = self.degree.unwrap_or(3);
+        let degree = usize::try_from(degree).map_err(|_| say!(has_the_degree, degree))?;
+        match self.lacks_knots() {
+            true => Spline::clamped(degree, self.controls.points, self.weights),
+            false => Spline::new(degree, self.knots, self.controls.points, self.weights),
+        }
+    }
+}
+
+pub(super) fn read_spline(
+    start: Tag,
+    lexer: &mut Lexer,
+    layers: &mut Layers,
+) -> Result<Read, Refused> {
+    let mut common = Common::default();
+    let mut tags = SplineTags::gather(lexer, &mut common);
+    if common.bad || lexer.out_of_step {
+        return Err(Refused::Damaged);
+    }
+    common.is_in_the_model()?;
+    if tags.used().points.is_empty() {
+        missing(start, lexer, &[(10, false), (20, false)]);
+        return Err(Refused::Damaged);
+    }
+    if tags.used().is_bad() {
+        let sentence = say!(spline_has_a_point_that_lacks_x_or_y).to_owned();
+        lexer.damage(start.value_line(), sentence);
+        return Err(Refused::Damaged);
+    }
+    let Some(lies) = tags.flatten() else {
+        return Err(Refused::Unsupported(say!(its_points_differ_in_z)));
     };
+    let (is_through, lacks_knots) = (tags.is_through(), tags.lacks_knots());
+    let spline = tags.spline();
     if lacks_knots && spline.is_ok() {
         lexer.oddity(start.value_line(), say!(spline_has_no_knots).to_owned());
     }

@@ -105,95 +105,20 @@ impl Document {
         names: &NamesAfter,
     ) -> Option<Plan> {
         let old = self.table.items.get(first..next)?;
-        let structure =
-            |became: &Became| matches!(became, Became::Structure { .. }).then_some(*became);
-        let before: Vec<Became> = old
-            .iter()
-            .filter_map(|item| structure(&item.became))
-            .collect();
-        let after: Vec<Became> = read
-            .iter()
-            .filter_map(|item| item.said.structure())
-            .collect();
-        let second_section = before.contains(&Became::Structure {
-            entities: true,
-            unit: StatedUnit::default(),
-        }) && self.table.sections > 1;
-        // A layer entry affects everything on the layer.
-        let layers_before = old.iter().filter_map(|item| match item.became {
-            Became::Layer(index) => self.table.layers.get(index as usize),
-            _ => None,
-        });
-        let layers_after = read.iter().filter_map(|item| match &item.said {
-            Said::Layer(entry) => Some(entry),
-            _ => None,
-        });
-        if !layers_before.eq(layers_after) {
+        let unnamed =
+            |item: &ReadItem| item.said.entity().is_some_and(|read| read.handle.is_none());
+        let is_unnamed = read.iter().any(unnamed);
+        if self.reaches_beyond(old, read, is_unnamed) {
             return None;
         }
-        if before != after || second_section || self.table.items.len() - old.len() + read.len() < 3
-        {
-            return None;
-        }
-        let counted = |context: Context| context == Context::Entities;
-        let entities_before = old
-            .iter()
-            .filter(|item| item.is_entity() && counted(item.context))
-            .count();
-        let entities_after = read
-            .iter()
-            .filter(|item| matches!(item.said, Said::Entity(_)) && counted(item.context))
-            .count();
-        let unnamed = read
-            .iter()
-            .any(|item| item.said.entity().is_some_and(|read| read.handle.is_none()));
-        if entities_before != entities_after && (unnamed || self.table.by_ordinal > 0) {
-            return None;
-        }
-        // The content of a block, and what a reference draws, reach beyond the zone.
-        let of_block = |item: &ReadItem| {
-            item.context == Context::Blocks || matches!(item.said, Said::Entity(Outcome::Insert(_)))
-        };
-        let was_of_block = |item: &Item| {
-            item.context == Context::Blocks || matches!(item.became, Became::Parts { .. })
-        };
-        let names_frame = |item: &ReadItem| {
-            item.said
-                .entity()
-                .is_some_and(|read| !read.frames.is_empty())
-        };
-        if read.iter().any(of_block) || old.iter().any(was_of_block) || read.iter().any(names_frame)
-        {
-            return None;
-        }
-        // Where there are too many curves, all of them together decide which are drawn.
-        let arcs_before: u64 = old
-            .iter()
-            .filter_map(|item| self.drawing.get(item.entity()?))
-            .map(|entity| curve_arcs(entity.kind, &entity.geometry))
-            .sum();
-        let arcs_after: u64 = read
-            .iter()
-            .filter_map(|item| match item.said.entity()? {
-                Read {
-                    kind,
-                    shape: Shape::Plain(geometry),
-                    ..
-                } => Some(curve_arcs(*kind, geometry)),
-                _ => None,
-            })
-            .sum();
-        let all_arcs = self.table.curve_arcs - arcs_before + arcs_after;
-        if arcs_before + arcs_after > 0 && (self.table.lacks_curves || all_arcs > MOST_CURVE_ARCS) {
-            return None;
-        }
-        let mut ordinal = match unnamed {
+        let curve_arcs = self.curve_arcs_after(old, read)?;
+        let mut ordinal = match is_unnamed {
             true => self
                 .table
                 .items
                 .iter()
                 .take(first)
-                .filter(|item| item.is_entity() && counted(item.context))
+                .filter(|item| item.is_entity() && is_counted(item.context))
                 .count(),
             false => 0,
         };
@@ -206,7 +131,8 @@ impl Document {
         let (mut entities, mut handles, mut matched) = (Vec::new(), FxHashSet::default(), 0);
         let mut last = None;
         for item in read {
-            ordinal += usize::from(matches!(item.said, Said::Entity(_)) && counted(item.context));
+            ordinal +=
+                usize::from(matches!(item.said, Said::Entity(_)) && is_counted(item.context));
             let Some(entity) = item.said.entity() else {
                 continue;
             };
@@ -235,8 +161,85 @@ impl Document {
             entities,
             gone: gone > 0,
             come: come > 0,
-            curve_arcs: all_arcs,
+            curve_arcs,
         })
+    }
+
+    /// True where what was read changes more than its own entities: the sections, a layer, a block, the names by ordinal.
+    fn reaches_beyond(&self, old: &[Item], read: &[ReadItem], is_unnamed: bool) -> bool {
+        let structure =
+            |became: &Became| matches!(became, Became::Structure { .. }).then_some(*became);
+        let before: Vec<Became> = old
+            .iter()
+            .filter_map(|item| structure(&item.became))
+            .collect();
+        let after: Vec<Became> = read
+            .iter()
+            .filter_map(|item| item.said.structure())
+            .collect();
+        let second_section = before.contains(&Became::Structure {
+            entities: true,
+            unit: StatedUnit::default(),
+        }) && self.table.sections > 1;
+        // A layer entry affects everything on the layer.
+        let layers_before = old.iter().filter_map(|item| match item.became {
+            Became::Layer(index) => self.table.layers.get(index as usize),
+            _ => None,
+        });
+        let layers_after = read.iter().filter_map(|item| match &item.said {
+            Said::Layer(entry) => Some(entry),
+            _ => None,
+        });
+        let is_short = self.table.items.len() - old.len() + read.len() < 3;
+        if !layers_before.eq(layers_after) || before != after || second_section || is_short {
+            return true;
+        }
+        let was_entity = |item: &&Item| item.is_entity() && is_counted(item.context);
+        let is_entity =
+            |item: &&ReadItem| matches!(item.said, Said::Entity(_)) && is_counted(item.context);
+        let entities_before = old.iter().filter(was_entity).count();
+        let entities_after = read.iter().filter(is_entity).count();
+        if entities_before != entities_after && (is_unnamed || self.table.by_ordinal > 0) {
+            return true;
+        }
+        // The content of a block, and what a reference draws, reach beyond the zone.
+        let of_block = |item: &ReadItem| {
+            item.context == Context::Blocks || matches!(item.said, Said::Entity(Outcome::Insert(_)))
+        };
+        let was_of_block = |item: &Item| {
+            item.context == Context::Blocks || matches!(item.became, Became::Parts { .. })
+        };
+        let names_frame = |item: &ReadItem| {
+            item.said
+                .entity()
+                .is_some_and(|read| !read.frames.is_empty())
+        };
+        read.iter().any(of_block) || old.iter().any(was_of_block) || read.iter().any(names_frame)
+    }
+
+    /// How many arcs the curves of the table have then; `None` where there are too many: all of them together decide which are
+    /// drawn.
+    fn curve_arcs_after(&self, old: &[Item], read: &[ReadItem]) -> Option<u64> {
+        let arcs_before: u64 = old
+            .iter()
+            .filter_map(|item| self.drawing.get(item.entity()?))
+            .map(|entity| curve_arcs(entity.kind, &entity.geometry))
+            .sum();
+        let arcs_after: u64 = read
+            .iter()
+            .filter_map(|item| match item.said.entity()? {
+                Read {
+                    kind,
+                    shape: Shape::Plain(geometry),
+                    ..
+                } => Some(curve_arcs(*kind, geometry)),
+                _ => None,
+            })
+            .sum();
+        let all_arcs = self.table.curve_arcs - arcs_before + arcs_after;
+        let has_curves = arcs_before + arcs_after > 0;
+        let is_too_many = self.table.lacks_curves || all_arcs > MOST_CURVE_ARCS;
+        (!has_curves || !is_too_many).then_some(all_arcs)
     }
 
     /// Replaces the findings of the old items by those of the new ones.
@@ -280,24 +283,12 @@ impl Document {
         (plan, names): (Plan, &NamesAfter),
         lines: i64,
     ) -> Delta {
-        let drawing = Arc::make_mut(&mut self.drawing);
-        let table = &mut self.table;
         let mut delta = Delta::default();
-        table.curve_arcs = plan.curve_arcs;
         if plan.gone {
-            let kept: FxHashSet<EntityId> =
-                plan.entities.iter().filter_map(|entity| entity.2).collect();
-            let gone: Vec<EntityId> = items_in(&table.items, &old)
-                .filter_map(Item::entity)
-                .filter(|id| !kept.contains(id))
-                .collect();
-            for entity in gone {
-                drawing.remove(entity);
-                table.vertices.remove(&entity);
-                table.set_item_of(entity, NO_ITEM);
-                delta.touched.push(Touched::Removed { entity });
-            }
+            self.remove_others(&old, &plan, &mut delta);
         }
+        let table = &mut self.table;
+        table.curve_arcs = plan.curve_arcs;
         let were_named = |named: Named| {
             items_in(&table.items, &old)
                 .filter(|item| item.entity().is_some() && item.named == named)
@@ -391,6 +382,30 @@ impl Document {
             starts.push(line as u32);
             items.push(item);
         }
+        self.put_items(old, (starts, items), lines);
+        delta
+    }
+
+    /// Removes the old entities that none of those read continues.
+    fn remove_others(&mut self, old: &Range<usize>, plan: &Plan, delta: &mut Delta) {
+        let kept: FxHashSet<EntityId> =
+            plan.entities.iter().filter_map(|entity| entity.2).collect();
+        let gone: Vec<EntityId> = items_in(&self.table.items, old)
+            .filter_map(Item::entity)
+            .filter(|id| !kept.contains(id))
+            .collect();
+        let drawing = Arc::make_mut(&mut self.drawing);
+        for entity in gone {
+            drawing.remove(entity);
+            self.table.vertices.remove(&entity);
+            self.table.set_item_of(entity, NO_ITEM);
+            delta.touched.push(Touched::Removed { entity });
+        }
+    }
+
+    /// Puts items, with the lines in which they begin, in place of old ones, and moves those after.
+    fn put_items(&mut self, old: Range<usize>, (starts, items): (Vec<u32>, Vec<Item>), lines: i64) {
+        let table = &mut self.table;
         let grown = items.len() != old.len();
         let end = old.start + items.len();
         table.lines.splice(old.clone(), starts);
@@ -405,8 +420,12 @@ impl Document {
                 }
             }
         }
-        delta
     }
+}
+
+/// Entities of the section of entities alone count for the names by ordinal.
+fn is_counted(context: Context) -> bool {
+    context == Context::Entities
 }
 
 /// The entities read, by name, with the id of the same entity before.

@@ -88,7 +88,7 @@ pub(super) fn read_item(
             say!(the_text_begins_with_a_byte_order_mark).into(),
         );
     }
-    let item = |said, after| ReadItem {
+    let item = |(said, after)| ReadItem {
         line,
         context,
         said,
@@ -98,11 +98,27 @@ pub(super) fn read_item(
         // Only at the beginning of the text, before its first record.
         entity::pass_over(lexer);
         close(None, already, lexer, context);
-        return Some(item(Said::Nothing, context));
+        return Some(item((Said::Nothing, context)));
     };
     lexer.pass(start);
+    let mut read = item(said_by(start, lexer, context, tolerance, layers));
+    let cut = close(Some((start, &read)), already, lexer, read.after);
+    if cut {
+        read.said = Said::Entity(Outcome::Damaged);
+    }
+    Some(read)
+}
+
+/// What a record says, read to its end, and the context after it.
+fn said_by(
+    start: Tag,
+    lexer: &mut Lexer,
+    context: Context,
+    tolerance: f64,
+    layers: &mut Layers,
+) -> (Said, Context) {
     let name = lexer.lines.trimmed(start.value_line());
-    let mut read = match (context, name) {
+    match (context, name) {
         (_, b"SECTION") => {
             if context != Context::Outside {
                 lexer.oddity(
@@ -110,12 +126,11 @@ pub(super) fn read_item(
                     say!(section_begins_before_endsec_of_the_one_before).into(),
                 );
             }
-            let (said, after) = section(start, lexer);
-            item(said, after)
+            section(start, lexer)
         }
         (_, b"ENDSEC") => {
             entity::pass_over(lexer);
-            item(Said::END, Context::Outside)
+            (Said::END, Context::Outside)
         }
         (_, b"EOF") => {
             if context != Context::Outside {
@@ -125,15 +140,15 @@ pub(super) fn read_item(
                 );
             }
             pass_over_what_follows(lexer);
-            item(Said::END, Context::Outside)
+            (Said::END, Context::Outside)
         }
         (Context::Blocks, b"BLOCK") => {
             entity::pass_over(lexer);
-            item(Said::Block, context)
+            (Said::Block, context)
         }
         (Context::Blocks, b"ENDBLK") => {
             entity::pass_over(lexer);
-            item(Said::Nothing, context)
+            (Said::Nothing, context)
         }
         (Context::Entities | Context::Blocks, b"VERTEX" | b"SEQEND" | b"ATTRIB") => {
             let sentence = say!(
@@ -142,29 +157,31 @@ pub(super) fn read_item(
             );
             lexer.oddity(start.value_line(), sentence);
             entity::pass_over(lexer);
-            item(Said::Nothing, context)
+            (Said::Nothing, context)
         }
-        (Context::Blocks, _) => item(Said::Entity(entities::read(start, lexer, layers)), context),
+        (Context::Blocks, _) => (Said::Entity(entities::read(start, lexer, layers)), context),
         (Context::Entities, _) => {
             let outcome = entities::read(start, lexer, layers);
-            item(
+            (
                 Said::Entity(drawn(outcome, start, lexer, tolerance)),
                 context,
             )
         }
         (Context::Other, b"LAYER") => {
             entity::pass_over(lexer);
-            let entry = layer_table::read(lexer.lines, line..lexer.at(), |name| layers.name(name));
-            item(entry.map_or(Said::Nothing, Said::Layer), context)
+            let entry = layer_table::read(lexer.lines, start.line..lexer.at(), |name| {
+                layers.name(name)
+            });
+            (entry.map_or(Said::Nothing, Said::Layer), context)
         }
         (Context::Other, _) => {
             entity::pass_over(lexer);
-            item(Said::Nothing, context)
+            (Said::Nothing, context)
         }
         (Context::Outside, _) => {
             let kind = String::from_utf8_lossy(head(name, 64)).into_owned();
             entity::pass_over(lexer);
-            item(
+            (
                 Said::Entity(Outcome::Unsupported(
                     kind,
                     say!(it_stands_outside_of_entities),
@@ -172,12 +189,7 @@ pub(super) fn read_item(
                 context,
             )
         }
-    };
-    let cut = close(Some((start, &read)), already, lexer, read.after);
-    if cut {
-        read.said = Said::Entity(Outcome::Damaged);
     }
-    Some(read)
 }
 
 /// The entity with its geometry in the modelspace; a fault where its curve has none.

@@ -112,26 +112,36 @@ impl FindingData {
             })
         };
         data.related = finding.related.iter().filter_map(related).collect();
-        match &finding.detail {
-            Detail::SmallRadius(detail) => data.small_radius(detail),
+        data.detail(&finding.detail);
+        if let (Place::Text { range }, Some(whereabouts)) = (&finding.place, whereabouts)
+            && let Some(stand) = whereabouts.of(range)
+        {
+            data.stand(&finding.detail, stand);
+        }
+        data
+    }
+
+    fn detail(&mut self, detail: &Detail) {
+        match detail {
+            Detail::SmallRadius(tight) => self.small_radius(tight),
             Detail::UnsupportedEntity { kind, count, .. } => {
-                data.kind = Some(kind.clone());
-                data.count = Some(*count);
+                self.kind = Some(kind.clone());
+                self.count = Some(*count);
             }
             Detail::SetAside(parts) => {
-                data.count = Some(parts.iter().map(|part| part.count).sum());
+                self.count = Some(parts.iter().map(|part| part.count).sum());
             }
-            Detail::Unseen { count, .. } | Detail::More { count } => data.count = Some(*count),
+            Detail::Unseen { count, .. } | Detail::More { count } => self.count = Some(*count),
             Detail::SharpCorner {
                 turn,
                 radius,
                 uncut,
                 count,
             } => {
-                data.turn = Some(turn.to_degrees());
-                data.radius = Some(*radius);
-                data.uncut = Some(*uncut);
-                data.count = *count;
+                self.turn = Some(turn.to_degrees());
+                self.radius = Some(*radius);
+                self.uncut = Some(*uncut);
+                self.count = *count;
             }
             Detail::SharpCorners {
                 radius,
@@ -139,52 +149,52 @@ impl FindingData {
                 at,
                 count,
             } => {
-                data.radius = Some(*radius);
-                data.uncut = Some(*uncut);
-                data.at = Some((*at).into());
-                data.count = Some(*count);
+                self.radius = Some(*radius);
+                self.uncut = Some(*uncut);
+                self.at = Some((*at).into());
+                self.count = Some(*count);
             }
             Detail::NarrowSlot {
                 width, required, ..
             } => {
-                data.distance = Some(*width);
-                data.required = Some(*required);
+                self.distance = Some(*width);
+                self.required = Some(*required);
             }
             Detail::LostPocket { near } | Detail::UnprovedPath { near } => {
-                data.at = Some((*near).into())
+                self.at = Some((*near).into())
             }
             Detail::DeadEnd { near, uncut } => {
-                data.at = Some((*near).into());
-                data.uncut = Some(*uncut);
+                self.at = Some((*near).into());
+                self.uncut = Some(*uncut);
             }
-            Detail::OffsetCollapse { required, .. } => data.required = Some(*required),
+            Detail::OffsetCollapse { required, .. } => self.required = Some(*required),
             Detail::OpenContour { distance } | Detail::Gap { distance } => {
-                data.distance = Some(*distance)
+                self.distance = Some(*distance)
             }
             Detail::DoesNotFit(misfit) => {
-                data.at = Some(misfit.at.into());
-                data.distance = Some(misfit.clearance);
-                data.required = Some(misfit.wanted);
-                data.kind = Some(misfit.of.to_string());
+                self.at = Some(misfit.at.into());
+                self.distance = Some(misfit.clearance);
+                self.required = Some(misfit.wanted);
+                self.kind = Some(misfit.of.to_string());
             }
-            Detail::NoPartner { of, .. } => data.kind = Some(of.to_string()),
+            Detail::NoPartner { of, .. } => self.kind = Some(of.to_string()),
             Detail::Unwritable(_) | Detail::Said(_) => {}
-            Detail::NotJudged(what) => data.count = left_out(what),
-            Detail::DuplicateEntity { count } => data.count = (*count > 1).then_some(*count),
+            Detail::NotJudged(what) => self.count = left_out(what),
+            Detail::DuplicateEntity { count } => self.count = (*count > 1).then_some(*count),
             Detail::Overlap { length } | Detail::ShortSegment { length } => {
-                data.length = Some(*length)
+                self.length = Some(*length)
             }
-            Detail::Size { size } => data.length = Some(*size),
-            Detail::NearTangent { turn } => data.turn = Some(turn.to_degrees()),
+            Detail::Size { size } => self.length = Some(*size),
+            Detail::NearTangent { turn } => self.turn = Some(turn.to_degrees()),
             Detail::NearTangents { turn, at, count } => {
-                data.turn = Some(turn.to_degrees());
-                data.at = Some((*at).into());
-                data.count = Some(*count);
+                self.turn = Some(turn.to_degrees());
+                self.at = Some((*at).into());
+                self.count = Some(*count);
             }
-            Detail::OpenContours { count, .. } => data.count = Some(*count),
+            Detail::OpenContours { count, .. } => self.count = Some(*count),
             Detail::SelfIntersection { at, count, .. } => {
-                data.at = Some((*at).into());
-                data.count = (*count > 1).then_some(*count);
+                self.at = Some((*at).into());
+                self.count = (*count > 1).then_some(*count);
             }
             Detail::ArcAsChords {
                 chords,
@@ -200,20 +210,14 @@ impl FindingData {
                 deviation,
                 ..
             } => {
-                data.count = Some(*chords);
-                data.center = Some((*center).into());
-                data.radius = Some(*radius);
-                data.distance = Some(*deviation);
+                self.count = Some(*chords);
+                self.center = Some((*center).into());
+                self.radius = Some(*radius);
+                self.distance = Some(*deviation);
             }
-            Detail::Program(fault) => data.program(fault),
-            Detail::NotTheDrawing(unlike) => data.distance = unlike.off(),
+            Detail::Program(fault) => self.program(fault),
+            Detail::NotTheDrawing(unlike) => self.distance = unlike.off(),
         }
-        if let (Place::Text { range }, Some(whereabouts)) = (&finding.place, whereabouts)
-            && let Some(stand) = whereabouts.of(range)
-        {
-            data.stand(&finding.detail, stand);
-        }
-        data
     }
 
     /// Adds the place in the program and moves all points to its frame: a block of 3B gives its own

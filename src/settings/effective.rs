@@ -4,8 +4,7 @@ use super::by_name::ByName;
 use super::{
     Budget, Compensation, ContourSettings, Corner, Direction, JobSettings, Jumps, Layout, Lead,
     LengthSetting, MillingSettings, NumberUnit, Order, Origins, PairSettings, Passes, PointSetting,
-    Profile, ProgramFormat, RuleSeverity, Sequence, Settings, SideSetting, SkimCorner, UnitSetting,
-    Workpieces,
+    Profile, ProgramFormat, Sequence, Settings, SideSetting, SkimCorner, UnitSetting, Workpieces,
 };
 use crate::drawing::{Color, Role, Unit};
 use crate::finding::{Finding, Rule, Severity};
@@ -132,51 +131,22 @@ impl Effective {
     /// Fills in the defaults. Values that do not fit have been reported and left out before.
     pub fn of(settings: &Settings) -> Effective {
         let milling = settings.milling.clone().unwrap_or_default();
-        let says_a_wire = settings.correction.is_some()
-            || settings.wire_diameter.is_some()
-            || settings.gap.is_some()
-            || settings
-                .passes
-                .as_ref()
-                .is_some_and(|passes| passes.corrections.is_some());
-        let of_electrode = milling.correction().filter(|_| !says_a_wire);
-        let single = match (settings.correction, settings.wire_diameter, settings.gap) {
-            (Some(correction), ..) => correction,
-            (None, None, None) => of_electrode.unwrap_or_else(|| settings.correction()),
-            (None, ..) => settings.wire_diameter() / 2.0 + settings.gap(),
-        };
-        let passes = settings
-            .passes
-            .as_ref()
-            .and_then(|passes| passes.corrections.clone())
-            .filter(|list| !list.is_empty());
-        let corrections = passes.clone().unwrap_or_else(|| vec![single]);
+        let of_electrode = milling.correction().filter(|_| !says_a_wire(settings));
+        let corrections = corrections_of(settings, of_electrode);
         let largest = corrections
             .iter()
             .copied()
             .enumerate()
             .max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
-        let (index, correction) = largest.unwrap_or((0, single));
+        let (index, correction) = largest.unwrap_or_default();
         let program = settings.program();
         let skim_corner = settings.passes.as_ref().and_then(|own| own.skim_corner);
-        let severities = Rule::ALL.map(|rule| {
-            let set: Option<&RuleSeverity> = settings
-                .rules
-                .as_ref()
-                .and_then(|rules| rules.get(rule.name()));
-            (
-                rule,
-                set.map_or(Some(rule.default_severity()), |severity| {
-                    severity.severity()
-                }),
-            )
-        });
-        let is_stated = |rule: &Rule| {
-            settings
-                .rules
-                .as_ref()
-                .is_some_and(|rules| rules.get(rule.name()).is_some())
+        let severities = settings.rules.clone().unwrap_or_default();
+        let severity = |rule: Rule| match severities.get(rule.name()) {
+            Some(set) => set.severity(),
+            None => Some(rule.default_severity()),
         };
+        let is_stated = |rule: &Rule| severities.contains_key(rule.name());
         Effective {
             correction,
             pass: (corrections.len() > 1).then_some(index + 1),
@@ -224,7 +194,7 @@ impl Effective {
                 .flatten()
                 .filter_map(|(name, role)| Some((Color::named(name)?, *role)))
                 .collect(),
-            severities: severities.into_iter().collect(),
+            severities: Rule::ALL.map(|rule| (rule, severity(rule))).into(),
             stated: Rule::ALL.into_iter().filter(is_stated).collect(),
             docs_url: settings.docs_url.clone(),
             format: program.format,
@@ -435,6 +405,29 @@ impl Effective {
     pub fn unit_of(&self, drawing: &crate::drawing::Drawing) -> Unit {
         drawing.unit.unwrap_or(self.unit)
     }
+}
+
+/// Whether it says what the wire cuts, so that no electrode is meant.
+fn says_a_wire(settings: &Settings) -> bool {
+    let passes = settings.passes.as_ref();
+    settings.correction.is_some()
+        || settings.wire_diameter.is_some()
+        || settings.gap.is_some()
+        || passes.is_some_and(|passes| passes.corrections.is_some())
+}
+
+/// The correction of each pass, one where none are set.
+fn corrections_of(settings: &Settings, of_electrode: Option<f64>) -> Vec<f64> {
+    let passes = settings.passes.as_ref();
+    let listed = passes.and_then(|passes| passes.corrections.clone());
+    let single = || match (settings.correction, settings.wire_diameter, settings.gap) {
+        (Some(correction), ..) => correction,
+        (None, None, None) => of_electrode.unwrap_or_else(|| settings.correction()),
+        (None, ..) => settings.wire_diameter() / 2.0 + settings.gap(),
+    };
+    listed
+        .filter(|list| !list.is_empty())
+        .unwrap_or_else(|| vec![single()])
 }
 
 /// The largest distance of a naming point from its contour, mm.
