@@ -48,13 +48,6 @@ pub fn largest_wire(
     if of_arcs.diameter <= 0.0 || segments > MOST_SEGMENTS {
         return None;
     }
-    let mut severities = settings.severities.clone();
-    for rule in Rule::ALL {
-        severities.insert(
-            rule,
-            (rule == Rule::NarrowSlot).then(|| rule.default_severity()),
-        );
-    }
     let uses = uses(settings);
     let farthest = uses.iter().map(|of| of.farther);
     let farthest = farthest.fold(f64::NEG_INFINITY, f64::max);
@@ -65,11 +58,7 @@ pub fn largest_wire(
     let mut correction = settings.correction.max(half * LEAST_SHARE);
     loop {
         correction = (GROWTH * correction).min(half);
-        let settings = Effective {
-            correction,
-            severities: severities.clone(),
-            ..settings.clone()
-        };
+        let settings = slots_alone(settings, correction);
         let found = narrowest(drawing, outlines, settings, &uses, is_cut).ok()?;
         // What is farther apart may still let less through in another part.
         let beyond = 2.0 * (correction - gap - farthest);
@@ -82,6 +71,36 @@ pub fn largest_wire(
         if correction >= half {
             return Some(of_arcs);
         }
+    }
+}
+
+/// The narrowest place that a wire with half a kerf of `half` does not pass; `None` where there is none, and where it would take
+/// too long to compare.
+pub(super) fn narrowest_below(
+    drawing: &Drawing,
+    outlines: &[Outline],
+    settings: &Effective,
+    half: f64,
+) -> Option<LargestWire> {
+    let uses = uses(settings);
+    let segments: usize = outlines.iter().map(|outline| outline.contour.len()).sum();
+    if segments > MOST_SEGMENTS {
+        return None;
+    }
+    let farthest = uses.iter().map(|of| of.farther).fold(0.0, f64::max);
+    let settings = slots_alone(settings, half + farthest);
+    narrowest(drawing, outlines, settings, &uses, &|_| true)
+        .ok()
+        .flatten()
+}
+
+/// Settings under which narrow slots alone are looked for.
+fn slots_alone(settings: &Effective, correction: f64) -> Effective {
+    let severity = |rule: Rule| (rule == Rule::NarrowSlot).then(|| rule.default_severity());
+    Effective {
+        correction,
+        severities: Rule::ALL.map(|rule| (rule, severity(rule))).into(),
+        ..settings.clone()
     }
 }
 

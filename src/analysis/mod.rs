@@ -25,6 +25,7 @@ mod pair_findings;
 mod pairs;
 mod pockets;
 mod quick_reject;
+mod radius_prices;
 mod repair;
 mod report;
 mod runs;
@@ -43,6 +44,7 @@ mod tests;
 #[cfg(test)]
 pub(crate) use contours::is_cut;
 pub use largest_wire::{largest_wire, work};
+pub use radius_prices::{RadiusPrices, ShopWire, TightPlace, price_of_segment, radius_prices};
 
 use crate::drawing::{
     Chains, Contour, ContourKey, Delta, Drawing, EntityId, Outline, RUN, Touched,

@@ -378,7 +378,7 @@ fn settings_row(file: &Path, source: &SourceText, error: SettingsError) -> Row {
 }
 
 /// The nearest `wedm.toml` in the input's folder or one that holds it.
-fn project_file(path: &Path) -> Option<PathBuf> {
+pub(crate) fn project_file(path: &Path) -> Option<PathBuf> {
     // Text from stdin has a name that need not exist.
     let folder = match path.canonicalize() {
         Ok(file) => file.parent()?.to_path_buf(),

@@ -164,7 +164,7 @@ fn of_passes(
 }
 
 /// Lengths as a list of TOML, mm.
-fn list(lengths: &[f64]) -> String {
+pub(crate) fn list(lengths: &[f64]) -> String {
     let numbers: Vec<String> = lengths.iter().map(|mm| format!("{mm:.4}")).collect();
     format!("[{}]", numbers.join(", "))
 }

@@ -4,6 +4,7 @@
 //! JSON output has the types of [`crate::protocol`].
 
 mod beside;
+mod calibrate;
 mod changes;
 mod check;
 mod completions;
@@ -84,6 +85,7 @@ enum Command {
     Report(pages::Arguments),
     Explain(explain::Arguments),
     Init(init::Arguments),
+    Calibrate(calibrate::Arguments),
     Config(config::Arguments),
     View(view::Arguments),
     Demo(demo::Arguments),
@@ -232,6 +234,7 @@ pub fn run() -> ExitCode {
         Some(Command::Report(arguments)) => pages::run(&arguments),
         Some(Command::Explain(arguments)) => explain::run(&arguments),
         Some(Command::Init(arguments)) => init::run(&arguments),
+        Some(Command::Calibrate(arguments)) => calibrate::run(&arguments),
         Some(Command::Config(arguments)) => config::run(&arguments),
         Some(Command::View(arguments)) => view::run(&arguments),
         Some(Command::Demo(arguments)) => demo::run(&arguments),

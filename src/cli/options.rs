@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
 /// Groups of options: their heading, the table whose keys they set, and their names.
-const GROUPS: [(&str, &str, &[&str]); 8] = [
+const GROUPS: [(&str, &str, &[&str]); 9] = [
     ("Settings", "", &["correction", "passes", "side"]),
     (
         "Program",
@@ -59,6 +59,7 @@ const GROUPS: [(&str, &str, &[&str]); 8] = [
             "programmer",
         ],
     ),
+    ("Settings", "", &["wire-diameter", "correction", "passes"]),
 ];
 
 /// `--passes` is the list of their corrections.
@@ -130,6 +131,9 @@ pub(crate) type Corrected = Keys<6>;
 
 /// Words of a program.
 pub(crate) type Words = Keys<2>;
+
+/// What a test piece was cut with.
+pub(crate) type CutWith = Keys<8>;
 
 // The settings of a pair.
 #[derive(Args, Clone, Debug, Default)]
@@ -350,7 +354,7 @@ mod tests {
     #[test]
     fn every_option_is_a_key_of_the_settings() {
         let all = (0..GROUPS.len()).flat_map(options);
-        assert_eq!(all.filter(|(_, row)| row.words.is_empty()).count(), 30);
+        assert_eq!(all.filter(|(_, row)| row.words.is_empty()).count(), 33);
         assert_eq!(row("program.corner").words, ["arc", "intersection"]);
     }
 }

@@ -23,6 +23,11 @@ impl Outline {
             .map_or("?", |entity| &entity.handle)
     }
 
+    /// False for what is drawn a second time, and for what is left out.
+    pub(crate) fn is_cut(&self) -> bool {
+        self.contour.double_of.is_none() && self.role != Role::Ignore
+    }
+
     /// Side of the direction of travel on which the wire runs: see `wire_side`.
     pub(crate) fn wire_side(&self) -> Option<Side> {
         wire_side(self.role, self.contour.closed, self.twice_area)

@@ -15,7 +15,8 @@ pub use symbol::Symbol;
 pub(crate) use symbol::SymbolKind;
 pub(crate) use whole::Whole;
 
-use crate::document::{Document, Source};
+use crate::analysis;
+use crate::document::{Document, Snapshot, Source};
 use crate::drawing::Unit;
 use std::borrow::Cow;
 use std::ops::Range;
@@ -173,9 +174,40 @@ fn unit_of(document: &Document) -> Unit {
     }
 }
 
-/// The hover at a byte; `None` where there is nothing.
+/// The hover at a byte, with what the segment there costs; `None` where there is nothing.
 pub(crate) fn hover(document: &Document, offset: usize) -> Option<Hover> {
-    ask!(document, hover(offset), unit_of(document))
+    let mut hover: Hover = ask!(document, hover(offset), unit_of(document))?;
+    for price in prices(document, offset) {
+        hover.text.push_str("\n\n");
+        hover.text.push_str(&price);
+    }
+    Some(hover)
+}
+
+/// Segments of a drawing beyond which a hover says no prices: it would have to compare all walls.
+const PRICED: usize = 5_000;
+
+/// What the segments at a byte cost; nothing at the head of a polyline, which has them all.
+fn prices(document: &Document, offset: usize) -> Vec<String> {
+    let mut prices = Vec::new();
+    let Some(snapshot) = document.snapshot() else {
+        return prices;
+    };
+    let Snapshot {
+        drawing,
+        outlines,
+        settings,
+    } = &snapshot;
+    let segments: usize = outlines.iter().map(|outline| outline.contour.len()).sum();
+    let here = document.segments_at(offset..offset);
+    if settings.job.wires.is_none() || segments > PRICED || here.len() > 2 {
+        return prices;
+    }
+    for at in here {
+        prices.extend(analysis::price_of_segment(drawing, outlines, settings, at));
+    }
+    prices.dedup();
+    prices
 }
 
 /// Hints for a range of bytes, in the order of the text.

@@ -15,7 +15,7 @@ mod near_tangent;
 mod open_contour;
 mod overlap;
 mod self_intersection;
-mod sharp_corner;
+pub(crate) mod sharp_corner;
 mod short_segment;
 pub(crate) mod small_radius;
 pub(crate) mod units;

@@ -62,6 +62,16 @@ pub(super) fn faults(settings: &Settings) -> Vec<PassFault> {
             say!(the_control_runs_beside_the_drawn_contour, key, other),
         );
     }
+    if let Some(job) = &settings.job {
+        let counts = [&job.wires, &job.wire_gaps, &job.wire_rates];
+        let [wires, gaps, rates] = counts.map(|list| list.as_ref().map_or(0, Vec::len));
+        if wires != gaps || wires != rates {
+            let keys = ["job.wires", "job.wire-gaps", "job.wire-rates"];
+            let stated = keys.iter().zip(counts).find(|(_, list)| list.is_some());
+            let key = stated.map_or(keys[0], |(key, _)| *key);
+            complain(key, say!(each_wire_needs_all, wires, gaps, rates));
+        }
+    }
     if let Some(job) = &settings.job
         && job.slug_limit.is_some()
     {
@@ -133,7 +143,11 @@ pub(super) fn idle(settings: &Settings) -> Vec<PassFault> {
         .into_iter()
         .filter(|(_, is_missing)| *is_missing);
     let missing: Vec<&str> = missing.map(|(key, _)| key).collect();
-    if job.machine_rate.is_some() && !missing.is_empty() {
+    if job.wires.is_some() && job.thickness.is_none() {
+        let (key, other) = ("job.wires", "job.thickness");
+        complain(key, say!(wires_need_a_height, key, other));
+    }
+    if job.machine_rate.is_some() && job.wires.is_none() && !missing.is_empty() {
         let (key, and) = ("job.machine-rate", say!(and));
         complain(key, say!(a_rate_needs_minutes, key, missing.join(and)));
     }

@@ -222,6 +222,13 @@ tables! {
         slug_limit: f64 => number in Range::FROM_ZERO;
         /// Cost of an hour of the machine, in any currency: the times that follow from `passes.rates` then have a cost.
         machine_rate: f64 => number in Range::FROM_ZERO;
+        /// Diameters of the wires that the shop has, mm. With `wire-gaps`, `wire-rates` and `thickness`, hover and report say what a small radius
+        /// costs: [prices of radii](programs.md#what-a-radius-costs).
+        wires: Vec<f64> => numbers in Range::ABOVE_ZERO;
+        /// Spark gap of the last pass of each of `wires`, mm.
+        wire_gaps: Vec<f64> => numbers in Range::FROM_ZERO;
+        /// What each of `wires` cuts in a minute, all its passes together, mm²/min.
+        wire_rates: Vec<f64> => numbers in Range::ABOVE_ZERO;
         /// Heading of the page of `wedm report`. Not set: the part, else the name of the drawing.
         title: String => label;
         /// Name or number of the part, for the head of the page of `wedm report`.

@@ -41,7 +41,7 @@ pub(crate) use from_json::from_json;
 pub use from_toml::from_toml;
 pub(crate) use from_toml::{FILE_NAME, is_there, place_in, read_file};
 pub(crate) use job::{ENDS, PAUSES};
-pub(crate) use keep::{as_lines, keep, table_of_suppressions};
+pub(crate) use keep::{as_lines, keep, set, table_of_suppressions};
 pub(crate) use keys::{
     ContourSettings, JobSettings, MillingSettings, PairSettings, Passes, Profile, ProfileSettings,
     ProgramSettings,

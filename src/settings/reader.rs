@@ -134,7 +134,10 @@ impl Reader {
 
     /// A number for each pass.
     pub(crate) fn numbers(&mut self, key: &str, node: &Node, range: &Range) -> Option<Vec<f64>> {
-        let expected = say!(a_list_of_numbers_one_for_each_pass);
+        let expected = match key.starts_with("job.") {
+            true => say!(a_list_of_numbers_one_for_each_wire),
+            false => say!(a_list_of_numbers_one_for_each_pass),
+        };
         match &node.value {
             Value::Null => None,
             Value::List(items) if !items.is_empty() => {

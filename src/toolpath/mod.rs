@@ -73,7 +73,7 @@ pub(crate) use settings_check::{
 pub(crate) use standing::holds;
 pub use work::LargestWire;
 pub use work::Work;
-pub(crate) use work::{largest_of_arcs, last_gap, work};
+pub(crate) use work::{inner_arcs, largest_of_arcs, last_gap, uses_of, work};
 
 use crate::drawing::{Drawing, EntityId, Outline};
 use crate::finding::{Detail, Finding, Rule, Severity};

@@ -6,7 +6,7 @@ use super::containment::Nesting;
 use super::lead_form::largest_lead_angle;
 use super::path::{WirePath, lengths};
 use crate::drawing::{Drawing, EntityId, Outline, Role, wire_side};
-use crate::geometry::{Segment, Side};
+use crate::geometry::Side;
 use crate::settings::{Effective, Use};
 
 /// The totals of some paths.
@@ -156,42 +156,60 @@ pub(crate) fn largest_of_arcs(
     is_cut: &dyn Fn(usize) -> bool,
 ) -> Option<LargestWire> {
     let gap = last_gap(settings)?;
+    inner_arcs(drawing, outlines, settings, is_cut)
+        .map(|arc| LargestWire {
+            diameter: 2.0 * (arc.radius - arc.farther - gap),
+            radius: arc.radius,
+            facing: None,
+            entity: arc.entity,
+            segment: arc.segment,
+        })
+        .min_by(|a, b| a.diameter.total_cmp(&b.diameter))
+}
+
+/// An arc that the wire runs inside of.
+pub(crate) struct InnerArc {
+    /// mm.
+    pub(crate) radius: f64,
+    /// How much farther from it than half its kerf the wire runs, mm.
+    pub(crate) farther: f64,
+    pub(crate) entity: EntityId,
+    pub(crate) segment: usize,
+}
+
+/// The arcs of the contours that are `cut` that the wire runs inside of; where its side is not known each one.
+pub(crate) fn inner_arcs<'a>(
+    drawing: &'a Drawing,
+    outlines: &'a [Outline],
+    settings: &'a Effective,
+    is_cut: &'a dyn Fn(usize) -> bool,
+) -> impl Iterator<Item = InnerArc> + 'a {
     let unit_mm = settings.unit_of(drawing).mm;
-    let mut smallest: Option<LargestWire> = None;
-    for (index, outline) in outlines.iter().enumerate() {
-        if outline.contour.double_of.is_some() || outline.role == Role::Ignore || !is_cut(index) {
-            continue;
-        }
+    let cut = outlines.iter().enumerate();
+    let cut = cut.filter(|(index, outline)| outline.is_cut() && is_cut(*index));
+    cut.flat_map(move |(_, outline)| {
         let uses = uses_of(outline, settings);
-        for segment in outline.contour.segments(drawing) {
-            let Segment::Arc(arc) = segment.geometry else {
-                continue;
-            };
-            let radius = arc.radius * unit_mm;
-            let inside = uses
-                .iter()
-                .filter(|(side, _)| side.is_none_or(|side| side.sign() * arc.sweep > 0.0));
-            let Some(farther) = inside.map(|(_, farther)| *farther).reduce(f64::max) else {
-                continue;
-            };
-            let diameter = 2.0 * (radius - farther - gap);
-            if smallest.is_none_or(|smallest| diameter < smallest.diameter) {
-                smallest = Some(LargestWire {
-                    diameter,
-                    radius,
-                    facing: None,
+        outline
+            .contour
+            .segments(drawing)
+            .filter_map(move |segment| {
+                let arc = segment.geometry.as_arc()?;
+                let is_inside =
+                    |side: &Option<Side>| side.is_none_or(|side| side.sign() * arc.sweep > 0.0);
+                let inside = uses.iter().filter(|(side, _)| is_inside(side));
+                Some(InnerArc {
+                    radius: arc.radius * unit_mm,
+                    farther: inside.map(|(_, farther)| *farther).reduce(f64::max)?,
                     entity: segment.entity,
                     segment: segment.segment,
-                });
-            }
-        }
-    }
-    smallest
+                })
+            })
+    })
 }
 
 /// The sides on which a wire runs along a contour, and how much farther from it than half its kerf, mm: one, or one for each part of a pair
 /// that is cut along it.
-fn uses_of(outline: &Outline, settings: &Effective) -> Vec<(Option<Side>, f64)> {
+pub(crate) fn uses_of(outline: &Outline, settings: &Effective) -> Vec<(Option<Side>, f64)> {
     let of_pair = |of: Use| {
         let farther = settings.shift_of(of)?;
         let side = wire_side(of.role(), outline.contour.closed, outline.twice_area);

@@ -1,5 +1,6 @@
 //! The command line as a user meets it: the real binary, small files, what it prints and how it ends.
 
+mod calibrate;
 mod clearances;
 mod contradictions;
 mod electrode;

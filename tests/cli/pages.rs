@@ -241,3 +241,27 @@ fn a_warning_looks_like_one_everywhere_and_shared_faults_are_said_once() {
         "{ended:?}"
     );
 }
+
+/// What each wire of the shop's table takes, and which places keep it out.
+#[test]
+fn a_page_says_what_small_radii_cost() {
+    let desk = Desk::new();
+    let wires = "side = \"opening\"\n[job]\nthickness = 40\nmachine-rate = 60\nwires = [0.25, 0.08]\nwire-gaps = [0.03, 0.01]\nwire-rates = [100, 20]\n";
+    desk.write("wedm.toml", wires);
+    let page = |desk: &Desk| {
+        desk.run("report tight.dxf -o pages");
+        String::from_utf8(desk.read("pages/tight.html")).unwrap()
+    };
+    let priced = page(&desk);
+    for part in [
+        "<h2>What small radii cost</h2>",
+        "<th class=\"number\">wire Ø mm</th>",
+        "<td class=\"number\">0.155</td>",
+        "1 place: ",
+        "cuts this drawing in the least time",
+    ] {
+        assert!(priced.contains(part), "{part} in {priced}");
+    }
+    desk.write("wedm.toml", wires.replace("thickness = 40\n", ""));
+    assert!(!page(&desk).contains("What small radii cost"));
+}

@@ -3,6 +3,7 @@
 mod leads;
 mod order;
 mod places;
+mod prices;
 mod work;
 use crate::support::generate;
 use proptest::prelude::*;

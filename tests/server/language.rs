@@ -40,6 +40,31 @@ fn names(symbols: &Value, depth: usize, list: &mut Vec<String>) {
     }
 }
 
+/// Where the shop's wires are known, an arc says what it costs, at its vertex, and its polyline as a whole says nothing.
+#[test]
+fn hover_says_what_a_radius_costs() {
+    let shop = json!({
+        "side": "opening",
+        "job": { "thickness": 40, "wires": [0.25, 0.06], "wireGaps": [0.03, 0.01], "wireRates": [100, 20] },
+    });
+    let mut client = Client::start_with(capabilities(), shop);
+    let text = dxf_of(&[("2A", &TIGHT)]);
+    client.open_text(URI, "dxf", &text);
+    let mut said = |line: u64| -> String {
+        let hover = client.request("textDocument/hover", at(line, 0)).unwrap();
+        hover["contents"]["value"].as_str().unwrap().to_owned()
+    };
+    let bulge = said(line_of(&text, "0.41421356237309503"));
+    assert!(
+        bulge.contains("bulge")
+            && bulge.ends_with("\n\nR 0.050 mm needs the wire Ø 0.06 mm: +53.66 min against Ø 0.25 mm, from R 0.155 mm on"),
+        "{bulge}"
+    );
+    let head = said(line_of(&text, "LWPOLYLINE"));
+    assert!(!head.contains("needs the wire"), "{head}");
+    client.shut_down();
+}
+
 #[test]
 fn hover_symbols_and_folds_of_a_plate() {
     let mut client = start();

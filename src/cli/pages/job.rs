@@ -2,6 +2,7 @@
 
 use super::super::fit::of_least;
 use super::html::{cell, more, number, table, text};
+use crate::analysis::{ShopWire, TightPlace, radius_prices};
 use crate::document::{Document, Snapshot};
 use crate::job;
 use crate::message::duration;
@@ -72,6 +73,61 @@ pub(super) fn time_and_material(work: &Work) -> String {
         .map(|slug| vec![cell(&slug.contour), number(format!("{:.1}", slug.mass))]);
     let heads = [say!(column_contour), say!(column_slug)];
     self::facts(&facts) + &table(&heads, slugs) + &more(work.slugs.len(), MOST)
+}
+
+/// The most places named for a wire that they keep out.
+const MOST_PLACES: usize = 8;
+
+/// What each wire of the shop's table takes for the drawing, and what keeps it out.
+pub(super) fn prices(snapshot: &Snapshot) -> String {
+    let Snapshot {
+        drawing,
+        outlines,
+        settings,
+    } = snapshot;
+    let Some(prices) = radius_prices(drawing, outlines, settings) else {
+        return String::new();
+    };
+    let heads = [
+        say!(column_wire),
+        say!(column_from_radius),
+        say!(column_time),
+        say!(column_cost),
+        say!(column_what_keeps_it_out),
+    ];
+    let name = |place: &TightPlace| {
+        let handle = drawing.get(place.entity).map_or("?", |one| &one.handle);
+        format!("{handle}/{} R {:.3}", place.segment, place.radius)
+    };
+    let row = |wire: &ShopWire| {
+        let barring = prices.barring(wire);
+        let mut listed: Vec<String> = barring.iter().take(MOST_PLACES).map(name).collect();
+        if barring.len() > MOST_PLACES {
+            listed.push("…".to_owned());
+        }
+        let is_chosen = prices.chosen() == Some(wire);
+        let kept_out = match barring.len() {
+            _ if is_chosen => ("good", text(say!(the_chosen_wire))),
+            0 => cell(""),
+            count => cell(say!(
+                so_many_places,
+                say!(places, count),
+                listed.join(say!(comma))
+            )),
+        };
+        vec![
+            number(wire.diameter),
+            number(format!("{:.3}", wire.least)),
+            number(duration(wire.minutes)),
+            number(
+                wire.cost
+                    .map(|cost| format!("{cost:.2}"))
+                    .unwrap_or_default(),
+            ),
+            kept_out,
+        ]
+    };
+    table(&heads, prices.wires.iter().map(row))
 }
 
 /// Sentences, a line each.

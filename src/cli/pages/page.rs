@@ -46,6 +46,8 @@ pub(super) struct Page {
     picture: String,
     contours: Contours,
     arcs: Vec<ListedArc>,
+    /// What small radii cost, where the shop's wires are known.
+    prices: String,
     /// Findings, each with the number of its mark in the picture.
     rows: Vec<(Option<usize>, Row)>,
     /// The parts of a pair; else all as one.
@@ -157,6 +159,7 @@ impl Page {
             picture,
             contours: Contours::new(drawing, outlines, settings),
             arcs,
+            prices: of_job::prices(&snapshot),
             rows,
             fit: of_job::fit(&opened.document, &snapshot, unit_mm),
             milling: milling.unwrap_or_default(),
@@ -198,6 +201,7 @@ impl Page {
             section(say!(head_milling), of_job::facts(&self.milling)),
             section(say!(head_contours), self.contour_table()),
             section(say!(head_radius_list), self.radius_list()),
+            section(say!(head_prices), self.prices.clone()),
             self.of_all(|part| part.text(self.format, self.unit_mm, &stem)),
             self.parts
                 .iter()

@@ -9,6 +9,7 @@ declare! {
     doubles(count: usize) => { counted(*count, "duplicate", "duplicates") };
     entities(count: usize) => { counted(*count, "entity", "entities") };
     errors(count: usize) => { counted(*count, "error", "errors") };
+    features(count: usize) => { counted(*count, "feature", "features") };
     files(count: usize) => { counted(*count, "file", "files") };
     findings(count: usize) => { counted(*count, "finding", "findings") };
     gaps(count: usize) => { counted(*count, "gap", "gaps") };

@@ -254,4 +254,20 @@ declare! {
     a_floor_comes_out(mean, least, most, worn) => "{mean:.4} mm deep, the floor from {least:.4} to {most:.4} mm, the electrode {worn:.4} mm shorter";
     the_last_is_fed(last) => ", the last one {last:.4} mm";
     it_is_fed_along(along) => " and {along:.5} µm on each mm of its way";
+    a_nominal_and_a_measured_size => "expected NOMINAL=MEASURED in mm, such as 20=20.006";
+    nothing_says_the_correction => "nothing says what the piece was cut with: expected --correction, --passes or a wedm.toml with the correction that was set";
+    no_gap_without_the_wire => "gap: not known, since wire-diameter is not set";
+    kerf_of_a_pass(pass, half, uncertainty, features) => "pass {pass}: half of the kerf {half:.4} ± {uncertainty:.4} mm from {features}";
+    of_outer_and_inner_features(outer, inner) => " (outer {outer:.4}, inner {inner:.4})";
+    and_the_gap(gap, uncertainty) => ", gap {gap:.4} ± {uncertainty:.4} mm";
+    a_single_measurement(pass) => "  pass {pass} was measured once: nothing shows how the sizes scatter, and ± is that of the measuring alone";
+    a_pass_is_calibrated(pass, features, uncertainty) => "pass {pass} from {features}, ± {uncertainty:.4} mm";
+    the_file_cannot_take_the_values => "its keys stand where no lines can be added, as in an inline table: write them as a table of their own";
+    file_is_calibrated(written, file) => "{written} {file}:";
+    with_write_a_file_gets(file) => "with --write {file} gets:";
+    a_head_of_other_columns(file, line, head, all, needed) => "{file}:{line}: the first line is {head:?}, expected names of columns out of {all}, among them {needed}";
+    a_row_of_other_cells(file, line, found, expected) => "{file}:{line}: {found} cells, expected {expected} as in the first line";
+    a_cell_is_wrong(file, line, column, found, expected) => "{file}:{line}: {column} is {found:?}, {expected}";
+    a_feature_is_another(file, line, feature, first) => "{file}:{line}: {feature} is of another kind or nominal size than in line {first}: expected a name of its own";
+    nothing_is_measured => "no measurement is in it";
 }

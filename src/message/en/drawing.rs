@@ -135,4 +135,11 @@ declare! {
     the_bulge => " (bulge)";
     the_extrusion => " (extrusion)";
     in_byte(byte, sentence) => "byte {byte}: {sentence}";
+    a_radius_needs_a_wire(radius, diameter, more) => "R {radius:.3} mm needs the wire Ø {diameter} mm: {more}";
+    more_than_with_a_wire(time, cost, diameter, least) => "+{time}{cost} against Ø {diameter} mm, from R {least:.3} mm on";
+    and_so_much_money(cost) => " ({cost:.2})";
+    and_others_need_it(price, places) => "{price}; {places} beside it keep that wire out, too";
+    no_wire_cuts_a_radius(radius, diameter, least) => "R {radius:.3} mm is cut by no wire of job.wires: the thinnest, Ø {diameter} mm, leaves R {least:.3} mm";
+    a_wire_leaves_in_a_corner(least, diameter) => "sharp corner: R {least:.3} mm is left by the wire Ø {diameter} mm";
+    a_thinner_wire_leaves(least, time, diameter) => "R {least:.3} mm for +{time} by Ø {diameter} mm";
 }

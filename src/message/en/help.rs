@@ -102,6 +102,14 @@ Exit codes: 0 no error found, 1 errors in the drawing, 2 could not read, or wron
     ("init passes", "Passes along each contour"),
     ("init side", "Side of the contours on which the wire runs; auto: by nesting"),
     ("init machine", "Language that the machine reads: 3b, or a profile of ISO programs"),
+    ("calibrate", "Work out gap and corrections from what was measured on a cut test piece"),
+    ("calibrate/", "With the correction c that was set, an outer feature of nominal size s that measures m comes to c − (m − s) / 2 for half of the kerf, an inner one to c + (m − s) / 2. Their mean is the correction that cuts to size, and with the wire's radius taken off it is the gap. ± is at 95 % confidence. What contradicts itself is refused, and the command ends with 1. Nothing is written without --write."),
+    ("calibrate path", "What was measured, a line for each: feature, kind (outer or inner), pass, nominal and measured size in mm; the first line names the columns"),
+    ("calibrate outer", "A size with material between its faces; again for each"),
+    ("calibrate inner", "A size of an opening; again for each"),
+    ("calibrate pass", "The pass after which --outer and --inner were measured [default: the last]"),
+    ("calibrate uncertainty", "Of a single measurement, mm: 95 of 100 are nearer to the truth"),
+    ("calibrate write", "Write the values into the wedm.toml, with the date"),
     ("config", "Print what can be set"),
     ("config-examples", "Examples:
   wedm config schema > wedm.schema.json    completion and checks in editors that take a schema for TOML:

@@ -27,4 +27,10 @@ declare! {
     the_floor_is_uneven(wear, least, most) => "the electrode gets shorter by {wear:.2} times the layer's height in each layer along this contour: the floor is uneven within one layer, in the end {least:.4} to {most:.4} mm deep; a larger electrode or a shorter contour wears less";
     it_is_milled => "an electrode mills it layer by layer: its heights belong to its moves, and it is not the path of a wire";
     nothing_is_picked(key, other) => "{key} is as-picked, but no contour is picked: they are cut in the order of {other}";
+    a_pass_that_is_not_set(pass, count) => "pass {pass} was measured, but the settings have {count}";
+    the_wire_is_thicker_than_its_kerf(pass, half, radius) => "pass {pass}: half of the kerf is {half:.4} mm, less than the wire's radius, {radius:.4} mm: check wire-diameter, and the correction that was set at the machine";
+    a_pass_cuts_wider_than_the_one_before(pass, half, before, of_before, allowed) => "half of the kerf of pass {pass} is {half:.4} mm, that of pass {before} {of_before:.4} mm: a finer pass has no larger gap, and the uncertainty allows {allowed:.4} mm; check which pass each size was measured after";
+    no_kerf_explains_a_size(feature, measured, nominal, correction, half) => "{feature}: {measured} mm in place of {nominal} mm, cut with a correction of {correction:.4} mm, comes to {half:.4} mm for half of the kerf: check the sizes, and whether it is outer or inner";
+    a_feature_stands_out(pass, feature, half, others, allowed) => "pass {pass}: {feature} comes to {half:.4} mm for half of the kerf, the others to {others:.4} mm: it is off by more than the {allowed:.4} mm that their scatter allows; measure it again, or leave it out";
+    outer_and_inner_features_differ(pass, outer, inner, allowed) => "pass {pass}: half of the kerf is {outer:.4} mm by the outer features and {inner:.4} mm by the inner ones: they differ by more than the {allowed:.4} mm that their scatter and the measuring allow. No correction explains that: look for the scale of the machine, taper, or jaws that are off";
 }

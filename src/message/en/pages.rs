@@ -80,4 +80,11 @@ declare! {
     its_text => "text";
     and_more_of_them(count) => "and {count} more";
     head_milling => "Milling";
+    head_prices => "What small radii cost";
+    column_wire => "wire Ø mm";
+    column_from_radius => "from R mm on";
+    column_cost => "cost";
+    column_what_keeps_it_out => "kept out by";
+    the_chosen_wire => "cuts this drawing in the least time";
+    so_many_places(places, listed) => "{places}: {listed}";
 }

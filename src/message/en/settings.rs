@@ -6,6 +6,9 @@ declare! {
     a_number_up_to(most) => "a number up to {most}";
     a_number_from_to(least, most) => "a number from {least} to {most}";
     a_whole_number_from_to(least, most) => "a whole number from {least} to {most}";
+    a_list_of_numbers_one_for_each_wire => "a list of numbers, one for each wire";
+    each_wire_needs_all(wires, gaps, rates) => "job.wires has {wires} wires, job.wire-gaps {gaps} and job.wire-rates {rates}: expected one of each for every wire";
+    wires_need_a_height(key, other) => "{key} has no effect: a price needs a time; expected {other} as well";
     a_list_of_numbers_one_for_each_pass => "a list of numbers above 0, one for each pass";
     a_list_of_words => "a list of words of letters and digits such as [\"D1\", \"D2\"]";
     a_list_of_lines => "a list of lines such as [\"G90\"]";

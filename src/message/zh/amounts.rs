@@ -9,6 +9,7 @@ translate! {
     doubles(count: usize) => { format!("{count} 个重复图元") };
     entities(count: usize) => { format!("{count} 个图元") };
     errors(count: usize) => { format!("{count} 个错误") };
+    features(count: usize) => { format!("{count} 处") };
     files(count: usize) => { format!("{count} 个文件") };
     findings(count: usize) => { format!("{count} 个问题") };
     gaps(count: usize) => { format!("{count} 处间隙") };

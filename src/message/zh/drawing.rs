@@ -135,4 +135,11 @@ translate! {
     the_bulge => "（凸度）";
     the_extrusion => "（拉伸方向）";
     in_byte(byte, sentence) => "字节 {byte}：{sentence}";
+    a_radius_needs_a_wire(radius, diameter, more) => "R {radius:.3} mm 需用 Ø {diameter} mm 的电极丝：{more}";
+    more_than_with_a_wire(time, cost, diameter, least) => "比 Ø {diameter} mm（R {least:.3} mm 起可用）多 {time}{cost}";
+    and_so_much_money(cost) => "（{cost:.2}）";
+    and_others_need_it(price, places) => "{price}；另有 {places} 也使那种电极丝不能用";
+    no_wire_cuts_a_radius(radius, diameter, least) => "R {radius:.3} mm 用 job.wires 中的任何电极丝都切不出：最细的 Ø {diameter} mm 留下 R {least:.3} mm";
+    a_wire_leaves_in_a_corner(least, diameter) => "尖角：Ø {diameter} mm 的电极丝留下 R {least:.3} mm";
+    a_thinner_wire_leaves(least, time, diameter) => "Ø {diameter} mm 留下 R {least:.3} mm，多 {time}";
 }

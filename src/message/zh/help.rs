@@ -211,6 +211,26 @@ pub(in crate::message) const HELP: &[(&str, &str)] = &[
     ("init passes", "每个轮廓切几次"),
     ("init side", "丝在轮廓的哪一侧；auto：按嵌套自动判定"),
     ("init machine", "机床读什么：3b，或一种 ISO profile"),
+    ("calibrate", "由切好的试件的测量值算出放电间隙和补偿量"),
+    (
+        "calibrate/",
+        "切割时设定的补偿量为 c，公称尺寸 s、实测 m 的外形得切缝半宽 c − (m − s) / 2，内形得 c + (m − s) / 2。其平均值就是切到尺寸的补偿量，减去电极丝半径即放电间隙。± 为 95 % 置信度。自相矛盾的拒绝，并以 1 结束。不加 --write 不写任何文件。",
+    ),
+    (
+        "calibrate path",
+        "测量值，每行一个：feature、kind（outer 或 inner）、pass、nominal、measured（mm）；第一行是列名",
+    ),
+    ("calibrate outer", "外形尺寸（两面之间是材料）；可多次给出"),
+    ("calibrate inner", "内形（型孔）尺寸；可多次给出"),
+    (
+        "calibrate pass",
+        "--outer 和 --inner 是在第几次切割之后测量的 [默认：最后一次]",
+    ),
+    (
+        "calibrate uncertainty",
+        "单次测量的不确定度，mm：100 次中有 95 次在此之内",
+    ),
+    ("calibrate write", "把这些值连同日期写入 wedm.toml"),
     ("config", "说明可以设置什么"),
     (
         "config-examples",

@@ -27,4 +27,10 @@ translate! {
     the_floor_is_uneven(wear, least, most) => "沿此轮廓每铣一层，电极缩短 {wear:.2} 个层高：一层之内底面不平，最后深 {least:.4} 到 {most:.4} mm；电极粗一些或轮廓短一些，损耗就小";
     it_is_milled => "它由电极分层铣削：高度与各段运动相关，不是电极丝的轨迹";
     nothing_is_picked(key, other) => "{key} 是 as-picked，但没有选取轮廓：按 {other} 的顺序切割";
+    a_pass_that_is_not_set(pass, count) => "测量了第 {pass} 次切割，但设置中只有 {count} 次";
+    the_wire_is_thicker_than_its_kerf(pass, half, radius) => "第 {pass} 次切割：切缝半宽 {half:.4} mm 小于电极丝半径 {radius:.4} mm：请检查 wire-diameter 和机床上实际设定的补偿量";
+    a_pass_cuts_wider_than_the_one_before(pass, half, before, of_before, allowed) => "第 {pass} 次切割的切缝半宽为 {half:.4} mm，第 {before} 次为 {of_before:.4} mm：更精的一次放电间隙不会更大，不确定度只允许 {allowed:.4} mm；请检查每个尺寸是在哪一次切割之后测量的";
+    no_kerf_explains_a_size(feature, measured, nominal, correction, half) => "{feature}：公称 {nominal} mm，实测 {measured} mm，切割时补偿量 {correction:.4} mm，得切缝半宽 {half:.4} mm：请检查尺寸，以及是外形还是内形";
+    a_feature_stands_out(pass, feature, half, others, allowed) => "第 {pass} 次切割：由 {feature} 得切缝半宽 {half:.4} mm，由其余各处得 {others:.4} mm：相差超过其分散所允许的 {allowed:.4} mm；请重新测量，或不计入";
+    outer_and_inner_features_differ(pass, outer, inner, allowed) => "第 {pass} 次切割：由外形得切缝半宽 {outer:.4} mm，由内形得 {inner:.4} mm：相差超过其分散和测量所允许的 {allowed:.4} mm。这不是补偿量能解释的：请检查机床的比例、锥度或量爪";
 }

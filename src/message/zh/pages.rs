@@ -80,4 +80,11 @@ translate! {
     its_text => "程序文本";
     and_more_of_them(count) => "另有 {count} 项";
     head_milling => "铣削";
+    head_prices => "小半径的代价";
+    column_wire => "丝径 Ø mm";
+    column_from_radius => "R mm 起可用";
+    column_cost => "费用";
+    column_what_keeps_it_out => "因何不能用";
+    the_chosen_wire => "切此图形用时最少";
+    so_many_places(places, listed) => "{places}：{listed}";
 }

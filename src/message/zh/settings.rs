@@ -15,6 +15,9 @@ translate! {
     a_number_up_to(most) => "不超过 {most} 的数";
     a_number_from_to(least, most) => "{least} 到 {most} 的数";
     a_whole_number_from_to(least, most) => "{least} 到 {most} 的整数";
+    a_list_of_numbers_one_for_each_wire => "数的列表，每种电极丝一个";
+    each_wire_needs_all(wires, gaps, rates) => "job.wires 有 {wires} 种电极丝，job.wire-gaps 有 {gaps} 个，job.wire-rates 有 {rates} 个：每种电极丝应各有一个";
+    wires_need_a_height(key, other) => "{key} 不起作用：算代价需要时间；还应设置 {other}";
     a_list_of_numbers_one_for_each_pass => "大于 0 的数的列表，每次切割一个";
     a_list_of_words => "由字母和数字组成的代码列表，如 [\"D1\", \"D2\"]";
     a_list_of_lines => "行的列表，如 [\"G90\"]";

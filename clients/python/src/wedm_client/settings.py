@@ -31,6 +31,9 @@ class Job(TypedDict, total=False):
     thickness: float
     slug_limit: float
     machine_rate: float
+    wires: Sequence[float]
+    wire_gaps: Sequence[float]
+    wire_rates: Sequence[float]
     title: str
     part: str
     material: str
