@@ -158,7 +158,7 @@ impl FindingData {
                 data.uncut = Some(*uncut);
             }
             Detail::OffsetCollapse { required, .. } => data.required = Some(*required),
-            Detail::OpenContour { distance } | Detail::Gap { distance } => {
+            Detail::OpenContour { distance, .. } | Detail::Gap { distance } => {
                 data.distance = Some(*distance)
             }
             Detail::DoesNotFit(misfit) => {
