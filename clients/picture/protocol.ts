@@ -442,6 +442,10 @@ export interface Settings {
    */
   resolution?: number;
   /**
+   * Ends of entities up to this far apart (mm) belong together: the contour is closed, and `gap` tells the distance. More than the default is for drawings whose ends were rounded, as those in inches with three decimals; of several ends the nearest are joined.
+   */
+  join?: number;
+  /**
    * Several passes.
    */
   passes?: Passes;

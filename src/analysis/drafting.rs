@@ -61,7 +61,7 @@ impl Analysis {
         };
         let settings = &self.settings;
         let has_role = role_of(drawing, settings, piece.entity).is_some();
-        let join = self.limits.tolerances.join;
+        let join = self.limits.tolerances.certain;
         let length = line.length();
         // Where the contour is the wire's own path, or the middle of a milled slot, a single line may be all of it.
         let is_path = settings.compensation == Compensation::None || settings.mills;
@@ -172,7 +172,7 @@ impl Analysis {
         // Those in one that they meet are no annotation.
         let closed = (keys.len() > MANY).then(|| {
             let mut closed = Grid::default();
-            let join = self.limits.tolerances.join;
+            let join = self.limits.tolerances.certain;
             for (&key, known) in &self.known {
                 let contour = self.chains.get(key).filter(|contour| contour.closed);
                 if contour.is_some_and(|it| !is_flat(drawing, it, &known.index, join)) {
@@ -262,7 +262,7 @@ impl Analysis {
     /// The distance from the ends of a line within which it faces the ends of an open contour; and within which it
     /// always faces those of another line.
     fn reaches_of(&self, lone: &Lone) -> (f64, f64) {
-        let join = JOINS * self.limits.tolerances.join;
+        let join = JOINS * self.limits.tolerances.certain;
         ((SHARE * lone.line.length()).max(join), join)
     }
 
@@ -291,7 +291,7 @@ impl Analysis {
         other: ContourKey,
         sorted: Option<&Boxes>,
     ) -> bool {
-        let join = self.limits.tolerances.join;
+        let join = self.limits.tolerances.certain;
         let (Some(contour), Some(known)) = (self.chains.get(other), self.known.get(&other)) else {
             return false;
         };
@@ -339,7 +339,7 @@ impl Analysis {
         other: ContourKey,
         sorted: Option<&Boxes>,
     ) -> bool {
-        let join = self.limits.tolerances.join;
+        let join = self.limits.tolerances.certain;
         let (Some(contour), Some(known)) = (self.chains.get(other), self.known.get(&other)) else {
             return false;
         };

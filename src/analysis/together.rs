@@ -5,7 +5,7 @@ use super::Analysis;
 use crate::drawing::{ContourKey, Drawing, EntityId};
 use crate::finding::{Detail, Finding, Place, Rule, Severity};
 use crate::rules::{
-    CONTOUR_RULES, ContourRule, LOCAL_RULES, LocalRule, Observation, Outlook, Together,
+    CONTOUR_RULES, ContourRule, LOCAL_RULES, LocalRule, Observation, Outlook, Together, ends_apart,
 };
 use rustc_hash::FxHashMap;
 use std::collections::BTreeMap;
@@ -57,12 +57,14 @@ pub(super) fn of_contours(rule: &ContourRule, met: &[Outlook]) -> Option<Gathere
     of_layers(
         places.iter().filter_map(layer),
         places.iter().map(|(_, place)| place.clone()),
+        ends_apart(met),
     )
 }
 
 fn of_layers(
     layers: impl Iterator<Item = Arc<str>>,
     mut places: impl Iterator<Item = Place>,
+    next: Option<f64>,
 ) -> Option<Gathered> {
     let mut counts: BTreeMap<Arc<str>, usize> = BTreeMap::new();
     layers.for_each(|layer| *counts.entry(layer).or_default() += 1);
@@ -72,7 +74,11 @@ fn of_layers(
     let place = places.next()?;
     Some((
         place,
-        Detail::OpenContours { count, layers },
+        Detail::OpenContours {
+            count,
+            layers,
+            next,
+        },
         places.take(NAMED).collect(),
     ))
 }
@@ -156,8 +162,12 @@ impl Analysis {
         if let Some(rule) = CONTOUR_RULES.iter().find(|rule| rule.rule == first.rule) {
             let places = || own.iter().map(|finding| finding.place.clone());
             let layer = |place: Place| Some(drawing.get(place.entity()?.0)?.layer.clone());
-            let is_many = own.len() >= rule.many;
-            return of_layers(places().filter_map(layer), places()).filter(|_| is_many);
+            if own.len() < rule.many {
+                return None;
+            }
+            let outlook = |finding: &&Finding| self.outlook(drawing, self.index_of(finding)?.0);
+            let met: Vec<Outlook> = own.iter().filter_map(outlook).collect();
+            return of_layers(places().filter_map(layer), places(), ends_apart(&met));
         }
         let rule = LOCAL_RULES.iter().find(|rule| rule.rule == first.rule)?;
         let (key, _) = self.index_of(first)?;

@@ -85,7 +85,7 @@ impl Chains {
         part_of: &(dyn Fn(EntityId) -> Option<u16> + Sync),
     ) -> Chains {
         let mut chains = Chains {
-            cells: Cells::new(join),
+            cells: Cells::new(join, drawing.certain()),
             least,
             ends: None,
             ends_of: Vec::new(),

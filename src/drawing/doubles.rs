@@ -4,7 +4,7 @@ use super::{Drawing, EntityId, Geometry};
 use crate::geometry::{Point, Segment};
 use std::cmp::Ordering;
 
-/// Two entities within this many join tolerances of each other lie in the same place, see `Tolerances::same_place`.
+/// Two entities within this share of the distance at which ends certainly meet lie in the same place, see `Tolerances::same_place`.
 pub(super) const SAME_PLACE: f64 = 0.5;
 
 /// True when each segment of one entity lies within `tolerance` of its counterpart in the other; with `turned` the

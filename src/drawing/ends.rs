@@ -66,24 +66,28 @@ pub(super) type Cell = (i64, i64);
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cells {
     pub(super) join: f64,
+    /// Ends as near as this belong together whatever else is near; at most `join`.
+    pub(super) certain: f64,
     per_unit: f64,
     /// How near a border, in cells, an end of the next cell may be within the join tolerance; with room for rounding.
     near_border: f64,
 }
 
 impl Cells {
-    pub(super) fn new(join: f64) -> Cells {
-        Cells::of_side(join, CELL)
+    pub(super) fn new(join: f64, certain: f64) -> Cells {
+        let certain = certain.min(join);
+        Cells::of_side((join, certain), CELL)
     }
 
     /// Cells that hold few ends where the others hold many.
-    pub(super) fn small(join: f64) -> Cells {
-        Cells::of_side(join, SMALL_CELL)
+    pub(super) fn small(self) -> Cells {
+        Cells::of_side((self.join, self.certain), SMALL_CELL)
     }
 
-    fn of_side(join: f64, side: f64) -> Cells {
+    fn of_side((join, certain): (f64, f64), side: f64) -> Cells {
         Cells {
             join,
+            certain,
             per_unit: 1.0 / (side * join),
             near_border: 1.001 / side,
         }

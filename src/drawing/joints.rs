@@ -1,6 +1,7 @@
 //! Which free ends lie within the join tolerance of each other, and which of them can only be joined to each other.
 
 mod borders;
+mod closing;
 
 use super::doubles::{self, SAME_PLACE};
 use super::ends::{Buckets, Cell, Cells, End, Ends, NO_ENDS, ONE_POINT, has_ends};
@@ -36,6 +37,8 @@ pub(super) struct Joints<'a> {
     dense: Option<Dense>,
     /// By end: its possible partner.
     met: Vec<u32>,
+    /// By end: another one is so near that it cannot be joined to any farther away. Empty where none is joined from farther away.
+    settled: Vec<bool>,
     pub(crate) doubles: Doubles,
 }
 
@@ -90,6 +93,7 @@ impl<'a> Joints<'a> {
             all,
             dense: None,
             met: Vec::new(),
+            settled: Vec::new(),
             doubles: Doubles::default(),
         };
         joints.sort_dense();
@@ -122,6 +126,11 @@ impl<'a> Joints<'a> {
 
     pub(crate) fn join(&self) -> f64 {
         self.cells.join
+    }
+
+    /// The distance at which ends belong together whatever else is near.
+    pub(crate) fn certain(&self) -> f64 {
+        self.cells.certain
     }
 
     /// The one end that an end can be joined to, if neither has another choice.
@@ -186,15 +195,20 @@ impl<'a> Joints<'a> {
         End::both(entity).iter().filter(|end| meets(end)).count()
     }
 
-    /// Hands over every end within the join tolerance of one, with the distance, in no order. The
-    /// other end of the same entity counts where that entity leads round. In a crowd no end sees
-    /// another, nor is it seen.
+    /// Hands over every end within the join tolerance of one, with the distance, in no order: those that certainly meet
+    /// it, else those that certainly meet no other. The other end of the same entity counts where that entity leads round.
+    /// In a crowd no end sees another, nor is it seen.
     pub(crate) fn each_near(&self, end: End, mut look: impl FnMut(End, f64)) {
         let place = self.place(end);
         if place.x.is_nan() || self.is_crowded(end) {
             return;
         }
         let (mut is_dense, mut is_own) = (false, true);
+        let is_settled = |end: End| {
+            self.settled
+                .get(end.index())
+                .is_some_and(|settled| *settled)
+        };
         let mut see = |other: End, cells: &Cells, cell: Cell| {
             let at = self.place(other);
             let apart = at - place;
@@ -205,7 +219,8 @@ impl<'a> Joints<'a> {
             let distance = self.cells.distance(at, place);
             if distance <= self.cells.join
                 && cells.of(at) == cell
-                && (other.entity() != end.entity() || self.leads_round(end.entity()))
+                && (distance <= self.cells.certain || !(is_settled(end) || is_settled(other)))
+                && (other.entity() != end.entity() || self.closes_alone(end.entity(), distance))
             {
                 look(other, distance);
             }
@@ -240,48 +255,6 @@ impl<'a> Joints<'a> {
                     .for_each(|other| see(other, &dense.cells, cell));
             }
         }
-    }
-
-    /// True when an entity whose own ends touch really leads round, and is not just shorter than the join tolerance.
-    pub(crate) fn leads_round(&self, entity: u32) -> bool {
-        let Some(geometry) = self
-            .drawing
-            .get(self.entities[entity as usize])
-            .map(|entity| &entity.geometry)
-        else {
-            return false;
-        };
-        // Two segments lead out and back, or, as the halves of a circle, round something.
-        let encloses = || {
-            let mut segments = geometry.segments_of(self.drawing.flat());
-            let middles = segments
-                .next()
-                .zip(segments.next())
-                .map(|(out, back)| [out, back].map(|segment| segment.point_at(0.5)));
-            middles.is_some_and(|[out, back]| (out - back).norm() > self.cells.join)
-        };
-        geometry.segment_count() > 2
-            || geometry.segment_count() == 2 && encloses()
-            || geometry
-                .segments_of(self.drawing.flat())
-                .any(|segment| segment.as_arc().is_some_and(|arc| !arc.is_minor()))
-    }
-
-    /// True when all of an entity lies within the join tolerance about a place.
-    pub(crate) fn is_crumb(&self, entity: u32, about: Point) -> bool {
-        let near = |point: Point| (point - about).norm() <= self.cells.join;
-        self.drawing
-            .get(self.entities[entity as usize])
-            .is_some_and(|entity| {
-                entity
-                    .geometry
-                    .segments_of(self.drawing.flat())
-                    .all(|segment| {
-                        [0.0, 0.5, 1.0]
-                            .iter()
-                            .all(|&share| near(segment.point_at(share)))
-                    })
-            })
     }
 
     /// The direction in which an entity leaves one of its ends, radians from −π to π.
@@ -328,7 +301,7 @@ impl<'a> Joints<'a> {
         if counts.is_empty() {
             return;
         }
-        let cells = Cells::small(self.cells.join);
+        let cells = self.cells.small();
         let count = counts.values().map(Vec::len).sum();
         let mut ends = Buckets::new(self.entities.len(), count);
         let mut small: FxHashMap<Cell, Vec<End>> = FxHashMap::default();
@@ -349,6 +322,18 @@ impl<'a> Joints<'a> {
     /// Finds the possible partner of each end; returns pairs of entities that lie in one place.
     fn meet(&mut self) -> Vec<(u32, u32)> {
         const STEP: usize = 4096;
+        self.settled = Vec::new();
+        if self.cells.certain < self.cells.join {
+            let is_settled = |index: usize| {
+                let mut nearest = f64::INFINITY;
+                self.each_near(End::at(index), |_, distance| {
+                    nearest = nearest.min(distance)
+                });
+                nearest <= self.cells.certain
+            };
+            let ends = (0..self.end_count()).into_par_iter();
+            self.settled = ends.with_min_len(STEP).map(is_settled).collect();
+        }
         let mut met = vec![NOTHING; self.end_count()];
         let joints = &*self;
         let look = |(step, met): (usize, &mut [u32])| {
@@ -383,7 +368,7 @@ impl<'a> Joints<'a> {
         } else {
             NOTHING
         };
-        let same_place = SAME_PLACE * self.cells.join;
+        let same_place = SAME_PLACE * self.cells.certain;
         self.each_near(end, |other, distance| {
             met = if met == NOTHING {
                 other.index() as u32

@@ -11,8 +11,8 @@ use super::joints::Joints;
 use std::cmp::Ordering;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Two ways to close a loop that differ by less than this share of the join tolerance are equally near: coordinates are
-/// rounded.
+/// Two ways to close a loop that differ by less than this share of the distance at which ends certainly meet are equally
+/// near: coordinates are rounded.
 const ROUNDING: f64 = 0.1;
 
 /// Entities that follow each other without a branch.
@@ -239,7 +239,7 @@ impl Knots<'_> {
         let mut path: Vec<Tip> = Vec::new();
         // By place on the path: how many strands before it are no crumbs.
         let mut whole_before: Vec<usize> = vec![0];
-        let rounding = ROUNDING * self.joints.join();
+        let rounding = ROUNDING * self.joints.certain();
         let mut next = Some(begin);
         loop {
             if let Some(tip) = next.take() {

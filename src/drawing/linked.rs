@@ -74,7 +74,17 @@ impl Linked {
                 End::both(head)[usize::from(head_reversed)],
                 End::both(last)[usize::from(!last_reversed)],
             ];
-            if closed || joints.is_lone(start) && joints.is_lone(end) {
+            let about = [start, end].map(|end| joints.place(end));
+            let lies_about_its_ends = |pieces: &[(u32, bool)]| {
+                let mut pieces = pieces.iter();
+                pieces.all(|(at, _)| about.iter().all(|&about| joints.is_crumb(*at, about)))
+            };
+            // What is no larger than the gap between its ends does not close.
+            let is_dot = closed
+                && !is_ring
+                && joints.distance(start, end) > joints.certain()
+                && lies_about_its_ends(pieces);
+            if closed && !is_dot || joints.is_lone(start) && joints.is_lone(end) {
                 // Two entities that close a loop may lie on each other.
                 let by_ends = !(closed && pieces.len() == 2
                     || !is_special.is_empty()
@@ -88,13 +98,10 @@ impl Linked {
                 });
                 continue;
             }
-            let about = [start, end].map(|end| joints.place(end));
             let leads_round = pieces.len() == 1 && joints.leads_round(head);
             let is_crumb = !leads_round
                 && joints.distance(start, end) <= joints.join()
-                && pieces
-                    .iter()
-                    .all(|(at, _)| about.iter().all(|&about| joints.is_crumb(*at, about)));
+                && lies_about_its_ends(pieces);
             strands.push(Strand {
                 ends: [start, end],
                 count: pieces.len(),

@@ -127,8 +127,19 @@ impl Drawing {
     ///
     /// [`Tolerances::flat`]: crate::geometry::Tolerances::flat
     pub(crate) fn flat(&self) -> f64 {
+        self.tolerances().flat
+    }
+
+    /// [`Tolerances::certain`] in drawing units: ends this near to each other belong together whatever else is near.
+    ///
+    /// [`Tolerances::certain`]: crate::geometry::Tolerances::certain
+    fn certain(&self) -> f64 {
+        self.tolerances().certain
+    }
+
+    fn tolerances(&self) -> Tolerances {
         let unit = self.unit.or(self.assumed_unit).unwrap_or(Unit::MILLIMETRE);
-        Tolerances::default().flat / unit.mm
+        Tolerances::default().in_units(unit.mm)
     }
 
     /// Segment `index` of an entity in its own direction.

@@ -75,15 +75,16 @@ told! {
         => say!(no_path_of_the_wire_along_this_contour_holds, telling.tool());
     /// There is a path, but the language of the program cannot express it.
     Unwritable(what: Unwritable) => what.sentence();
-    /// The ends of a contour are `distance` apart.
-    OpenContour { distance: f64 } => say!(contour_is_open_its_ends_are_mm, telling.mm(*distance));
+    /// The ends of a contour are `distance` apart; `next` is the distance of other ends, where these would be joined under another setting.
+    OpenContour { distance: f64, next: Option<f64> }
+        => say!(contour_is_open_its_ends_are_mm, telling.mm(*distance)) + &to_join(*next, telling);
     /// So many that they are no slips, by layers.
-    OpenContours { count: usize, layers: Vec<(Arc<str>, usize)> } => {
+    OpenContours { count: usize, layers: Vec<(Arc<str>, usize)>, next: Option<f64> } => {
         let more = layers.len().saturating_sub(LISTED);
         let named = layers.iter().take(LISTED);
         let mut listed: Vec<String> = named.map(|(name, own)| say!(on_its_layer, name, own)).collect();
         listed.extend((more > 0).then(|| say!(and_more_of_them, more)));
-        say!(open_contours_name_the_layer, count, listed.join(say!(comma)))
+        say!(open_contours_name_the_layer, count, listed.join(say!(comma))) + &to_join(*next, telling)
     };
     /// Two ends that belong together are `distance` apart.
     Gap { distance: f64 } => say!(ends_do_not_meet, telling.mm(*distance));
@@ -179,6 +180,13 @@ const LISTED: usize = 6;
 
 /// mm; facets below this cannot be felt or measured.
 const FACET: f64 = 0.001;
+
+/// That ends this far apart would be one contour under another `join`, in mm with two digits.
+fn to_join(next: Option<f64>, telling: Telling) -> String {
+    let join = |next: f64| ((next * telling.unit_mm * 100.0).floor() + 1.0) / 100.0;
+    let sentence = |next| say!(an_end_would_be_joined, telling.mm(next), join(next));
+    next.map_or_else(String::new, sentence)
+}
 
 fn unseen(layer: &str, visibility: Visibility, count: usize) -> String {
     let entities = say!(entities, count);

@@ -1,7 +1,8 @@
 //! Lines and circles: those that carry segments, and those on which the centre of a disc may lie that touches something.
 
 use super::intersection::Meetings;
-use super::{Point, Segment, Vector, circle_circle, left_normal, line_circle, line_line};
+use super::{Arc, Point, Segment, Vector, circle_circle, left_normal, line_circle, line_line};
+use std::f64::consts::PI;
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Locus {
@@ -85,5 +86,38 @@ impl Locus {
                 },
             ) => circle_circle(*a, *ra, *b, *rb),
         }
+    }
+}
+
+/// Where two segments that follow each other meet once each has been made longer or shorter, on its own line or circle, by no
+/// more than their ends are apart. `None` also where that is much of a segment, or an arc goes nearly all round.
+pub(crate) fn corner_between(before: &Segment, behind: &Segment) -> Option<Point> {
+    let (end, start) = (before.end(), behind.start());
+    let reach = (start - end).norm();
+    let has_room = |segment: &Segment| {
+        let is_open = segment
+            .as_arc()
+            .is_none_or(|arc| arc.sweep.abs() < 1.9 * PI);
+        is_open && segment.length() > 2.0 * reach
+    };
+    if !has_room(before) || !has_room(behind) {
+        return None;
+    }
+    let farther = |corner: &Point| (corner - end).norm().max((corner - start).norm());
+    let corners = Locus::of(before).meet(&Locus::of(behind));
+    let nearest =
+        (corners.into_iter()).min_by(|one, other| farther(one).total_cmp(&farther(other)));
+    nearest.filter(|corner| farther(corner) <= reach)
+}
+
+/// A segment with its end (or, with `at_end` false, its start) at another point of its line or circle.
+pub(crate) fn led_to(segment: &Segment, at_end: bool, to: Point) -> Segment {
+    let (start, end) = match at_end {
+        true => (segment.start(), to),
+        false => (to, segment.end()),
+    };
+    match segment {
+        Segment::Line(_) => Segment::line(start, end),
+        Segment::Arc(arc) => Segment::Arc(Arc::about(arc.center, start, end, arc.sweep > 0.0)),
     }
 }

@@ -31,7 +31,7 @@ pub(crate) use ellipse::EllipticArc;
 pub(crate) use few::Few;
 pub(crate) use grid::Grid;
 pub(crate) use intersection::{circle_circle, line_circle, line_line};
-pub(crate) use locus::Locus;
+pub(crate) use locus::{Locus, corner_between, led_to};
 pub(crate) use segment::Line;
 pub use segment::Segment;
 pub(crate) use shells::{Shell, Shells};

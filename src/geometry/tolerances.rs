@@ -5,6 +5,8 @@
 pub struct Tolerances {
     /// Two end points closer than this belong together when entities are chained.
     pub join: f64,
+    /// Closer than this they belong together whatever else is near: at most what `join` is where nobody has set it.
+    pub(crate) certain: f64,
     /// A radius no further than this below the correction is rounding, not a fault.
     pub(crate) report: f64,
     /// Smaller differences cannot be measured on the part, and warnings ignore them.
@@ -31,6 +33,7 @@ impl Default for Tolerances {
     fn default() -> Self {
         Tolerances {
             join: 0.01,
+            certain: 0.01,
             report: 1e-6,
             resolution: 1e-3,
             arc_fit: 1e-3,
@@ -50,6 +53,7 @@ impl Tolerances {
     pub(crate) fn in_units(self, unit_mm: f64) -> Tolerances {
         Tolerances {
             join: self.join / unit_mm,
+            certain: self.certain / unit_mm,
             report: self.report / unit_mm,
             resolution: self.resolution / unit_mm,
             arc_fit: self.arc_fit / unit_mm,

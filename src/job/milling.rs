@@ -24,7 +24,7 @@ pub(super) fn judged(
     let (mut of_rules, _) = analysis.findings(&drawing, usize::MAX);
     let unit_mm = settings.unit_of(&drawing).mm;
     for finding in &mut of_rules {
-        if let Detail::OpenContour { distance } = finding.detail
+        if let Detail::OpenContour { distance, .. } = finding.detail
             && distance * unit_mm < MEANT_CLOSED
         {
             finding.severity = Severity::Error;

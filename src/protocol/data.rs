@@ -168,7 +168,7 @@ impl FindingData {
                 self.uncut = Some(*uncut);
             }
             Detail::OffsetCollapse { required, .. } => self.required = Some(*required),
-            Detail::OpenContour { distance } | Detail::Gap { distance } => {
+            Detail::OpenContour { distance, .. } | Detail::Gap { distance } => {
                 self.distance = Some(*distance)
             }
             Detail::DoesNotFit(misfit) => {

@@ -370,7 +370,7 @@ fn fixes(outlook: &Outlook, observation: Observation) -> Vec<Fix> {
         radius: fit.radius,
     };
     vec![Fix {
-        in_fix_all: moved <= outlook.limits.tolerances.join,
+        in_fix_all: moved <= outlook.limits.tolerances.certain,
         ..Fix::new(kind, changes)
     }]
 }

@@ -1,7 +1,7 @@
 //! `gap`: the ends of two entities that follow each other do not meet, but come within the join tolerance.
 //!
 //! They are one contour, and the path is laid as if they met; the control sees a step in the coordinates. Fix: one end
-//! moves onto the other.
+//! moves onto the other, or both lead on to where they meet.
 
 use super::ends::joined;
 use super::{LocalRule, Observation, Outlook};
@@ -65,7 +65,7 @@ fn fixes(outlook: &Outlook, observation: Observation) -> Vec<Fix> {
         return Vec::new();
     };
     let distance = (behind.geometry.start() - before.geometry.end()).norm();
-    let change = joined(outlook.drawing, &before, &behind).filter(|_| distance > least(outlook));
-    let fix = |change| Fix::new(FixKind::Snap { distance }, vec![change]);
-    change.map(fix).into_iter().collect()
+    let changes = joined(outlook.drawing, &before, &behind).filter(|_| distance > least(outlook));
+    let fix = |changes| Fix::new(FixKind::Snap { distance }, changes);
+    changes.map(fix).into_iter().collect()
 }

@@ -21,6 +21,7 @@ pub(crate) mod small_radius;
 pub(crate) mod units;
 mod wall;
 
+pub(crate) use open_contour::ends_apart;
 pub(crate) use wall::{Wall, part_for_good};
 
 use crate::drawing::{Contour, ContourIndex, ContourSegment, Drawing, EntityId};

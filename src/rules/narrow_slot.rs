@@ -154,6 +154,8 @@ fn narrowest(one: &Wall, other: &Wall, same_contour: bool) -> Option<Slot> {
     let limits = one.outlook.limits;
     let tolerances = &limits.tolerances;
     let joints = Joints::of(one, other, same_contour, tolerances.touch);
+    // Ends that do not quite meet are one place.
+    let about_joint = joints.gap + tolerances.touch;
     let (a, b) = (one.geometry(), other.geometry());
     let mut best: Option<Slot> = None;
     let mut consider =
@@ -163,7 +165,7 @@ fn narrowest(one: &Wall, other: &Wall, same_contour: bool) -> Option<Slot> {
                 width > tolerances.touch && width < required(one, other) - tolerances.report;
             if narrow
                 && best.is_none_or(|best| width < best.width)
-                && !(joints.are_at(from, tolerances.touch) && joints.are_at(to, tolerances.touch))
+                && !(joints.are_at(from, about_joint) && joints.are_at(to, about_joint))
                 && !is_joined(one, other, from, to)
                 && let Some(sides) = sides((to - from) / width)
             {

@@ -3,11 +3,11 @@
 //! The wire has no side on an open contour, and nothing drops out of the plate. Fix: close it with a line; ends that
 //! lie near each other, and near no other one, are brought together.
 
-use super::ends::{end_moved, joined};
-use super::{ContourRule, Outlook};
+use super::ends::{joined, led_together};
+use super::{ContourRule, Limits, Outlook};
 use crate::drawing::{Change, ContourSegment, Geometry};
 use crate::finding::{Detail, Fix, FixKind, Place, Rule, Severity};
-use crate::geometry::{Point, Segment, line_line};
+use crate::geometry::{Bounds, Grid, Point, Tolerances};
 use crate::settings::{Compensation, Effective};
 
 pub(crate) const RULE: ContourRule = ContourRule {
@@ -23,10 +23,15 @@ pub(crate) const RULE: ContourRule = ContourRule {
 /// So many open contours are no slips: the drawing holds more than what is cut, as a sheet of several views.
 const MANY: usize = 8;
 
-/// A gap below this share of the contour, or below this many join tolerances (1 mm), was most likely meant to be
+/// A gap below this share of the contour, or below this many times the distance at which ends certainly meet (1 mm), was most likely meant to be
 /// closed.
 const SHARE: f64 = 0.05;
 const JOINS: f64 = 100.0;
+
+/// Ends within this many times the distance at which ends certainly meet (0.1 mm) may have been rounded apart.
+const JOINABLE: f64 = 10.0;
+/// In a drawing of more entities, each contour is not compared with all of them.
+const LOOKED_THROUGH: usize = 4_000;
 
 fn holds(outlook: &Outlook) -> bool {
     !outlook.contour.closed
@@ -52,9 +57,86 @@ fn ends(outlook: &Outlook) -> Option<(ContourSegment, ContourSegment)> {
 
 fn detail(outlook: &Outlook) -> Option<Detail> {
     let (last, first) = ends(outlook)?;
+    let own = [last.geometry.end(), first.geometry.start()];
+    let is_small = outlook.drawing.len() <= LOOKED_THROUGH;
     Some(Detail::OpenContour {
-        distance: (first.geometry.start() - last.geometry.end()).norm(),
+        distance: (own[1] - own[0]).norm(),
+        next: is_small.then(|| next_end(outlook, own)).flatten(),
     })
+}
+
+/// The distance, more than what is joined, at which the ends of this contour lie from the next ones that are free; the larger of both.
+fn next_end(outlook: &Outlook, own: [Point; 2]) -> Option<f64> {
+    let pieces = &outlook.contour.pieces;
+    let others = outlook.drawing.entities().filter_map(|(id, entity)| {
+        let (start, end) = entity.geometry.ends()?;
+        let is_near = [start, end].iter().any(|point| {
+            let reach = JOINABLE * outlook.limits.tolerances.certain;
+            own.iter().any(|end| (point - end).norm() <= reach)
+        });
+        let is_other = is_near && !pieces.iter().any(|piece| piece.entity == id);
+        is_other.then_some([start, end])
+    });
+    let others: Vec<Point> = others.flatten().collect();
+    farthest([(own, outlook.contour.len())], outlook.limits, |_, _| {
+        others.clone()
+    })
+}
+
+/// The same of many contours, among their ends.
+pub(crate) fn ends_apart(met: &[Outlook]) -> Option<f64> {
+    let limits = met.first()?.limits;
+    let all = met.iter().filter_map(|outlook| {
+        let (last, first) = ends(outlook)?;
+        let own = [last.geometry.end(), first.geometry.start()];
+        Some((own, outlook.contour.len()))
+    });
+    let all: Vec<([Point; 2], usize)> = all.collect();
+    let mut grid = Grid::default();
+    for (number, (ends, _)) in all.iter().enumerate() {
+        let insert = |&end: &Point| grid.insert((number, end), Bounds::of_points(&[end]));
+        ends.iter().for_each(insert);
+    }
+    let reach = JOINABLE * limits.tolerances.certain;
+    farthest(all.iter().copied(), limits, |own, at| {
+        let mut near = Vec::new();
+        grid.near(&Bounds::of_disc(at, reach), |(number, end), _| {
+            near.extend((number != own).then_some(end));
+        });
+        near
+    })
+}
+
+/// The largest distance from an end of contours, each with its number of segments, to the next one that is free: among `others` near it
+/// and, of more than a segment, the contour's own.
+fn farthest(
+    contours: impl IntoIterator<Item = ([Point; 2], usize)>,
+    limits: &Limits,
+    others: impl Fn(usize, Point) -> Vec<Point>,
+) -> Option<f64> {
+    let Tolerances { join, certain, .. } = limits.tolerances;
+    let mut farthest = None;
+    for (number, (ends, segments)) in contours.into_iter().enumerate() {
+        for (end, own) in [(ends[0], ends[1]), (ends[1], ends[0])] {
+            let others = others(number, end);
+            let is_free = |(at, other): &(usize, &Point)| {
+                let mut rest = others.iter().enumerate().filter(|(rest, _)| rest != at);
+                rest.all(|(_, rest)| (rest - *other).norm() > certain)
+            };
+            let free = others
+                .iter()
+                .enumerate()
+                .filter(is_free)
+                .map(|(_, other)| *other);
+            let own = (segments > 1).then_some(own);
+            let distances = free.chain(own).map(|other| (other - end).norm());
+            let next = distances.fold(f64::INFINITY, f64::min);
+            if next > join && next <= JOINABLE * certain {
+                farthest = Some(farthest.map_or(next, |farthest: f64| farthest.max(next)));
+            }
+        }
+    }
+    farthest
 }
 
 fn fixes(outlook: &Outlook) -> Vec<Fix> {
@@ -102,47 +184,20 @@ fn fixes(outlook: &Outlook) -> Vec<Fix> {
     // No wire passes an opening so narrow, and nothing else can have been meant.
     let is_slip = length < SHARE * along && length < outlook.limits.correction;
     let is_sure = contour.len() > 1 && is_slip && are_alone(outlook, [from, to]);
-    let snapped = is_sure.then(|| brought_together(outlook, &last, &first));
+    // Both keep their directions where they can.
+    let snapped = is_sure.then(|| {
+        let led = led_together(outlook.drawing, &last, &first);
+        led.or_else(|| joined(outlook.drawing, &last, &first))
+    });
     let snap = |changes| Fix::new(FixKind::Snap { distance: length }, changes);
     let snap = snapped.flatten().map(snap);
-    let is_near = length < (SHARE * along).max(JOINS * outlook.limits.tolerances.join);
+    let is_near = length < (SHARE * along).max(JOINS * outlook.limits.tolerances.certain);
     let close = Fix {
         preferred: is_near && snap.is_none(),
         in_fix_all: false,
         ..Fix::new(FixKind::Close { length }, vec![change])
     };
     snap.into_iter().chain([close]).collect()
-}
-
-/// The changes after which the last segment ends where the first one begins: straight ones keep their directions, where
-/// these meet near by.
-fn brought_together(
-    outlook: &Outlook,
-    last: &ContourSegment,
-    first: &ContourSegment,
-) -> Option<Vec<Change>> {
-    let drawing = outlook.drawing;
-    let corner = met(last, first).and_then(|corner| {
-        let both = [
-            end_moved(drawing, last, true, corner),
-            end_moved(drawing, first, false, corner),
-        ];
-        both.into_iter().collect()
-    });
-    corner.or_else(|| joined(drawing, last, first).map(|change| vec![change]))
-}
-
-/// Where two straight segments that follow each other would meet, no farther from either end than these are from each
-/// other.
-fn met(last: &ContourSegment, first: &ContourSegment) -> Option<Point> {
-    let (Segment::Line(last), Segment::Line(first)) = (&last.geometry, &first.geometry) else {
-        return None;
-    };
-    let (from, to) = (last.end, first.start);
-    let corner = line_line(from, last.direction(), to, first.direction())?;
-    let reach = (to - from).norm();
-    let is_near = |end: Point| (corner - end).norm() <= reach;
-    (is_near(from) && is_near(to)).then_some(corner)
 }
 
 /// Whether no entity of another contour ends as near to one of these ends as a wire is wide.

@@ -31,8 +31,8 @@ fn check(one: &Wall, other: &Wall, same_contour: bool) -> Vec<PairObservation> {
         return Vec::new();
     }
     // Ends that are joined within the tolerance may reach past each other.
-    let joined = Joints::of(one, other, same_contour, tolerances.touch).neighbours
-        && length <= tolerances.join;
+    let joints = Joints::of(one, other, same_contour, tolerances.touch);
+    let joined = joints.neighbours && length <= tolerances.certain.max(joints.gap);
     if joined {
         Vec::new()
     } else {

@@ -61,7 +61,12 @@ fn contact(one: &Wall, other: &Wall, same_contour: bool) -> Option<Contact> {
     if a.length() <= tolerances.zero_length || b.length() <= tolerances.zero_length {
         return None;
     }
-    let joints = Joints::of(one, other, same_contour, tolerances.join);
+    let joints = Joints::of(one, other, same_contour, tolerances.certain);
+    // Ends that are joined from farther apart may reach past each other.
+    let about_joint = match joints.gap > tolerances.certain {
+        true => tolerances.join,
+        false => tolerances.certain,
+    };
     if shared_length(a, b, tolerances.same_place) > tolerances.same_place {
         return None;
     }
@@ -71,7 +76,7 @@ fn contact(one: &Wall, other: &Wall, same_contour: bool) -> Option<Contact> {
         touch: tolerances.touch,
         same_place: tolerances.same_place,
     };
-    let at_joint = |point: Point| joints.are_at(point, tolerances.join);
+    let at_joint = |point: Point| joints.are_at(point, about_joint);
     // Where the two come this near without crossing, another contact close by is not a separate
     // one.
     let ends_of = |ends: &Segment, on: Segment| {

@@ -94,10 +94,9 @@ fn in_chain(outlook: &Outlook, index: isize, place: &ContourSegment) -> Option<V
     {
         return None;
     }
-    Some(vec![
-        joined(outlook.drawing, &before, &behind)?,
-        Change::RemoveEntity {
-            entity: place.entity,
-        },
-    ])
+    let mut changes = joined(outlook.drawing, &before, &behind)?;
+    changes.push(Change::RemoveEntity {
+        entity: place.entity,
+    });
+    Some(changes)
 }

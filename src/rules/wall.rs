@@ -145,6 +145,8 @@ pub(crate) struct Joints {
     pub(crate) points: Few<Point, 4>,
     /// One directly follows the other, at one end only.
     pub(crate) neighbours: bool,
+    /// The largest distance of two ends that are one joint.
+    pub(crate) gap: f64,
 }
 
 impl Joints {
@@ -169,7 +171,11 @@ impl Joints {
                 joints
                     .points
                     .extend([from.geometry().end(), to.geometry().start()]);
-                direct += usize::from(steps == 1);
+                if steps == 1 {
+                    let apart = to.geometry().start() - from.geometry().end();
+                    joints.gap = joints.gap.max(apart.norm());
+                    direct += 1;
+                }
             }
         }
         joints.neighbours = direct == 1;

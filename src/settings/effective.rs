@@ -240,6 +240,8 @@ impl Effective {
             pause: program.pause(),
             pause_between_passes: program.pause_between_passes.clone(),
             tolerances: Tolerances {
+                join: settings.join(),
+                certain: settings.join().min(Tolerances::default().certain),
                 arc_fit: settings.arc_fit(),
                 resolution: settings.resolution(),
                 ..Tolerances::default()

@@ -21,6 +21,9 @@ use std::collections::BTreeMap;
 /// nanometre is noise.
 const ARC_FIT: Range = Range::of(1e-6, 0.1);
 
+/// Below a micrometre no two ends of a real drawing meet; a millimetre is more than any wire.
+const JOINS: Range = Range::of(0.001, 1.0);
+
 /// Digits of controllers: with fewer than four nothing larger than a millimetre could be cut.
 const DIGITS: Range = Range::of(4.0, 9.0);
 
@@ -60,6 +63,9 @@ tables! {
         /// Deviations below this (mm) are not reported. A shorter segment (up to 0.005) is no part of any contour,
         /// and the corner that it hides counts as that corner; `gap`, `near-tangent`, `sharp-corner` and `overlap` say nothing of less.
         resolution: f64 = 0.001 => number in Range::FROM_ZERO;
+        /// Ends of entities up to this far apart (mm) belong together: the contour is closed, and [`gap`](rules/gap.md) tells the distance. More
+        /// than the default is for drawings whose ends were rounded, as those in inches with three decimals; of several ends the nearest are joined.
+        join: f64 = 0.01 => number in JOINS;
         /// Several passes.
         passes: Passes => table;
         /// Role of the entities on a layer, by its name. An entity's own `role` comes first. A contour takes the role of its first entity that

@@ -7,7 +7,7 @@ use super::crowd::{MOST_IN_A_SQUARE, crowd};
 use super::job::{Job, ROUNDING};
 use super::loops::{self, Found};
 use super::nest::{Before, Nest};
-use super::offset::{Wall, walls};
+use super::offset::Wall;
 use super::open_contour::{Lost, one_side, there_and_back};
 use super::path::Refusal;
 use super::proof::{Beside, Proof, Unproved};
@@ -85,7 +85,7 @@ impl Job<'_> {
         closed: bool,
     ) -> Result<(Vec<Wall>, Walls, Outcome), Refusal> {
         let of = |shortest: f64| {
-            let walls = walls(count, &segment, closed, self.units(shortest));
+            let walls = self.walls_of(count, &segment, closed, shortest);
             let own = Walls::of(&walls);
             (walls, own)
         };

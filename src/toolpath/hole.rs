@@ -198,7 +198,7 @@ impl Job<'_> {
     fn holes_that_meet(&self, mut holes: Vec<(Point, usize)>) -> Vec<Finding> {
         let (diameter, same) = (
             self.units(self.settings.start_hole.unwrap_or_default()),
-            self.units(self.settings.tolerances.join),
+            self.units(self.settings.tolerances.certain),
         );
         holes.sort_by(|a, b| a.0.x.total_cmp(&b.0.x).then(a.0.y.total_cmp(&b.0.y)));
         let mut faults = Vec::new();

@@ -2,7 +2,7 @@
 
 use super::offset::{Wall, walls};
 use super::path::Refusal;
-use crate::drawing::{Contour, Drawing, EntityId, Outline};
+use crate::drawing::{Contour, ContourSegment, Drawing, EntityId, Outline};
 use crate::geometry::Point;
 use crate::settings::Effective;
 use rustc_hash::FxHashMap;
@@ -116,8 +116,20 @@ impl Job<'_> {
     /// The walls of a contour.
     pub(crate) fn walls(&self, contour: &Contour) -> Vec<Wall> {
         let segment = |at: usize| contour.segment(self.drawing, at);
-        let zero_length = self.units(self.settings.tolerances.zero_length);
-        walls(contour.len(), segment, contour.closed, zero_length)
+        let shortest = self.settings.tolerances.zero_length;
+        self.walls_of(contour.len(), segment, contour.closed, shortest)
+    }
+
+    /// The walls of a contour of `count` segments without those that are no longer than `shortest`, mm.
+    pub(crate) fn walls_of(
+        &self,
+        count: usize,
+        segment: impl Fn(usize) -> Option<ContourSegment> + Sync + Send,
+        closed: bool,
+        shortest: f64,
+    ) -> Vec<Wall> {
+        let certain = self.units(self.settings.tolerances.certain);
+        walls(count, segment, closed, self.units(shortest), certain)
     }
 
     /// A point of the settings, mm, in drawing units.

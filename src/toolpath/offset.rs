@@ -3,7 +3,9 @@
 use super::cores::{any, each};
 use super::path::{PathSegment, Source};
 use crate::drawing::ContourSegment;
-use crate::geometry::{Arc, Line, Point, Segment, Vector, equally_far, left_normal};
+use crate::geometry::{
+    Arc, Line, Point, Segment, Vector, corner_between, equally_far, led_to, left_normal,
+};
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 /// A segment of a contour as it is cut: without gaps to its neighbours, in the direction of the cut.
@@ -21,13 +23,14 @@ const NO_WALL: Wall = Wall {
     source: Source::Tab,
 };
 
-/// The walls of a contour of `count` segments. Both neighbours close a gap within the join tolerance half way, and segments without
-/// length are left out.
+/// The walls of a contour of `count` segments. Both neighbours close a gap within the join tolerance: where it is more than ends that
+/// certainly meet are apart, on their own lines and circles, if these meet near by; else half way. Segments without length are left out.
 pub(super) fn walls(
     count: usize,
     segment: impl Fn(usize) -> Option<ContourSegment> + Sync + Send,
     closed: bool,
     zero_length: f64,
+    certain: f64,
 ) -> Vec<Wall> {
     let is_any_short = AtomicBool::new(false);
     let is_long = |wall: &Wall| wall.geometry.length() > zero_length;
@@ -77,7 +80,13 @@ pub(super) fn walls(
     for index in 0..joints {
         let next = next(index);
         let (end, start) = (walls[index].geometry.end(), walls[next].geometry.start());
-        if end != start {
+        let [before, behind] = [walls[index].geometry, walls[next].geometry];
+        if (start - end).norm() > certain
+            && let Some(corner) = corner_between(&before, &behind)
+        {
+            walls[index].geometry = led_to(&before, true, corner);
+            walls[next].geometry = led_to(&behind, false, corner);
+        } else if end != start {
             let middle = end + (start - end) * 0.5;
             walls[index].geometry = with_ends(
                 &walls[index].geometry,

@@ -8,7 +8,7 @@ use super::clearance::Walls;
 use super::contour_path::{Along, Fault, Laid};
 use super::corners::{Element, elements};
 use super::job::Job;
-use super::offset::{Wall, walls};
+use super::offset::Wall;
 use super::path::{Refusal, Source};
 use super::reuse::follows;
 use super::skim::Rough;
@@ -322,8 +322,8 @@ impl Cut<'_> {
         let is_beside_rough =
             job.settings.passes.skim_corner() == SkimCorner::ConstantStock && is_after_rough;
         if last.correction.abs() <= rounding && !is_after_rough {
-            let zero_length = job.units(job.settings.tolerances.zero_length);
-            let walls = walls(contour.count, contour.segment, true, zero_length);
+            let shortest = job.settings.tolerances.zero_length;
+            let walls = job.walls_of(contour.count, contour.segment, true, shortest);
             let path = elements(&walls);
             return Ok(Last::of(walls, None, path));
         }

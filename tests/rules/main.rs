@@ -4,6 +4,7 @@ mod corners;
 mod crumbs;
 mod doubles;
 mod ends;
+mod joined;
 mod sides;
 mod whole;
 

@@ -103,6 +103,7 @@ declare! {
     the_electrode_that_mills => "the electrode";
     nothing_is_left_of_the_outline(required, tool) => "nothing is left of the outline at a correction of {required} mm: {tool} does not fit in";
     contour_is_open_its_ends_are_mm(distance) => "contour is open: its ends are {distance} mm apart";
+    an_end_would_be_joined(distance, join) => "; an end is {distance} mm from the next one: `join = {join:.2}` would join them";
     ends_do_not_meet(distance) => "ends do not meet: they are {distance} mm apart, within the join tolerance";
     entity_lies_in_the_same_place_as_another(tool) => "entity lies in the same place as another: {tool} would cut it twice";
     entities_of_the_outline_lie_there_twice(count, tool) => "{count} entities of the outline lie in the same place as others: {tool} would cut them twice";

@@ -103,6 +103,7 @@ translate! {
     the_electrode_that_mills => "电极";
     nothing_is_left_of_the_outline(required, tool) => "按补偿量 {required} mm，轮廓全部消失：{tool}放不进去";
     contour_is_open_its_ends_are_mm(distance) => "轮廓不封闭：两端相距 {distance} mm";
+    an_end_would_be_joined(distance, join) => "；有一端离最近的端点 {distance} mm：设 `join = {join:.2}` 即连在一起";
     ends_do_not_meet(distance) => "两端没有接上：相距 {distance} mm，在连接公差之内";
     entity_lies_in_the_same_place_as_another(tool) => "图元与另一图元重合：{tool}会切两遍";
     entities_of_the_outline_lie_there_twice(count, tool) => "轮廓中有 {count} 个图元与其他图元重合：{tool}会切两遍";

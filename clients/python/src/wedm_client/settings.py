@@ -142,6 +142,7 @@ class Settings(TypedDict, total=False):
     units: Literal["mm", "inch"]
     margin: float
     resolution: float
+    join: float
     layers: Mapping[str, Literal["opening", "punch", "both", "left", "right", "ignore"]]
     linetypes: Mapping[str, Literal["opening", "punch", "both", "left", "right", "ignore"]]
     contours: Mapping[str, Literal["opening", "punch", "both", "left", "right", "ignore"]]
