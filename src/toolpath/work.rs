@@ -159,7 +159,7 @@ pub(crate) fn largest_of_arcs(
     let unit_mm = settings.unit_of(drawing).mm;
     let mut smallest: Option<LargestWire> = None;
     for (index, outline) in outlines.iter().enumerate() {
-        if outline.contour.double_of.is_some() || outline.role == Role::Ignore || !is_cut(index) {
+        if outline.contour.double_of.is_some() || outline.is_on_line() || !is_cut(index) {
             continue;
         }
         let uses = uses_of(outline, settings);
