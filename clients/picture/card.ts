@@ -112,7 +112,7 @@ export class Cards {
     };
     // An open contour has no inside: its sides are those of the direction in which it is drawn.
     const shapes: [Role, string][] = contour.closed ? [["opening", t("Opening")], ["punch", t("Punch")]] : [["left", t("Left")], ["right", t("Right")]];
-    const roles: [Role, string][] = [...shapes, ["ignore", t("Not cut")]];
+    const roles: [Role, string][] = [...shapes, ["line", t("On the line")], ["ignore", t("Not cut")]];
     const sides = row(t("Side"), ...roles.map(([role, name]) => {
       const button = made("button", name, "");
       button.setAttribute("aria-pressed", String(contour.role === role));

@@ -114,7 +114,7 @@ export type Said = { [Key in keyof ContourSettings]?: ContourSettings[Key] | nul
 
 const isIndex = (value: unknown): value is number => Number.isInteger(value) && Number(value) >= 0;
 const isPoint = (value: unknown): value is [number, number] => Array.isArray(value) && value.length === 2 && value.every(Number.isFinite);
-const ROLES: unknown[] = ["opening", "punch", "both", "left", "right", "ignore"];
+const ROLES: unknown[] = ["opening", "punch", "both", "left", "right", "line", "ignore"];
 
 /** The page is ours, but its messages are checked all the same. */
 export function fromPage(message: unknown): FromPage | null {

@@ -18,7 +18,7 @@ export type Direction = "ccw" | "cw";
 /**
  * The kind of outline: it decides on which side the wire runs.
  */
-export type Role = "opening" | "punch" | "both" | "left" | "right" | "ignore";
+export type Role = "opening" | "punch" | "both" | "left" | "right" | "line" | "ignore";
 /**
  * Side of the contour on which the wire runs, where neither the entity nor its layer says.
  */

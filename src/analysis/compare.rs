@@ -218,7 +218,8 @@ impl<'a> RunWalls<'a> {
         let mut near = groups
             .flat_map(|(group, _)| group)
             .filter(|(_, bounds)| bounds.touches(area));
-        near.any(|(wall, _)| wall.geometry().distance_to(center) < radius)
+        // A cut on the line is no wall.
+        near.any(|(wall, _)| !wall.outlook.on_line && wall.geometry().distance_to(center) < radius)
     }
 }
 

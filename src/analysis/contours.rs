@@ -9,6 +9,7 @@ use crate::drawing::{
 use crate::finding::{Aside, Side};
 use crate::geometry::Bounds;
 use crate::settings::Effective;
+use rustc_hash::FxHashMap;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -64,6 +65,13 @@ impl Analysis {
         }
     }
 
+    /// True for a contour that is cut on the line, which only a role of its own says.
+    pub(super) fn is_on_line(&self, key: ContourKey) -> bool {
+        self.known
+            .get(&key)
+            .is_some_and(|known| known.stated == Some(Role::Line))
+    }
+
     pub(super) fn wire_side(&self, key: ContourKey, role: Role) -> Option<Side> {
         if matches!(role, Role::Both | Role::Ignore) {
             return None;
@@ -117,35 +125,39 @@ impl Analysis {
     /// nesting. A side of the direction (left, right) does not apply to a closed one.
     pub(super) fn roles(&self, drawing: &Drawing, keys: &[ContourKey]) -> Vec<Role> {
         let everywhere = self.settings.side.role();
-        let depths = match everywhere {
-            Some(_) => Vec::new(),
+        let depths: FxHashMap<ContourKey, usize> = match everywhere {
+            Some(_) => FxHashMap::default(),
             None => {
-                let contours: Vec<_> = keys
+                // What is cut on the line encloses nothing.
+                let (keys, contours): (Vec<ContourKey>, Vec<_>) = keys
                     .iter()
+                    .filter(|key| !self.is_on_line(**key))
                     .filter_map(|key| {
-                        Some((self.chains.get(*key)?, self.known.get(key)?.index.bounds()))
+                        let bounds = self.known.get(key)?.index.bounds();
+                        Some((*key, (self.chains.get(*key)?, bounds)))
                     })
-                    .collect();
-                self.depths_by_part(drawing, &contours)
+                    .unzip();
+                let depths = self.depths_by_part(drawing, &contours);
+                keys.into_iter().zip(depths).collect()
             }
         };
-        let nested = |position: usize| {
-            if depths.get(position).is_some_and(|depth| depth % 2 == 1) {
+        let nested = |key: &ContourKey| {
+            if depths.get(key).is_some_and(|depth| depth % 2 == 1) {
                 Role::Opening
             } else {
                 Role::Punch
             }
         };
         let is_closed = |key: &ContourKey| self.chains.get(*key).is_none_or(|it| it.closed);
-        let role = |(position, key): (usize, &ContourKey)| {
+        let role = |key: &ContourKey| {
             let said = self.known.get(key).and_then(|known| known.stated);
             match said.or(everywhere) {
                 Some(Role::Left | Role::Right) if is_closed(key) => Role::Both,
                 Some(role) => role,
-                None => nested(position),
+                None => nested(key),
             }
         };
-        keys.iter().enumerate().map(role).collect()
+        keys.iter().map(role).collect()
     }
 }
 
@@ -206,6 +218,22 @@ pub(super) fn part_of(drawing: &Drawing, settings: &Effective, id: EntityId) -> 
     let layer = || Some(&*drawing.get(id)?.layer);
     is_cut(drawing, settings, id)
         .then(|| layer().map_or(0, |layer| settings.workpieces.of_layer(layer)))
+}
+
+/// What is cut on the line is chained by itself: a slit that begins at a corner is no part of the contour there.
+const ON_LINE: u16 = 1 << 15;
+
+/// The entities of one number are chained to each other: those of one workpiece that are all cut on the line, or none of them.
+pub(super) fn chained_with(drawing: &Drawing, settings: &Effective, id: EntityId) -> Option<u16> {
+    let part = part_of(drawing, settings, id)?;
+    Some(chain_number(part, role_of(drawing, settings, id)))
+}
+
+pub(super) fn chain_number(part: u16, role: Option<Role>) -> u16 {
+    match role {
+        Some(Role::Line) => part | ON_LINE,
+        _ => part,
+    }
 }
 
 /// True when an entity is part of a contour, which may be a lone line: it has segments, its role is not `ignore`, it is

@@ -1,5 +1,6 @@
 //! All findings of a drawing, put together from the observations for each report.
 
+use super::known::Known;
 use super::notable::{Counted, Kind, Notability, Sums, TightArc};
 use super::report::{Report, Tally};
 use super::{Analysis, electrode, together};
@@ -10,6 +11,7 @@ use crate::settings::SideSetting;
 use crate::toolpath;
 use rustc_hash::FxHashMap;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// The most segments that are looked at to find which repairs of arcs below the correction would
 /// cause another fault.
@@ -133,6 +135,13 @@ impl Analysis {
         if report.shows_findings() {
             of_job.extend(electrode::faults(drawing, self.segments, &self.settings));
         }
+        let is_on_line = |known: &Arc<Known>| known.stated == Some(Role::Line);
+        let has_lines = self.stated > 0 && self.known.values().any(is_on_line);
+        let is_small = self.segments <= toolpath::MOST_SEGMENTS_OF_MISFITS;
+        if has_lines && is_small && report.shows_findings() {
+            let outlines = self.outlines(drawing).clone();
+            of_job.extend(toolpath::line_faults(drawing, &outlines, &self.settings));
+        }
         if self.segments <= toolpath::MOST_SEGMENTS_SAID_TWICE && report.shows_findings() {
             let outlines = self.outlines(drawing).clone();
             of_job.extend(toolpath::said_twice(drawing, &outlines, &self.settings));
@@ -212,8 +221,8 @@ impl Analysis {
         let Some(outlook) = self.outlook(drawing, key) else {
             return counted;
         };
-        let is_middle = self.settings.goes_along_middle(outlook.contour.closed);
-        if what.has_tight_arcs && !is_middle {
+        let is_middle = outlook.is_middle();
+        if what.has_tight_arcs && !is_middle && !outlook.on_line {
             let arcs = self.small_radii(drawing, key, side);
             let says_the_fit = self.says_the_fit(drawing, key, side);
             counted.says_the_fit = says_the_fit;
@@ -233,8 +242,8 @@ impl Analysis {
             [counted.counts.local, counted.counts.stood_for] =
                 known.counts(&outlook, side, open_is_an_error);
         }
-        // An open contour with a side is meant to be open.
-        if what.as_a_whole && side.is_none() {
+        // An open contour with a side, or cut on the line, is meant to be open.
+        if what.as_a_whole && side.is_none() && !outlook.on_line {
             counted.counts.whole = CONTOUR_RULES
                 .iter()
                 .filter(|rule| holds(rule, &outlook))

@@ -57,13 +57,16 @@ impl Known {
             index: &self.index,
             limits,
             part: self.part,
+            on_line: self.stated == Some(Role::Line),
             at_hand: None,
         };
         let (count, runs) = (contour.len(), self.index.run_count());
         // Which rule checks which run, run by run.
         let mut asked: Vec<(usize, usize)> = Vec::new();
         for (number, rule) in LOCAL_RULES.iter().enumerate() {
-            if settings.severity(rule.rule).is_none() {
+            // The wire's centre follows any corner that is drawn.
+            let needs_no_room = outlook.on_line && rule.rule == Rule::SharpCorner;
+            if settings.severity(rule.rule).is_none() || needs_no_room {
                 continue;
             }
             let (before, behind) = (rule.reach)(&outlook, changed.clone());

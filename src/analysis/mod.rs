@@ -118,7 +118,7 @@ impl Analysis {
     pub fn new(drawing: &Drawing, settings: Arc<Effective>) -> Analysis {
         let limits = Limits::new(&settings, settings.unit_of(drawing).mm);
         let chains = Chains::of_parts(drawing, (limits.tolerances.join, limits.least()), &|id| {
-            contours::part_of(drawing, &settings, id)
+            contours::chained_with(drawing, &settings, id)
         });
         let mut analysis = Analysis {
             settings,
@@ -232,7 +232,7 @@ impl Analysis {
             let is_lone = key.is_some_and(|key| {
                 self.lone.contains_key(&key) || self.as_lone(drawing, key).is_some()
             });
-            let part = contours::part_of(drawing, &self.settings, entity);
+            let part = contours::chained_with(drawing, &self.settings, entity);
             let stays = !is_lone
                 && self.chains.same_ends(drawing, entity, part.is_some())
                 && !self.leaves_out(drawing, entity, vertices)
@@ -251,7 +251,7 @@ impl Analysis {
         self.order = OnceLock::new();
         let settings = self.settings.clone();
         let rechained = self.chains.update_parts(drawing, &moved, &|id| {
-            contours::part_of(drawing, &settings, id)
+            contours::chained_with(drawing, &settings, id)
         });
         // Thousands of contours with ends in one place are one group, and lie on each other:
         // to forget each of them costs a look at all of them.
@@ -308,13 +308,13 @@ impl Analysis {
         self.learn(drawing, &cut);
     }
 
-    /// True where the contour of an entity belongs to a workpiece, and for an entity without contour.
+    /// True where the contour of an entity is chained by this number, and for an entity without contour.
     fn is_of_part(&self, entity: EntityId, part: u16) -> bool {
         let known = self
             .chains
             .contour_of(entity)
             .and_then(|key| self.known.get(&key));
-        known.is_none_or(|known| known.part == part)
+        known.is_none_or(|known| contours::chain_number(known.part, known.stated) == part)
     }
 
     /// True for an entity that is a contour of its own, on which no observation of others depends.
@@ -385,6 +385,7 @@ impl Analysis {
             index: &known.index,
             limits: &self.limits,
             part: known.part,
+            on_line: self.is_on_line(key),
             at_hand: None,
         })
     }

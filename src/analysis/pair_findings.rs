@@ -345,7 +345,8 @@ impl Telling<'_, '_> {
     /// Which of the two contours are reported as open: those without a side that are not drawn twice as a whole.
     fn are_open(&self, it: &Seen, in_one_place: &InOnePlace) -> [bool; 2] {
         [it.each.one.0, it.each.other.0].map(|key| {
-            let contour = (self.outlook)(key).map(|it| it.contour);
+            let outlook = (self.outlook)(key).filter(|it| !it.on_line);
+            let contour = outlook.map(|it| it.contour);
             let contour = contour.filter(|_| self.open_is_an_error && self.side_of(key).is_none());
             contour.is_some_and(|it| {
                 let mut pieces = it.pieces.iter();

@@ -2,7 +2,7 @@
 //! compared. That costs a small fraction of looking at the whole drawing: without it, repairing a map takes half as long again.
 
 use super::Analysis;
-use super::contours::{part_of, role_of};
+use super::contours::{chained_with, role_of};
 use super::report::Tally;
 use crate::drawing::{
     Contour, ContourKey, Delta, Drawing, EntityId, Piece, Role, Touched, stated_role, wire_side,
@@ -30,8 +30,9 @@ impl Analysis {
             return None;
         }
         let mut chains = self.chains.clone();
-        let rechained =
-            chains.update_parts(edited, &touched, &|id| part_of(edited, &self.settings, id));
+        let rechained = chains.update_parts(edited, &touched, &|id| {
+            chained_with(edited, &self.settings, id)
+        });
         let new = rechained.new.iter().filter_map(|&key| chains.get(key));
         let mut open = new
             .filter(|contour| self.is_open(edited, contour))
@@ -72,6 +73,7 @@ impl Analysis {
         contour.pieces.len() > 1
             && !contour.closed
             && contour.double_of.is_none()
+            && role() != Role::Line
             && wire_side(role(), false, 0.0).is_none()
     }
 }

@@ -29,7 +29,9 @@ impl Analysis {
         if by_nesting || !(2..=MOST_CONTOURS).contains(&ordered.len()) || !report.shows_findings() {
             return;
         }
-        let closed = ordered.iter().zip(sides).filter_map(|(key, side)| {
+        let ordered_sides = ordered.iter().zip(sides);
+        let ordered_sides = ordered_sides.filter(|(key, _)| !self.is_on_line(**key));
+        let closed = ordered_sides.filter_map(|(key, side)| {
             let (contour, known) = (self.chains.get(*key)?, &**self.known.get(key)?);
             let is_punch = side.is_some_and(|it| it.sign() * known.index.twice_area() < 0.0);
             contour.closed.then_some((contour, known, is_punch))
@@ -90,6 +92,7 @@ impl Analysis {
         let thin = (2.0 * self.limits.correction).min(THIN / self.limits.unit_mm);
         let all = ordered
             .iter()
+            .filter(|key| !self.is_on_line(**key))
             .filter_map(|key| Some((self.chains.get(*key)?, &**self.known.get(key)?)));
         let all: Vec<(&Contour, &Known)> = all.collect();
         let contours: Vec<_> = all

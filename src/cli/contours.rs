@@ -79,6 +79,7 @@ pub(super) fn role(role: Role) -> &'static str {
         Role::Both => say!(both_sides),
         Role::Left => say!(wire_on_the_left),
         Role::Right => say!(wire_on_the_right),
+        Role::Line => say!(cut_on_the_line),
         Role::Ignore => say!(not_cut),
     }
 }

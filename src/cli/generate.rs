@@ -194,8 +194,7 @@ fn add_refusal(
 ) {
     let outlines = snapshot.outlines.iter();
     let can_lack_side = matches!(refusal, Refusal::Sentence(_) | Refusal::Findings(_));
-    let lacks_side =
-        can_lack_side && { outlines }.any(|it| it.contour.closed && it.wire_side().is_none());
+    let lacks_side = can_lack_side && { outlines }.any(|it| it.contour.closed && it.lacks_side());
     let message = refusal.sentence(document.telling());
     let about = json!({ "message": message, "side-is-missing": lacks_side });
     answer.push("refused", &about);

@@ -10,4 +10,6 @@ pub(super) struct Contour {
     pub(super) closed: bool,
     /// Side of the direction of travel on which the wire runs, where that is known.
     pub(super) side: Option<Side>,
+    /// The wire's centre runs on it.
+    pub(super) on_line: bool,
 }

@@ -77,6 +77,7 @@ impl Drawn {
                 segments: outline.contour.segments(&self.drawing).collect(),
                 closed: outline.contour.closed,
                 side: outline.wire_side(),
+                on_line: outline.is_on_line(),
             };
             cut.map(contour).collect()
         })

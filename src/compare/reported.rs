@@ -78,10 +78,16 @@ impl Foreign<'_> {
             let alike = firsts.iter().filter(|other| are_same(offset(other), own));
             (alike.count(), are_same(own, set), Reverse(one.first))
         };
-        let most = firsts.iter().max_by_key(rank).map(|most| offset(most));
+        let of_contour = |one: &Judged| self.drawn.contours().get(one.course.contour);
+        let is_on_line = |one: &Judged| of_contour(one).is_some_and(|it| it.on_line);
+        let most = firsts.iter().filter(|one| !is_on_line(one));
+        let most = most.max_by_key(rank).map(|most| offset(most));
         let nm = |um: f64| (um * 1e3).round() as u32;
         let named = firsts.iter().filter_map(|one| {
-            let (own, most) = (offset(one), most?);
+            let (own, most) = match is_on_line(one) {
+                true => (offset(one), 0.0),
+                false => (offset(one), most?),
+            };
             let kind = DifferenceKind::Correction {
                 stated: nm(own),
                 ideal: nm(most),

@@ -55,6 +55,8 @@ pub enum Role {
     Left,
     /// The same to the right.
     Right,
+    /// Cut on the line: the wire's centre runs on the contour, without correction. Slits, clamps, marks.
+    Line,
     /// Not cut.
     Ignore,
 }
@@ -68,6 +70,7 @@ impl Role {
             Role::Both => "both",
             Role::Left => "left",
             Role::Right => "right",
+            Role::Line => "line",
             Role::Ignore => "ignore",
         }
     }

@@ -28,6 +28,16 @@ impl Outline {
         self.contour.double_of.is_none() && self.role != Role::Ignore
     }
 
+    /// True where the wire's centre runs on the contour itself, whatever the correction.
+    pub(crate) fn is_on_line(&self) -> bool {
+        self.role == Role::Line
+    }
+
+    /// True where no path beside the contour can be made, for want of a side.
+    pub(crate) fn lacks_side(&self) -> bool {
+        self.wire_side().is_none() && !self.is_on_line()
+    }
+
     /// Side of the direction of travel on which the wire runs: see `wire_side`.
     pub(crate) fn wire_side(&self) -> Option<Side> {
         wire_side(self.role, self.contour.closed, self.twice_area)
@@ -36,7 +46,7 @@ impl Outline {
 
 /// Side of the direction of travel on which the wire runs: inside an opening, outside a punch; that of an open contour
 /// is its role. `None` where every arc must survive both sides, for an open contour with another role and for a closed
-/// one without area.
+/// one without area, and for one that is cut on the line.
 pub(crate) fn wire_side(role: Role, closed: bool, twice_area: f64) -> Option<Side> {
     let counter_clockwise = twice_area > 0.0;
     match role {
@@ -47,6 +57,6 @@ pub(crate) fn wire_side(role: Role, closed: bool, twice_area: f64) -> Option<Sid
         Role::Opening => Some(Side::Right),
         Role::Punch if counter_clockwise => Some(Side::Right),
         Role::Punch => Some(Side::Left),
-        Role::Both | Role::Left | Role::Right | Role::Ignore => None,
+        Role::Both | Role::Left | Role::Right | Role::Line | Role::Ignore => None,
     }
 }

@@ -107,7 +107,13 @@ told! {
     };
     /// Segments cross, or only touch, at a point: the first of `count` along one of the two, where
     /// that one meets many.
-    SelfIntersection { at: Point, touches: bool, count: usize } => {
+    SelfIntersection { at: Point, touches: bool, count: usize, on_line: bool } => {
+        if *on_line {
+            return match *count {
+                1 => say!(a_cut_on_the_line_meets_a_contour).into(),
+                count => say!(a_cut_on_the_line_meets_contours, count),
+            };
+        }
         let how = match touches {
             true => say!(touches_itself_or_another),
             false => say!(crosses_itself_or_another),

@@ -59,6 +59,7 @@ pub(crate) fn partners(
         .enumerate()
         .filter(|(_, outline)| {
             outline.contour.closed
+                && !outline.is_on_line()
                 && outline.twice_area != 0.0
                 && outline.contour.double_of.is_none()
         })

@@ -22,9 +22,9 @@ struct Row {
     number: usize,
 }
 
-/// The holes that are drilled: not those that were found where there is no room for any, which is an error of the drawing.
+/// The holes that are drilled: not those that were found where there is no room for any, which is an error of the drawing, nor those in what has dropped.
 pub(crate) fn drilled(mut holes: Vec<StartHole>) -> Vec<StartHole> {
-    holes.retain(|hole| !hole.cuts);
+    holes.retain(|hole| !hole.cuts && !hole.is_open);
     holes
 }
 
@@ -35,7 +35,7 @@ pub(crate) fn numbered(
 ) -> impl Iterator<Item = (usize, &StartHole)> {
     let holes = holes.iter().enumerate();
     let holes = holes.map(move |(index, hole)| (first + index, hole));
-    holes.filter(|(_, hole)| !hole.cuts)
+    holes.filter(|(_, hole)| !hole.cuts && !hole.is_open)
 }
 
 impl List {

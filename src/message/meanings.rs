@@ -25,7 +25,7 @@ const MEANINGS: &[(&str, &str)] = &[
     ("margin", "裕量：修复选半径时加在补偿量上的值，mm。"),
     ("resolution", "小于它（mm）的偏差不提示。更短的段（最多 0.005）不属于任何轮廓，它掩盖的拐角按拐角判断；`gap`、`near-tangent`、`sharp-corner` 和 `overlap` 不提示更小的。"),
     ("join", "图元的端点相距不超过它（mm）即算连在一起：轮廓封闭，[`gap`](rules/gap.md) 给出距离。端点经过舍入的图形，如三位小数的英寸图形，设得比默认值大；几个端点中连接最近的。"),
-    ("layers", "图层上图元的用途，按图层名。图元自己的 `role` 优先。轮廓取其中第一个有用途的图元的用途。用途不是 `ignore` 时，冻结或关闭的也切割。"),
+    ("layers", "图层上图元的用途，按图层名。图元自己的 `role` 优先。轮廓取其中第一个有用途的图元的用途。用途不是 `ignore` 时，冻结或关闭的也切割。`line` [沿线](programs.md#cut-on-the-line)切割，不加补偿。"),
     ("linetypes", "某线型图元的用途，线型由图元自己或其图层给出：按线型名，先于图层和颜色。没有设置时，CENTER、HIDDEN、PHANTOM 之类线型所画的不切割：见 [`unsupported-entity`](rules/unsupported-entity.md)。"),
     ("contours", "含有此图元的轮廓的用途，按图元句柄，先于图层和颜色。句柄只属于一个图形：`wedm.toml` 用于几个图形时，指各图形中同名的图元。"),
     ("colors", "某颜色图元的用途，颜色由图元自己或其图层给出，用于图元和图层都没有用途的。颜色为 `red`、`yellow`、`green`、`cyan`、`blue`、`magenta`、`white`、`1` 至 `255`（AutoCAD 颜色号）、`#rrggbb`。"),

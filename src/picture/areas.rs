@@ -113,7 +113,7 @@ pub(super) fn voids(drawing: &Drawing, outlines: &[Outline]) -> FxHashSet<usize>
 /// is a hole there, whether a side is known for it or not.
 fn told_apart(drawing: &Drawing, outlines: &[Outline]) -> Vec<Area> {
     let closed = outlines.iter().enumerate();
-    let closed = closed.filter(|(_, outline)| outline.contour.closed);
+    let closed = closed.filter(|(_, outline)| outline.contour.closed && !outline.is_on_line());
     let mut closed: Vec<(usize, &Outline, Bounds)> = closed
         .map(|(index, outline)| (index, outline, outline.contour.bounds(drawing)))
         .collect();

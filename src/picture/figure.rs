@@ -207,6 +207,7 @@ fn wire(sheet: &mut Sheet, frame: &Frame, subject: &Subject) {
             let distance = subject.mm(*correction);
             let mut label = match subject.mills {
                 false if path.side.is_some() => say!(contour_that_the_control_offsets, distance),
+                false if path.on_line => say!(cut_on_the_line).into(),
                 false => say!(path_of_the_wire_centre, distance),
                 true => say!(path_of_the_electrode_axis, distance),
             };

@@ -66,7 +66,8 @@ fn check(one: &Wall, other: &Wall, same_contour: bool) -> Vec<PairObservation> {
     let mut observations = Vec::new();
     let limits = one.outlook.limits;
     let radius = radius(limits);
-    if !same_contour || radius <= limits.tolerances.touch || run_on(one, other, radius) {
+    let is_small = radius <= limits.tolerances.touch;
+    if !same_contour || one.outlook.on_line || is_small || run_on(one, other, radius) {
         return observations;
     }
     let parting = parting(one, other);

@@ -103,6 +103,8 @@ pub(crate) struct Outlook<'a> {
     pub(crate) limits: &'a Limits,
     /// The number of its workpiece; contours of other workpieces are not compared with it.
     pub(crate) part: u16,
+    /// The wire's centre runs on it, without correction.
+    pub(crate) on_line: bool,
     /// Segments that need not be worked out again.
     pub(crate) at_hand: Option<&'a AtHand>,
 }

@@ -21,6 +21,10 @@ pub(crate) const RULE: PairRule = PairRule {
     rule: Rule::NarrowSlot,
     reach: |limits| 2.0 * limits.correction,
     check: |one, other, same_contour| {
+        // How near a cut on the line comes to others, its path says.
+        if one.outlook.on_line || other.outlook.on_line {
+            return Vec::new();
+        }
         let middles = middles(one, other);
         let observation = |slot: Slot| {
             let center = slot.from + (slot.to - slot.from) * 0.5;

@@ -2,7 +2,8 @@
 //!
 //! The offset of such an outline is not one path: the wire cuts into the part, or cuts a piece of it off. A crossing is
 //! an error. Touching is an error too between closed outlines; where an open contour ends on another one, as a drawn
-//! lead-in does, it is a warning. Segments that run along each other are `overlap`.
+//! lead-in does, it is a warning. What is cut on the line, as a slit is, may begin at a contour or cross it: that is said
+//! as an information. Segments that run along each other are `overlap`.
 
 use super::wall::{Corner, Joints, Wall};
 use super::{PairObservation, PairRule};
@@ -18,13 +19,17 @@ pub(crate) const RULE: PairRule = PairRule {
     check: |one, other, same_contour| {
         // Slots that meet are one cavity, and one that touches a wall cuts into it.
         let middles = [one, other].map(|wall| wall.outlook.is_middle());
-        if middles == [true, true] {
+        let lines = [one, other].map(|wall| wall.outlook.on_line);
+        if middles == [true, true] || lines == [true, true] {
             return Vec::new();
         }
         let is_outline = |wall: &Wall| wall.outlook.contour.closed || wall.outlook.is_middle();
         let both_closed = is_outline(one) && is_outline(other);
         let observation = |contact: Contact| PairObservation {
-            mildest: (contact.touches && !both_closed).then_some(Severity::Warning),
+            mildest: match lines {
+                [false, false] => (contact.touches && !both_closed).then_some(Severity::Warning),
+                _ => Some(Severity::Information),
+            },
             ..PairObservation::default()
         };
         contact(one, other, same_contour)
@@ -38,6 +43,7 @@ pub(crate) const RULE: PairRule = PairRule {
             at,
             touches,
             count: 1,
+            on_line: one.outlook.on_line || other.outlook.on_line,
         })
     },
     silent_for_doubles: true,

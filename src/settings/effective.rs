@@ -6,7 +6,7 @@ use super::{
     LengthSetting, MillingSettings, NumberUnit, Order, Origins, PairSettings, Passes, PointSetting,
     Profile, ProgramFormat, Sequence, Settings, SideSetting, SkimCorner, UnitSetting, Workpieces,
 };
-use crate::drawing::{Color, Role, Unit};
+use crate::drawing::{Color, Outline, Role, Unit};
 use crate::finding::{Finding, Rule, Severity};
 use crate::geometry::{Point, Tolerances};
 use std::collections::{BTreeMap, BTreeSet};
@@ -118,9 +118,12 @@ pub struct Effective {
 }
 
 impl Effective {
-    /// Whether the path is the contour itself, without offset: an electrode mills along an open contour.
-    pub(crate) fn goes_along_middle(&self, closed: bool) -> bool {
-        self.mills && !closed
+    /// Whether the path is the contour itself, without offset: by its role, for all of them, or where an electrode mills along an
+    /// open one.
+    pub(crate) fn runs_on(&self, outline: &Outline) -> bool {
+        self.compensation == Compensation::None
+            || outline.is_on_line()
+            || self.mills && !outline.contour.closed
     }
 
     /// The page of a rule, if there is an address for it.
@@ -300,7 +303,7 @@ impl Effective {
 
     /// True where what drops out of a contour of this role lies inside it.
     pub(crate) fn has_waste_inside(&self, role: Role) -> bool {
-        (role == Role::Opening) != self.comes_across
+        role != Role::Line && (role == Role::Opening) != self.comes_across
     }
 
     /// True where a slug of this many mm² is too heavy to drop.

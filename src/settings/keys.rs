@@ -69,7 +69,8 @@ tables! {
         /// Several passes.
         passes: Passes => table;
         /// Role of the entities on a layer, by its name. An entity's own `role` comes first. A contour takes the role of its first entity that
-        /// has one. A role other than `ignore` cuts also what is frozen or switched off.
+        /// has one. A role other than `ignore` cuts also what is frozen or switched off. `line` cuts [on the line](programs.md#cut-on-the-line),
+        /// without correction.
         layers: BTreeMap<String, Role> => roles;
         /// Role of entities by their linetype, their own or that of their layer; it comes before layers and colours.
         /// Without one, what is drawn in CENTER, HIDDEN, PHANTOM and their like is not cut: see

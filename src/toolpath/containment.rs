@@ -27,11 +27,13 @@ impl Nesting {
             .collect();
         let is_closed = |place: &usize| outlines[chosen[*place]].contour.closed;
         let mut grid = Grid::default();
-        for place in (0..chosen.len()).filter(is_closed) {
+        let is_on_line = |place: &usize| outlines[chosen[*place]].is_on_line();
+        for place in (0..chosen.len()).filter(|place| is_closed(place) && !is_on_line(place)) {
             grid.insert(place, boxes[place]);
         }
         let mut around = vec![Vec::new(); chosen.len()];
-        for inner in (0..chosen.len()).filter(is_closed) {
+        // A slit is cut before what it lies in drops.
+        for inner in (0..chosen.len()).filter(|place| is_closed(place) || is_on_line(place)) {
             let Some(first) = outlines[chosen[inner]].contour.segment(drawing, 0) else {
                 continue;
             };
@@ -55,7 +57,12 @@ impl Nesting {
         let mut areas = FxHashMap::default();
         for (inner, around) in self.around.iter().enumerate() {
             if let Some(&outer) = around.last() {
-                let area = outlines[chosen[inner]].twice_area.abs() / 2.0;
+                let own = &outlines[chosen[inner]];
+                let area = if own.is_on_line() {
+                    0.0
+                } else {
+                    own.twice_area.abs() / 2.0
+                };
                 *areas.entry(chosen[outer]).or_default() += area;
             }
         }

@@ -2,9 +2,9 @@
 
 use super::clearance::Walls;
 use super::job::Job;
-use crate::drawing::{Contour, Drawing, EntityId, Outline};
+use crate::drawing::{Drawing, EntityId, Outline};
 use crate::finding::Place;
-use crate::geometry::{Bounds, Grid};
+use crate::geometry::{Bounds, Grid, Point};
 use crate::settings::Workpieces;
 use std::sync::OnceLock;
 
@@ -40,37 +40,51 @@ impl Contours<'_> {
         }
     }
 
-    /// It is cut, and lies in the workpiece.
-    fn is_met(&self, contour: &Contour) -> bool {
+    /// It is cut as the wall of a part, and lies in the workpiece.
+    fn is_met(&self, outline: &Outline) -> bool {
+        let contour = &outline.contour;
         let is_of = |(workpieces, part): (&Workpieces, u16)| {
             workpieces.of_contour(self.drawing, contour) == part
         };
-        contour.double_of.is_none() && self.part.is_none_or(is_of)
+        contour.double_of.is_none() && !outline.is_on_line() && self.part.is_none_or(is_of)
     }
 
     /// The closed outlines that are cut whose boxes lie within an area, with their boxes, in their order.
     pub(crate) fn within(&self, area: &Bounds) -> Vec<(usize, Bounds)> {
-        let closed = self.closed.get_or_init(|| {
-            let mut closed = Grid::default();
-            for (index, Outline { contour, .. }) in self.outlines.iter().enumerate() {
-                if contour.closed && self.is_met(contour) {
-                    closed.insert(index, contour.bounds(self.drawing));
-                }
-            }
-            closed
-        });
         let mut within = Vec::new();
-        closed.near(area, |index, about| {
+        self.closed().near(area, |index, about| {
             within.extend((about.merged(area) == *area).then_some((index, *about)));
         });
         within.sort_unstable_by_key(|(index, _)| *index);
         within
     }
 
+    /// The closed outlines that are cut whose boxes come near a point, the smallest first.
+    pub(crate) fn about_point(&self, at: Point, reach: f64) -> Vec<usize> {
+        let mut about = Vec::new();
+        self.closed()
+            .near(&Bounds::of_disc(at, reach), |index, _| about.push(index));
+        let area = |&index: &usize| self.outlines[index].twice_area.abs();
+        about.sort_by(|a, b| area(a).total_cmp(&area(b)).then(a.cmp(b)));
+        about
+    }
+
+    fn closed(&self) -> &Grid<usize> {
+        self.closed.get_or_init(|| {
+            let mut closed = Grid::default();
+            for (index, outline) in self.outlines.iter().enumerate() {
+                if outline.contour.closed && self.is_met(outline) {
+                    closed.insert(index, outline.contour.bounds(self.drawing));
+                }
+            }
+            closed
+        })
+    }
+
     fn known(&self) -> &WallsOf {
         self.known.get_or_init(|| {
             let (mut segments, mut of) = (Vec::new(), Vec::new());
-            let is_met = |(_, outline): &(usize, &Outline)| self.is_met(&outline.contour);
+            let is_met = |(_, outline): &(usize, &Outline)| self.is_met(outline);
             for (index, outline) in self.outlines.iter().enumerate().filter(is_met) {
                 for segment in outline.contour.segments(self.drawing) {
                     segments.push(segment.geometry);

@@ -31,6 +31,8 @@ pub struct StartHole {
     pub is_given: bool,
     /// It was found, and cuts into a contour: there is no place for one of the set diameter.
     pub cuts: bool,
+    /// It lies in what another contour has dropped before: nothing is drilled.
+    pub is_open: bool,
 }
 
 /// Holes by place.
@@ -88,9 +90,10 @@ impl Job<'_> {
         let mut faults = Vec::new();
         let contours = Contours::about(self, outlines);
         let mut given: Vec<(Point, usize)> = Vec::new();
-        for (&index, Requested { thread, .. }) in outlines.iter().zip(wanted) {
+        for (&index, wanted) in outlines.iter().zip(wanted) {
+            let Requested { thread, .. } = self.with_room(index, wanted, &contours);
             let outline = &self.outlines[index];
-            if !outline.contour.closed && outline.wire_side().is_none() {
+            if !outline.contour.closed && outline.lacks_side() {
                 continue;
             }
             if let Some(at) = thread {

@@ -26,6 +26,7 @@ mod moved;
 mod nearby;
 mod nest;
 mod offset;
+mod on_line;
 mod open_contour;
 mod order;
 mod others;
@@ -62,6 +63,7 @@ pub(crate) use hole::hole_faults;
 pub use milling::{Milled, MilledContour};
 pub(crate) use moved::Moved;
 pub(crate) use nearby::Nearby;
+pub(crate) use on_line::line_faults;
 pub(crate) use part::{Cutting, Part, part};
 pub(crate) use path::lengths;
 pub use path::{PathSegment, Refusal, Source, WirePath};
@@ -202,6 +204,7 @@ pub(crate) fn plan_while(
             at: path.thread_hole,
             is_given: settings.thread.is_some(),
             cuts: false,
+            is_open: false,
         };
         return Ok(Planned {
             paths: vec![path],
@@ -248,17 +251,10 @@ fn of_workpiece(
     let settings = job.settings;
     job.go_on()?;
     let contours = Contours::about(job, chosen);
-    let (
-        Planned {
-            paths, finished, ..
-        },
-        mut findings,
-    ) = match settings.compensation {
-        Compensation::None => job.as_drawn_all(chosen, wanted, &contours)?,
-        Compensation::Path | Compensation::Controller => {
-            job.offset_all(chosen, wanted, &contours)?
-        }
-    };
+    let (planned, mut findings) = job.all_paths(chosen, wanted, &contours)?;
+    let Planned {
+        paths, finished, ..
+    } = planned;
     let paths = if order == Order::Nearest {
         job.by_nearest(paths, places)
     } else {
@@ -272,13 +268,17 @@ fn of_workpiece(
             .zip(wanted)
             .map(|(&outline, wanted)| (outline, wanted.thread.is_some()))
             .collect();
+        let openings = job.openings_of_lines(chosen);
         let hole = |path: &WirePath| {
             let is_given = is_given.get(&path.outline) == Some(&true);
+            let is_open = job.is_threaded_in_opening(path, &openings);
+            let is_found = !is_given && !is_open;
             StartHole {
                 outline: path.outline,
                 at: path.thread_hole,
                 is_given,
-                cuts: !is_given && job.finds_no_room(path.thread_hole, &contours),
+                cuts: is_found && job.finds_no_room(path.thread_hole, &contours),
+                is_open,
             }
         };
         // An electrode comes from above.

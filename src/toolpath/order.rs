@@ -75,7 +75,9 @@ impl Job<'_> {
             let turns = nested.turns(&chosen, places);
             in_order.sort_by_key(|&place| turns[place]);
         }
-        let outlines_in_order = in_order.into_iter().map(|place| chosen[place]).collect();
+        let in_order = in_order.into_iter();
+        let mut outlines_in_order: Vec<usize> = in_order.map(|place| chosen[place]).collect();
+        self.behind_their_openings(&mut outlines_in_order);
         let picks = if order == Order::AsPicked {
             self.picked(handles.unwrap_or_default())
         } else {
@@ -154,8 +156,14 @@ impl Job<'_> {
             lasts.push(index);
         }
         let chosen: Vec<usize> = firsts.iter().map(|&index| paths[index].outline).collect();
-        let nesting = Nesting::new(self.drawing, self.outlines, &chosen);
+        let mut nesting = Nesting::new(self.drawing, self.outlines, &chosen);
         let turns = nesting.turns(&chosen, places);
+        for (line, opening) in self.openings_of_lines(&chosen) {
+            let place = |of: usize| chosen.iter().position(|&other| other == of);
+            if let (Some(line), Some(opening)) = (place(line), place(opening)) {
+                nesting.around[opening].push(line);
+            }
+        }
         let mut within = vec![0_usize; chosen.len()];
         nesting
             .around

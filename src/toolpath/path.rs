@@ -69,6 +69,8 @@ pub struct WirePath {
     pub is_way_back: bool,
     /// The distance of the path from the contour, drawing units; 0 where the contour is the path.
     pub correction: f64,
+    /// The contour is cut on the line, beside others that are cut with a correction.
+    pub on_line: bool,
     /// The thread hole, to which the wire returns.
     pub thread_hole: Point,
     /// The side of travel on which the control must let the wire run; `None` where the path is that of the wire.
@@ -87,6 +89,7 @@ impl WirePath {
             cut_off: false,
             is_way_back: false,
             correction: 0.0,
+            on_line: false,
             thread_hole,
             side: None,
             segments,
@@ -118,10 +121,10 @@ impl WirePath {
         self.cut_off && self.pass > 1 && self.begin() != self.thread_hole
     }
 
-    /// It runs beside an open contour, and does not end where it begins.
+    /// It runs along an open contour among others, and does not end where it begins.
     pub(crate) fn is_open(&self) -> bool {
-        let has_side = self.correction > 0.0 || self.side.is_some();
-        self.counter_clockwise.is_none() && has_side && self.end() != self.begin()
+        let is_of_part = self.correction > 0.0 || self.side.is_some() || self.on_line;
+        self.counter_clockwise.is_none() && is_of_part && self.end() != self.begin()
     }
 
     /// The start of the path; the thread hole if the wire only stands.

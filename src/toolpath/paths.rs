@@ -11,10 +11,10 @@ use super::finished::{Finished, Kerf, finished};
 use super::hole::Holes;
 use super::job::{Job, ROUNDING};
 use super::lead_form::Landing;
-use super::leads::{Kerfs, fault};
+use super::leads::Kerfs;
 use super::offset::Wall;
 use super::order::directed;
-use super::path::{Refusal, Source, WirePath};
+use super::path::{Refusal, WirePath};
 use super::requested::Requested;
 use super::rotated::Rotated;
 use crate::drawing::Contour;
@@ -37,8 +37,8 @@ pub(super) struct Unled {
 
 /// What the wire follows of one contour.
 enum Offset {
-    /// Ready.
-    Middle(WirePath),
+    /// The contour itself, ready.
+    Line(WirePath),
     /// With what is wanted of it, without leads.
     Beside(Requested, Box<Unled>),
 }
@@ -69,55 +69,8 @@ impl Pass {
 }
 
 impl Job<'_> {
-    /// The contours themselves as paths, and the leads that cut through others.
-    pub(crate) fn as_drawn_all(
-        &self,
-        chosen: &[usize],
-        wanted: &[Requested],
-        contours: &Contours,
-    ) -> Result<(Planned, Vec<Finding>), Refusal> {
-        let (mut paths, mut findings) = (Vec::new(), Vec::new());
-        for (&index, wanted) in chosen.iter().zip(wanted) {
-            self.go_on()?;
-            let path = self.as_drawn(index, wanted)?;
-            let lead = path
-                .segments
-                .first()
-                .filter(|piece| piece.source == Source::LeadIn)
-                .map(|piece| piece.geometry);
-            if let Some(lead) = lead
-                && let Some(wall) = self.crossed(&lead, contours, Some(index))
-            {
-                let crossed = self.name(contours.outline_of(wall));
-                let [from, to] = [lead.start(), lead.end()].map(|at| self.in_mm(at));
-                let sentence = say!(
-                    the_lead_in_cuts_through_contour,
-                    from.x,
-                    from.y,
-                    to.x,
-                    to.y,
-                    crossed
-                );
-                let source = path.segments.get(1).map(|piece| piece.source);
-                findings.push(fault(
-                    self.severity(),
-                    source,
-                    sentence,
-                    Some(contours.place_of(wall)),
-                ));
-            }
-            paths.push(path);
-        }
-        let planned = Planned {
-            paths,
-            ..Planned::default()
-        };
-        Ok((planned, findings))
-    }
-
-    /// The offsets of contours, with leads that are checked against all of them, and the leads that
-    /// do not fit.
-    pub(crate) fn offset_all(
+    /// The paths of contours, beside them or on their lines, with leads that are checked against all of them, and what does not fit.
+    pub(crate) fn all_paths(
         &self,
         chosen: &[usize],
         wanted: &[Requested],
@@ -131,7 +84,10 @@ impl Job<'_> {
         });
         for made in made {
             match made {
-                Ok(Offset::Middle(path)) => planned.paths.push(path),
+                Ok(Offset::Line(path)) => {
+                    findings.extend(self.line_fault(&path, contours));
+                    planned.paths.push(path);
+                }
                 Ok(Offset::Beside(wanted, unled)) => offsets.push((wanted, *unled)),
                 Err(Refusal::Findings(found)) => findings.extend(found),
                 Err(refusal) => return Err(refusal),
@@ -176,31 +132,44 @@ impl Job<'_> {
                 Err(refusal) => return Err(refusal),
             }
         }
-        if self.settings.mills {
-            let places: FxHashMap<usize, usize> = chosen.iter().copied().zip(0..).collect();
-            planned.paths.sort_by_key(|path| places.get(&path.outline));
-        }
+        let places: FxHashMap<usize, usize> = chosen.iter().copied().zip(0..).collect();
+        planned.paths.sort_by_key(|path| places.get(&path.outline));
         Ok((planned, findings))
     }
 
-    /// The offsets of one contour, or the way along its middle.
+    /// The offsets of one contour, or the contour itself.
     fn offset(
         &self,
         index: usize,
         wanted: &Requested,
         contours: &Contours,
     ) -> Result<Offset, Refusal> {
-        let closed = self.outlines[index].contour.closed;
-        if self.settings.goes_along_middle(closed) {
-            let thread = wanted.thread.or(wanted.beside);
-            let mut path = self.as_drawn(index, &Requested { thread, ..*wanted })?;
-            path.segments.retain(|piece| piece.source.place().is_some());
-            path.thread_hole = path.begin();
-            return Ok(Offset::Middle(path));
+        if self.settings.runs_on(&self.outlines[index]) {
+            return Ok(Offset::Line(self.on_line(index, wanted, contours)?));
         }
         let wanted = self.with_proposed(index, *wanted, contours);
         let unled = self.compensated(index, &wanted, contours)?;
         Ok(Offset::Beside(wanted, Box::new(unled)))
+    }
+
+    /// The path along the drawn line. An electrode comes from above, to where it begins.
+    fn on_line(
+        &self,
+        index: usize,
+        wanted: &Requested,
+        contours: &Contours,
+    ) -> Result<WirePath, Refusal> {
+        let thread = match self.settings.mills {
+            true => wanted.thread.or(wanted.beside),
+            false => wanted.thread,
+        };
+        let wanted = self.with_room(index, Requested { thread, ..*wanted }, contours);
+        let mut path = self.as_drawn(index, &wanted)?;
+        if self.settings.mills {
+            path.segments.retain(|piece| piece.source.place().is_some());
+            path.thread_hole = path.begin();
+        }
+        Ok(path)
     }
 
     /// Where a start hole is to be in an opening for which nothing is set: in the deepest point.
@@ -291,7 +260,7 @@ impl Job<'_> {
     }
 
     /// The contour itself as the wire's path.
-    fn as_drawn(&self, index: usize, wanted: &Requested) -> Result<WirePath, Refusal> {
+    pub(super) fn as_drawn(&self, index: usize, wanted: &Requested) -> Result<WirePath, Refusal> {
         let (contour, _) = self.towards(index, wanted)?;
         let walls = self.walls(&contour);
         let empty = || Refusal::Sentence(say!(contour_has_no_length, self.name(index)));
@@ -309,7 +278,11 @@ impl Job<'_> {
             .thread
             .filter(|thread| (thread - begin).norm() > self.units(ROUNDING))
             .unwrap_or(begin);
-        Ok(self.with_leads(index, 0.0, thread, path, contour.closed))
+        let path = self.with_leads(index, 0.0, thread, path, contour.closed);
+        Ok(WirePath {
+            on_line: self.outlines[index].is_on_line(),
+            ..path
+        })
     }
 
     /// Names the contour by its number, its first entity and the place where it begins.

@@ -33,7 +33,7 @@ pub(crate) fn stated_faults(
     let settings = milled.as_ref().unwrap_or(settings);
     let is_known = |outline: &&Outline| {
         outline.contour.double_of.is_none()
-            && (outline.wire_side().is_some() || settings.goes_along_middle(outline.contour.closed))
+            && (outline.wire_side().is_some() || settings.runs_on(outline))
     };
     let firsts = outlines.iter().filter(is_known).filter_map(|outline| {
         let first = outline.contour.pieces.first()?;

@@ -192,6 +192,7 @@ impl Job<'_> {
                 cut_off,
                 is_way_back,
                 correction: round.correction,
+                on_line: false,
                 thread_hole: thread,
                 side: if back { side.map(Side::reversed) } else { side },
                 segments,

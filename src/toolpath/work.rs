@@ -186,7 +186,8 @@ pub(crate) fn inner_arcs<'a>(
 ) -> impl Iterator<Item = InnerArc> + 'a {
     let unit_mm = settings.unit_of(drawing).mm;
     let cut = outlines.iter().enumerate();
-    let cut = cut.filter(|(index, outline)| outline.is_cut() && is_cut(*index));
+    let cut =
+        cut.filter(|(index, outline)| outline.is_cut() && !outline.is_on_line() && is_cut(*index));
     cut.flat_map(move |(_, outline)| {
         let uses = uses_of(outline, settings);
         outline

@@ -8,6 +8,7 @@ mod ends;
 mod fixes;
 mod four_b;
 mod holes;
+mod on_line;
 mod pages;
 mod parts;
 mod pictures;

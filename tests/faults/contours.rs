@@ -82,6 +82,7 @@ pub fn written(contours: &[Vec<Segment>], program: &str) -> Option<String> {
         cut_off: false,
         is_way_back: false,
         correction: 0.0,
+        on_line: false,
         thread_hole: pieces[0].start(),
         side: None,
         segments: (0..)

@@ -56,7 +56,7 @@ fn geometry() -> impl Strategy<Value = Geometry> {
 }
 
 fn role() -> impl Strategy<Value = Option<Role>> {
-    prop_oneof![6 => Just(None), 1 => Just(Some(Role::Opening)), 1 => Just(Some(Role::Punch)), 1 => Just(Some(Role::Ignore))]
+    prop_oneof![6 => Just(None), 1 => Just(Some(Role::Opening)), 1 => Just(Some(Role::Punch)), 1 => Just(Some(Role::Ignore)), 1 => Just(Some(Role::Line))]
 }
 
 fn edit() -> impl Strategy<Value = Edit> {

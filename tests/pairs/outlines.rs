@@ -134,7 +134,7 @@ proptest! {
         let on_wire_side = |point: Point| match role {
             Role::Opening => inside(point),
             Role::Punch => !inside(point),
-            Role::Both | Role::Left | Role::Right | Role::Ignore => true,
+            Role::Both | Role::Left | Role::Right | Role::Line | Role::Ignore => true,
         };
         // Each finding is a disc that fits between its two segments and nowhere else.
         for &(width, one, other) in &slots {

@@ -3,6 +3,7 @@
 mod crowded;
 mod doubles;
 mod leads;
+mod on_line;
 mod order;
 mod random;
 mod threads;

@@ -991,6 +991,10 @@
         <translation>图形中的问题：%1</translation>
     </message>
     <message>
+        <source>cut on the line</source>
+        <translation>沿线切割</translation>
+    </message>
+    <message>
         <source>punch</source>
         <translation>凸模</translation>
     </message>

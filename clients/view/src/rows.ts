@@ -97,7 +97,7 @@ export function radiusRows(inspection: Inspection, contours: Contours, onlyFault
 
 export function roleOf(contour: Contour): string {
   const roles: Record<Contour["role"], string> = {
-    opening: t("Opening"), punch: t("Punch"), left: t("Left"), right: t("Right"), ignore: t("Not cut"), both: t("side not set"),
+    opening: t("Opening"), punch: t("Punch"), left: t("Left"), right: t("Right"), line: t("On the line"), ignore: t("Not cut"), both: t("side not set"),
   };
   return roles[contour.role];
 }

@@ -94,6 +94,7 @@ declare! {
     wire_on_the_left => "wire on the left";
     wire_on_the_right => "wire on the right";
     both_sides => "both sides";
+    cut_on_the_line => "cut on the line";
     sides_by_nesting => "sides by nesting";
     sides_as_set_else(side) => "sides as set for layers and contours, else {side}";
     with_its_origin(value, origin) => "{value} ({origin})";

@@ -112,6 +112,8 @@ declare! {
     contour_kinks_by_degrees(turn, tool) => "contour kinks by {turn:.2}° where it looks tangent: {tool} leaves a mark";
     the_wire_would_cut_into_the_part_each_time(touches, count, tool) => "contour {touches} {count} times along this segment: {tool} would cut into the part";
     the_wire_would_cut_into_the_part(touches, tool) => "contour {touches} here: {tool} would cut into the part";
+    a_cut_on_the_line_meets_a_contour => "the cut on the line meets another contour here: its kerf opens that contour";
+    a_cut_on_the_line_meets_contours(count) => "along this segment a cut on the line meets another contour {count} times: its kerf opens that contour";
     contour_kinks_in_several_places(count, turn, x, y, tool) => "contour kinks in {count} places where it looks tangent, at most by {turn:.2}° at {x:.3}, {y:.3}: {tool} leaves marks";
     within_mm(deviation) => ", within {deviation} mm";
     chords_lie_on_one_arc(chords, radius, within, facets) => "{chords} chords lie on one arc of R {radius} mm{within}: {chords} blocks become 1{facets}";

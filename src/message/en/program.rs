@@ -149,6 +149,7 @@ declare! {
     a_block_in_plain_letters_and_digits => "a block in plain letters and digits";
     found_letters_of_another_script(at, found, expected, script) => "column {at}: found `{found}`, expected {expected}; these letters are {script}";
     n4b_needs_the_side_of_the_contour => "4B holds the part's contour: set compensation to controller, and say opening or punch";
+    four_b_offsets_all_of_a_program => "the control of a 4B program offsets all of it: a contour that is cut on the line (role line) needs 3B or ISO; --layer or --handle writes the others alone";
     a_written_block_cannot_be_read_again(sentence) => "a written block cannot be read again: {sentence}";
     a_written_block_reads_otherwise(line, block) => "the written block {line} does not read as {block}";
     a_block_cannot_be_decoded(block) => "{block} cannot be decoded";

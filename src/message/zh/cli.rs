@@ -94,6 +94,7 @@ translate! {
     wire_on_the_left => "丝在左侧";
     wire_on_the_right => "丝在右侧";
     both_sides => "两侧";
+    cut_on_the_line => "沿线切割";
     sides_by_nesting => "按嵌套自动判定方向";
     sides_as_set_else(side) => "方向按图层和轮廓的设置，其余 {side}";
     with_its_origin(value, origin) => "{value}（{origin}）";

@@ -112,6 +112,8 @@ translate! {
     contour_kinks_by_degrees(turn, tool) => "轮廓看似相切，实际折了 {turn:.2}°：{tool}会留下切痕";
     the_wire_would_cut_into_the_part_each_time(touches, count, tool) => "轮廓沿此段{touches} {count} 次：{tool}会切入工件";
     the_wire_would_cut_into_the_part(touches, tool) => "轮廓在此{touches}：{tool}会切入工件";
+    a_cut_on_the_line_meets_a_contour => "沿线切割在此与另一轮廓相接：割缝会切开该轮廓";
+    a_cut_on_the_line_meets_contours(count) => "沿此段沿线切割与另一轮廓相接 {count} 次：割缝会切开该轮廓";
     contour_kinks_in_several_places(count, turn, x, y, tool) => "轮廓有 {count} 处看似相切、实际折了，最大 {turn:.2}°，在 {x:.3}, {y:.3}：{tool}会留下切痕";
     within_mm(deviation) => "，误差不超过 {deviation} mm";
     chords_lie_on_one_arc(chords, radius, within, facets) => "{chords} 段短直线在同一圆弧 R {radius} mm 上{within}：{chords} 段程序可变为 1 段{facets}";

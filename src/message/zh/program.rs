@@ -149,6 +149,7 @@ translate! {
     a_block_in_plain_letters_and_digits => "用普通字母和数字写的程序段";
     found_letters_of_another_script(at, found, expected, script) => "第 {at} 列：是 `{found}`，应为：{expected}，这些是{script}字符";
     n4b_needs_the_side_of_the_contour => "4B 写工件轮廓：请把 compensation 设为 controller，并说明 opening（型孔）或 punch（凸模）";
+    four_b_offsets_all_of_a_program => "4B 程序由控制器整体补偿：沿线切割的轮廓（line）要用 3B 或 ISO；用 --layer 或 --handle 单独写其余轮廓";
     a_written_block_cannot_be_read_again(sentence) => "写出的程序段不能再读入：{sentence}";
     a_written_block_reads_otherwise(line, block) => "写出的程序段 {line} 读出来不是 {block}";
     a_block_cannot_be_decoded(block) => "{block} 无法解码";

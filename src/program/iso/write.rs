@@ -74,6 +74,8 @@ pub(super) struct Lines<'a> {
     /// The origin of absolute coordinates.
     zero: Node,
     side: Option<Side>,
+    /// The control offsets one of the contours.
+    has_offsets: bool,
     is_switched_off: bool,
     /// The path goes on from the end of the last one, with the same modal state.
     goes_on: bool,
@@ -112,7 +114,7 @@ impl Writer for Lines<'_> {
                 if self.machine.at != self.place(first) {
                     return Err(self.refused(say!(its_begin_does_not_say_where_the_wire_stands)));
                 }
-                if path.side.is_some() {
+                if self.has_offsets {
                     self.say_offsets(kept, first)?;
                 }
             }
@@ -261,6 +263,7 @@ impl<'a> Lines<'a> {
             out: Vec::new(),
             zero: Node { x: 0, y: 0 },
             side: None,
+            has_offsets: false,
             is_switched_off: false,
             goes_on: false,
             pauses: 0,
@@ -299,6 +302,7 @@ impl<'a> Lines<'a> {
         go_on: &mut dyn FnMut(usize, usize) -> bool,
     ) -> Proved<ProvedProgram> {
         self.room = room(paths, self.sources.is_some());
+        self.has_offsets = paths.iter().any(|path| path.side.is_some());
         let (steps, step_um) = (unit_mm * self.per_mm(), self.step_um());
         walk(paths, steps, step_um, go_on, &mut self)?;
         self.finish(cuts(paths))

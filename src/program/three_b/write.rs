@@ -54,6 +54,12 @@ pub(crate) fn write_four_b(
     go_on: &mut dyn FnMut(usize, usize) -> bool,
 ) -> Proved<ProvedProgram> {
     let (correction, radius) = transitions(settings);
+    // Its control offsets all of a program.
+    if paths.iter().any(|path| path.on_line) {
+        return Err(ProofError::Refused(
+            say!(four_b_offsets_all_of_a_program).into(),
+        ));
+    }
     let is_of_tab = |path: &WirePath| path.cut_off && path.pass > 1;
     if paths.iter().any(is_of_tab) || settings.closing_overlap > 0.0 {
         return Err(ProofError::Refused(say!(four_b_has_no_tab).into()));

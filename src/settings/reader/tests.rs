@@ -33,7 +33,7 @@ fn what_was_most_likely_meant_is_asked() {
         ),
         (
             "[layers]\nDIE = \"Punch\"",
-            "layers.DIE is \"Punch\", expected opening, punch, both, left, right, ignore",
+            "layers.DIE is \"Punch\", expected opening, punch, both, left, right, line, ignore",
         ),
     ] {
         let (_, errors) = from_toml(text);

@@ -49,6 +49,8 @@ QString partName(const QString &part)
 
 QString sideName(const QString &role)
 {
+    if (role == QLatin1String("line"))
+        return tr("cut on the line");
     for (const char *known : {QT_TRANSLATE_NOOP("wedm::programs", "opening"), QT_TRANSLATE_NOOP("wedm::programs", "punch"),
                               QT_TRANSLATE_NOOP("wedm::programs", "left"), QT_TRANSLATE_NOOP("wedm::programs", "right")}) {
         if (role == QLatin1String(known))

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any, Literal, TypedDict, Union
 
-Role = Literal["opening", "punch", "both", "left", "right", "ignore"]
+Role = Literal["opening", "punch", "both", "left", "right", "line", "ignore"]
 Side = Literal["both", "auto", "opening", "punch", "left", "right"]
 Units = Literal["mm", "inch"]
 RuleSeverity = Literal["error", "warning", "information", "hint", "off"]
@@ -119,7 +119,7 @@ class Profile(TypedDict, total=False):
 class ContourSettings(TypedDict, total=False):
     """Settings for one contour of one drawing."""
 
-    side: Literal["opening", "punch", "both", "left", "right", "ignore"]
+    side: Literal["opening", "punch", "both", "left", "right", "line", "ignore"]
     thread: Sequence[float]
     entry: Sequence[float]
     order: int
@@ -143,10 +143,10 @@ class Settings(TypedDict, total=False):
     margin: float
     resolution: float
     join: float
-    layers: Mapping[str, Literal["opening", "punch", "both", "left", "right", "ignore"]]
-    linetypes: Mapping[str, Literal["opening", "punch", "both", "left", "right", "ignore"]]
-    contours: Mapping[str, Literal["opening", "punch", "both", "left", "right", "ignore"]]
-    colors: Mapping[str, Literal["opening", "punch", "both", "left", "right", "ignore"]]
+    layers: Mapping[str, Literal["opening", "punch", "both", "left", "right", "line", "ignore"]]
+    linetypes: Mapping[str, Literal["opening", "punch", "both", "left", "right", "line", "ignore"]]
+    contours: Mapping[str, Literal["opening", "punch", "both", "left", "right", "line", "ignore"]]
+    colors: Mapping[str, Literal["opening", "punch", "both", "left", "right", "line", "ignore"]]
     drawings: Mapping[str, DrawingSettings]
     arc_fit: float
     rules: Mapping[str, Literal["error", "warning", "information", "hint", "off"]]

@@ -26,6 +26,7 @@ const punch = (mills: boolean): Answer =>
   mills
     ? { label: t("Punch: Electrode Outside"), detail: t("It mills round what stays"), role: "punch" }
     : { label: t("Punch: Wire Outside"), detail: t("What falls out is the part"), role: "punch" };
+const onLine = (): Answer => ({ label: t("On the Line"), detail: t("A slit, a clamp, a mark: the wire's centre runs on it"), role: "line" });
 const notCut = (): Answer => ({ label: t("Not Cut"), detail: t("A frame, a construction line"), role: "ignore" });
 
 /** The answers for contours of unknown side, for a wire or an electrode that `mills`; undefined where the user gives up. */
@@ -67,7 +68,7 @@ async function askEach(pictures: Pictures, unknown: Asked, unitsToMm: number, mi
     pictures.mark(handlesOf([contour]));
     const title = t("Contour {0} of {1}", index + 1, unknown.length);
     const placeHolder = t("The one that is marked in the picture, {0} mm round", (contour.length * unitsToMm).toFixed(3));
-    const answers = [opening(mills), punch(mills), notCut()];
+    const answers = [opening(mills), punch(mills), ...(mills ? [] : [onLine()]), notCut()];
     const answer = await vscode.window.showQuickPick(answers, { title, placeHolder, ignoreFocusOut: true });
     if (answer === undefined) {
       return undefined;

@@ -20,7 +20,7 @@ test("a wedm.toml is completed from the settings of the manifest", () => {
   assert.deepEqual(labels(["[rules]"], "gap = "), ["error", "warning", "information", "hint", "off"]);
   assert.deepEqual(labels([], "side = "), ["both", "auto", "opening", "punch", "left", "right"]);
   assert.deepEqual(labels(["[milling]"], "slot-ends = "), ["true", "false"]);
-  assert.deepEqual(labels(["[layers]"], "DIE = "), ["opening", "punch", "both", "left", "right", "ignore"]);
+  assert.deepEqual(labels(["[layers]"], "DIE = "), ["opening", "punch", "both", "left", "right", "line", "ignore"]);
   assert.deepEqual(labels([], "correction = 0.1"), []);
   assert.deepEqual(labels([], "# side = "), []);
 });
