@@ -7,11 +7,14 @@
 
 #[path = "soak/model.rs"]
 mod model;
+#[path = "soak/process.rs"]
+mod process;
 #[path = "soak/seeds.rs"]
 mod seeds;
 
 use crate::support::{Client, capabilities};
 use model::{Model, Random};
+use process::{resident, worked};
 use serde_json::{Value, json};
 use std::time::{Duration, Instant};
 
@@ -110,29 +113,6 @@ fn whatever_is_edited_and_repaired_the_server_stays_right_and_small() {
 /// The ticks in which processor time is counted are longer than most edits: only many together say something.
 fn mean(times: &[Duration]) -> Duration {
     times.iter().sum::<Duration>() / times.len().max(1) as u32
-}
-
-/// Time of the processor that a server has taken; 0 where the system does not say.
-fn worked(client: &Client) -> Duration {
-    /// Hundredths of a second, on every Linux.
-    const TICK: Duration = Duration::from_millis(10);
-    let path = format!("/proc/{}/stat", client.child.id());
-    let stat = std::fs::read_to_string(path).unwrap_or_default();
-    // Behind the name, which may hold spaces: the state, then ten numbers, then the user's and the system's time.
-    let fields = stat.rsplit_once(") ").map_or("", |(_, fields)| fields);
-    let ticks = fields.split(' ').skip(11).take(2);
-    TICK * ticks
-        .filter_map(|ticks| ticks.parse::<u32>().ok())
-        .sum::<u32>()
-}
-
-/// Resident memory in kB; 0 where the system does not say.
-fn resident(client: &Client) -> u64 {
-    let status =
-        std::fs::read_to_string(format!("/proc/{}/status", client.child.id())).unwrap_or_default();
-    let line = status.lines().find(|line| line.starts_with("VmRSS:"));
-    line.and_then(|line| line.split_whitespace().nth(1)?.parse().ok())
-        .unwrap_or(0)
 }
 
 struct Soak {
