@@ -9,6 +9,7 @@ mod convert;
 mod corners;
 pub(crate) mod drill;
 mod milling;
+mod night;
 mod pair;
 mod repairs;
 mod shown;
@@ -16,6 +17,7 @@ mod tabs;
 
 pub(crate) use convert::{Converted, Target, convert};
 pub(crate) use corners::is_of_program;
+pub(crate) use night::{Watch as NightWatch, alone, night};
 pub(crate) use pair::{Cut, cuts, programs};
 pub use pair::{PartProgram, pair};
 pub use repairs::ROUNDS;

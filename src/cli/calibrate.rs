@@ -348,7 +348,7 @@ fn table(path: &Path, last: usize) -> Result<Vec<Measurement>, Vec<String>> {
     let columns = cells(&head.to_ascii_lowercase());
     let is_there = |name: &&str| columns.iter().any(|own| own == name);
     let is_known = |name: &String| COLUMNS.contains(&name.as_str());
-    if !columns.iter().all(is_known) || !NEEDED.iter().all(|name| is_there(name)) {
+    if !columns.iter().all(is_known) || !NEEDED.iter().all(is_there) {
         let (all, needed) = (COLUMNS.join(", "), NEEDED.join(", "));
         return Err(vec![say!(
             a_head_of_other_columns,

@@ -265,3 +265,97 @@ fn a_page_says_what_small_radii_cost() {
     desk.write("wedm.toml", wires.replace("thickness = 40\n", ""));
     assert!(!page(&desk).contains("What small radii cost"));
 }
+
+/// What is loose when, what falls by itself, and until when nobody is needed: of two openings, the second one with a tab or none,
+/// by the machine's way to thread.
+#[test]
+fn a_page_says_what_happens_unattended() {
+    const JOB: &str =
+        "side = \"opening\"\ncorrection = 0.1\n[job]\nthickness = 40\n[passes]\nrates = [100]\n";
+    const TABBED: &str = "side = \"opening\"\ncorrection = 0.1\n[job]\nthickness = 40\nslug-limit = 10\n[passes]\nrates = [100]\n";
+    const PAIR: &str = "side = \"opening\"\n[job]\nthickness = 40\n[passes]\ncorrections = [0.12, 0.1]\nrates = [100, 200]\n";
+    const THREADS: &str = "[program]\nformat = \"iso\"\nprofile = \"own\"\n[profiles.own]\npause = [\"M50\", \"M60\"]\n";
+    let square = |handle: &str, x: f64| {
+        let corners = [[x, 0.0], [x + 10.0, 0.0], [x + 10.0, 10.0], [x, 10.0]];
+        let corners = corners.map(|[x, y]| format!("10\n{x}\n20\n{y}\n")).concat();
+        format!(
+            "0\nLWPOLYLINE\n5\n{handle}\n100\nAcDbEntity\n8\n0\n100\nAcDbPolyline\n90\n4\n70\n1\n{corners}"
+        )
+    };
+    let rows: [(&str, &str, &[&str], &str); 5] = [
+        // 39.2 mm of path and a lead of 2.9 there and back, times 40, by 100.
+        (
+            JOB,
+            "",
+            &[
+                "runs alone for 18.0",
+                "contour A0, A1;",
+                "slug falls 31.4 g",
+                "<td class=\"\">waits</td>",
+            ],
+            "cut off after a stop",
+        ),
+        (
+            TABBED,
+            "[program]\ntab = 2\n",
+            &[
+                "runs alone for 1",
+                "slug, cut off after a stop 31.4 g",
+                "cut-off, pass 1",
+            ],
+            "falls while nobody stands by",
+        ),
+        (
+            JOB,
+            THREADS,
+            &["runs alone to its end, 36.", "contour A0, A1;"],
+            "runs alone for",
+        ),
+        // It threads by itself, and skims without a stop, but not through a tab.
+        (
+            PAIR,
+            THREADS,
+            &["runs alone to its end, "],
+            "runs alone for",
+        ),
+        (
+            PAIR,
+            "[program]\nformat = \"iso\"\nprofile = \"robofil\"\n",
+            &["runs alone for 26.92 min", "slug falls"],
+            "to its end",
+        ),
+    ];
+    for (job, more, parts, absent) in rows {
+        let desk = Desk::new();
+        let entities = square("A0", 0.0) + &square("A1", 20.0);
+        desk.write(
+            "two.dxf",
+            format!("0\nSECTION\n2\nENTITIES\n{entities}0\nENDSEC\n0\nEOF\n"),
+        );
+        desk.write("wedm.toml", format!("{job}{more}"));
+        let ended = desk.run("report two.dxf -o pages");
+        let page = String::from_utf8(desk.read("pages/two.html")).unwrap();
+        let night = page.split("<h2>Unattended</h2>").nth(1).unwrap_or_default();
+        let night = night.split("<h2>").next().unwrap_or_default();
+        for part in parts {
+            assert!(night.contains(part), "{more}: {part} in {night}{ended:?}");
+        }
+        assert!(!night.contains(absent), "{more}: {absent} in {night}");
+        // The program that is written stops where the page says that it waits.
+        let program = desk.run("generate two.dxf").stdout;
+        let stops = program
+            .lines()
+            .any(|line| line == "D" || line.contains("M00"));
+        assert_eq!(
+            stops,
+            night.contains("then somebody has to come"),
+            "{more}: {program}"
+        );
+    }
+    // A single cut has no night of its own.
+    let desk = Desk::new();
+    desk.write("wedm.toml", JOB);
+    desk.run("report clean.dxf -o pages");
+    let page = String::from_utf8(desk.read("pages/clean.html")).unwrap();
+    assert!(!page.contains("Unattended"));
+}

@@ -4,11 +4,13 @@ use super::super::fit::of_least;
 use super::html::{cell, more, number, table, text};
 use crate::analysis::{ShopWire, TightPlace, radius_prices};
 use crate::document::{Document, Snapshot};
-use crate::job;
+use crate::job::{self, NightWatch};
 use crate::message::duration;
 use crate::picture;
+use crate::program::Format;
 use crate::protocol::{Fit, StartHole, Work};
 use crate::settings::part_title;
+use crate::toolpath::{self, WirePath};
 
 /// The most start holes and slugs on a page: other commands list them all.
 const MOST: usize = 500;
@@ -73,6 +75,74 @@ pub(super) fn time_and_material(work: &Work) -> String {
         .map(|slug| vec![cell(&slug.contour), number(format!("{:.1}", slug.mass))]);
     let heads = [say!(column_contour), say!(column_slug)];
     self::facts(&facts) + &table(&heads, slugs) + &more(work.slugs.len(), MOST)
+}
+
+/// How long the machine runs alone, what falls meanwhile, and where somebody has to stand by; nothing of a single cut.
+pub(super) fn night(
+    snapshot: &Snapshot,
+    paths: &[WirePath],
+    work: &toolpath::Work,
+    format: Format,
+) -> String {
+    let night = job::night(snapshot, paths, work, format);
+    if night.len() < 2 {
+        return String::new();
+    }
+    let name = |watch: &NightWatch| {
+        let outline = snapshot.outlines.get(watch.outline);
+        outline.map_or("?", |outline| outline.name(&snapshot.drawing))
+    };
+    let mut facts = Vec::new();
+    if let Some((minutes, is_end)) = job::alone(&night) {
+        facts.push(match is_end {
+            true => say!(it_runs_alone_to_its_end, duration(minutes)),
+            false => say!(it_runs_alone, duration(minutes)),
+        });
+    }
+    let falling = night.iter().filter(|watch| {
+        let loose = watch.loose.as_ref();
+        loose.is_some_and(|loose| !loose.is_watched)
+    });
+    let falling: Vec<&str> = falling.take(MOST_PLACES).map(name).collect();
+    if !falling.is_empty() {
+        facts.push(say!(it_falls_unattended, falling.join(say!(comma))));
+    }
+    let row = |watch: &NightWatch| {
+        let pass = match watch.cut_off {
+            false => watch.pass.to_string(),
+            true => say!(cut_off_in_pass, watch.pass),
+        };
+        let loose = watch.loose.as_ref().map(|loose| {
+            let (class, what) = match (loose.is_slug, loose.is_watched) {
+                (true, true) => ("", say!(the_slug_is_loose)),
+                (false, true) => ("", say!(the_part_is_loose)),
+                (true, false) => ("warning", say!(the_slug_falls)),
+                (false, false) => ("warning", say!(the_part_falls)),
+            };
+            let mass = loose.mass.map(|mass| format!(" {mass:.1} g"));
+            (class, text(format!("{what}{}", mass.unwrap_or_default())))
+        });
+        vec![
+            cell(name(watch)),
+            cell(pass),
+            number(watch.until.map(duration).unwrap_or_default()),
+            loose.unwrap_or_else(|| cell("")),
+            cell(if watch.waits {
+                say!(the_machine_waits)
+            } else {
+                ""
+            }),
+        ]
+    };
+    let heads = [
+        say!(column_contour),
+        say!(column_pass),
+        say!(column_done_after),
+        say!(column_loose),
+        say!(column_stop),
+    ];
+    let rows = night.iter().take(MOST).map(row);
+    self::facts(&facts) + &table(&heads, rows) + &more(night.len(), MOST)
 }
 
 /// The most places named for a wire that they keep out.

@@ -47,6 +47,8 @@ pub(super) struct PageShare {
     sides: Vec<Role>,
     /// The totals of the paths, if there are any.
     pub(super) work: Option<Work>,
+    /// What happens while nobody stands by.
+    night: String,
     /// The program, or why there is none.
     pub(super) program: Result<Generated, String>,
 }
@@ -104,6 +106,7 @@ impl PageShare {
             holes: Vec::new(),
             sides: Vec::new(),
             work: None,
+            night: String::new(),
             program,
         };
         let Some(cut) = cut else {
@@ -141,6 +144,9 @@ impl PageShare {
             .map(hole)
             .collect();
         share.sides = paths.iter().map(side).collect();
+        if let Some(work) = work.as_ref().filter(|_| format != Format::Milling) {
+            share.night = of_job::night(&cut.snapshot, paths, work, format);
+        }
         share.work = work.map(|work| Work::new(drawing, outlines, &work));
         share.paths.clone_from(paths);
         share
@@ -179,6 +185,7 @@ impl PageShare {
         [
             section(say!(head_passes), self.passes(format, unit_mm)),
             section(say!(head_time_and_material), work.unwrap_or_default()),
+            section(say!(head_night), self.night.clone()),
             section(
                 say!(head_start_holes),
                 of_job::drill_list(&self.holes, unit_mm),

@@ -87,4 +87,16 @@ declare! {
     column_what_keeps_it_out => "kept out by";
     the_chosen_wire => "cuts this drawing in the least time";
     so_many_places(places, listed) => "{places}: {listed}";
+    head_night => "Unattended";
+    it_runs_alone(time) => "runs alone for {time}, then somebody has to come";
+    it_runs_alone_to_its_end(time) => "runs alone to its end, {time}";
+    it_falls_unattended(contours) => "falls while nobody stands by: contour {contours}; a tab (program.tab) holds it until the machine has stopped";
+    column_done_after => "done after";
+    column_loose => "what is loose then";
+    column_stop => "machine";
+    the_slug_is_loose => "slug, cut off after a stop";
+    the_part_is_loose => "part, cut off after a stop";
+    the_slug_falls => "slug falls";
+    the_part_falls => "part falls";
+    the_machine_waits => "waits";
 }

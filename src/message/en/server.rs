@@ -151,4 +151,5 @@ declare! {
     what_the_wire_cuts => "cut to scale";
     what_stays_uncut => "stays uncut";
     the_correction => "correction";
+    and_alone(time) => ", alone for {time}";
 }

@@ -87,4 +87,16 @@ translate! {
     column_what_keeps_it_out => "因何不能用";
     the_chosen_wire => "切此图形用时最少";
     so_many_places(places, listed) => "{places}：{listed}";
+    head_night => "无人看管";
+    it_runs_alone(time) => "可无人看管 {time}，之后须有人到场";
+    it_runs_alone_to_its_end(time) => "可无人看管直到结束，{time}";
+    it_falls_unattended(contours) => "无人在场时落下：轮廓 {contours}；暂留段（program.tab）可把它留住，直到机床停下";
+    column_done_after => "切完时";
+    column_loose => "此时松脱的";
+    column_stop => "机床";
+    the_slug_is_loose => "废料，停机后切断";
+    the_part_is_loose => "零件，停机后切断";
+    the_slug_falls => "废料落下";
+    the_part_falls => "零件落下";
+    the_machine_waits => "等人";
 }

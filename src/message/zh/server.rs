@@ -151,4 +151,5 @@ translate! {
     what_the_wire_cuts => "切缝（按比例）";
     what_stays_uncut => "未切到";
     the_correction => "补偿量";
+    and_alone(time) => "，可无人看管 {time}";
 }

@@ -6,7 +6,9 @@ use crate::analysis::largest_wire;
 use crate::document::Snapshot;
 use crate::ide::SymbolKind;
 use crate::ide::program::symbols;
-use crate::job::Cut;
+use crate::job::{self, Cut};
+use crate::message::duration;
+use crate::program::Format;
 use crate::server::context::RequestContext;
 use crate::settings::part_title;
 use crate::toolpath;
@@ -79,6 +81,10 @@ fn of_drawing(context: &RequestContext) -> Option<Vec<CodeLens>> {
         } = &cut.snapshot;
         let work = toolpath::work(drawing, outlines, settings, &cut.planned.paths);
         let minutes = work.minutes.map(|minutes| say!(and_minutes, minutes));
+        let format = settings.format.unwrap_or(Format::ThreeB);
+        let night = job::night(&cut.snapshot, &cut.planned.paths, &work, format);
+        let alone = job::alone(&night).filter(|(_, is_end)| !is_end);
+        let alone = alone.map(|(minutes, _)| say!(and_alone, duration(minutes)));
         let told = say!(
             cut_of,
             say!(contours, cut.planned.holes.len()),
@@ -87,7 +93,7 @@ fn of_drawing(context: &RequestContext) -> Option<Vec<CodeLens>> {
                 true => say!(and_jumps, work.jumps),
                 false => String::new(),
             },
-            minutes.unwrap_or_default()
+            minutes.unwrap_or_default() + &alone.unwrap_or_default()
         );
         match cut.name() {
             Some(name) => say!(of_a_part, part_title(name), told),
