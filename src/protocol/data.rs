@@ -122,6 +122,10 @@ impl FindingData {
                 data.count = Some(parts.iter().map(|part| part.count).sum());
             }
             Detail::Unseen { count, .. } | Detail::More { count } => data.count = Some(*count),
+            Detail::Wide { count, width } => {
+                data.count = Some(*count);
+                data.distance = Some(*width);
+            }
             Detail::SharpCorner {
                 turn,
                 radius,
