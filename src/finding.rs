@@ -37,7 +37,7 @@ pub(crate) use unwritable::Unwritable;
 pub use crate::geometry::Side;
 pub use crate::rule::{Rule, Severity};
 
-use crate::drawing::{ContourSegment, EntityId, Unseen};
+use crate::drawing::{ContourSegment, EntityId, Unseen, Wide};
 use rustc_hash::FxHashSet;
 use std::ops::Range;
 
@@ -90,6 +90,23 @@ impl From<Unseen> for Finding {
                 visibility: unseen.visibility,
                 count: unseen.count,
             },
+            related: Vec::new(),
+        }
+    }
+}
+
+impl From<Wide> for Finding {
+    fn from(wide: Wide) -> Finding {
+        let Wide {
+            count,
+            width,
+            first: entity,
+        } = wide;
+        Finding {
+            rule: Rule::UnsupportedEntity,
+            severity: Severity::Information,
+            place: Place::Entity { entity },
+            detail: Detail::Wide { count, width },
             related: Vec::new(),
         }
     }

@@ -64,6 +64,7 @@ pub(crate) const SUPPRESS: &str = "suppress";
 pub(crate) struct Appearance {
     /// Set where it is not simply shown, with the layer that decides it.
     pub(crate) unseen: Option<(Visibility, Arc<str>)>,
+    pub(crate) width: f64,
     pub(crate) linetype: Option<Linetype>,
     pub(crate) color: Option<Color>,
     pub(crate) marks: Option<Marks>,
@@ -75,6 +76,15 @@ pub(crate) struct Unseen {
     /// The layer that decides it; empty for entities that are invisible themselves.
     pub(crate) layer: Arc<str>,
     pub(crate) count: usize,
+    /// The first of them in machining order.
+    pub(crate) first: EntityId,
+}
+
+/// The polylines that are drawn with a width.
+pub(crate) struct Wide {
+    pub(crate) count: usize,
+    /// The largest width, drawing units.
+    pub(crate) width: f64,
     /// The first of them in machining order.
     pub(crate) first: EntityId,
 }
@@ -186,6 +196,25 @@ impl Drawing {
         by_reason.into_values().collect()
     }
 
+    /// Sets the largest width of a polyline; 0 is none.
+    pub(crate) fn set_width(&mut self, id: EntityId, width: f64) {
+        match width > 0.0 {
+            true => drop(self.widths.insert(id, width)),
+            false => drop(self.widths.remove(&id)),
+        }
+    }
+
+    /// The polylines with a width that are seen.
+    pub(crate) fn wide(&self) -> Option<Wide> {
+        let is_seen = |(id, _): &(&EntityId, &f64)| self.visibility(**id).is_seen();
+        let seen = || self.widths.iter().filter(is_seen);
+        Some(Wide {
+            count: seen().count(),
+            width: seen().map(|(_, width)| *width).fold(0.0, f64::max),
+            first: *seen().min_by_key(|(id, _)| self.rank(**id))?.0,
+        })
+    }
+
     /// Sets the linetype of an entity; `None` is a continuous one. True when that changes.
     pub(crate) fn set_linetype(&mut self, id: EntityId, linetype: Option<Linetype>) -> bool {
         let before = self.linetypes.get(&id);
@@ -246,6 +275,7 @@ impl Drawing {
     pub(crate) fn appearance(&self, id: EntityId) -> Appearance {
         Appearance {
             unseen: self.unseen.get(&id).cloned(),
+            width: self.widths.get(&id).copied().unwrap_or_default(),
             linetype: self.linetypes.get(&id).cloned(),
             marks: self.marks.get(&id).cloned(),
             color: self.colors.get(id.0 as usize).copied().flatten(),
@@ -257,6 +287,7 @@ impl Drawing {
             Some(unseen) => self.unseen.insert(id, unseen),
             None => self.unseen.remove(&id),
         };
+        self.set_width(id, appearance.width);
         self.set_linetype(id, appearance.linetype);
         self.set_marks(id, appearance.marks);
         self.set_color(id, appearance.color);

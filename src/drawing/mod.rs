@@ -25,7 +25,7 @@ mod slots;
 mod twins;
 
 pub(crate) use appearance::{
-    Appearance, Color, Linetype, Marks, SUPPRESS, Unseen, Visibility, mark_of_layer,
+    Appearance, Color, Linetype, Marks, SUPPRESS, Unseen, Visibility, Wide, mark_of_layer,
 };
 pub use chain::Chains;
 pub(crate) use chain::Key as ContourKey;
@@ -93,6 +93,8 @@ pub struct Drawing {
     /// Entities that are not simply shown, each with the layer that decides it, or its own layer
     /// where the entity itself decides.
     unseen: FxHashMap<EntityId, (Visibility, Arc<str>)>,
+    /// The largest width of each polyline that is drawn with one.
+    widths: FxHashMap<EntityId, f64>,
     /// Linetypes that are not continuous.
     linetypes: FxHashMap<EntityId, Linetype>,
     /// Words that the source holds for an entity, as extended data of DXF.
@@ -399,6 +401,7 @@ impl Drawing {
         self.whole.remove(&id);
         self.straight.remove(&id);
         self.unseen.remove(&id);
+        self.widths.remove(&id);
         self.linetypes.remove(&id);
         self.marks.remove(&id);
         self.on_marked_layers.remove(&id);

@@ -72,6 +72,8 @@ struct Size {
 
 /// One piece of what a reference draws, in the coordinates around it.
 pub(super) struct BlockPart {
+    /// The largest width of a polyline; 0 for none.
+    pub(super) width: f64,
     pub(super) layer: Arc<str>,
     /// Whether it is visible, and the layer that decides it.
     pub(super) visibility: (Visibility, Arc<str>),
@@ -382,6 +384,7 @@ impl Blocks {
                                     .or_default() += 1;
                                 continue;
                             };
+                            let scale = map.similarity().map_or(1.0, |(scale, _)| scale);
                             let (visibility, color, linetype) =
                                 inherited.hand_on(appearance, layer, pen.states);
                             shape.placed(&map, *kind, &mut |kind, shape| match shape
@@ -390,6 +393,7 @@ impl Blocks {
                                 Ok((geometry, _)) if geometry.is_sound() => {
                                     let (layer, visibility) = (layer.clone(), visibility.clone());
                                     pen.drawn.parts.push(BlockPart {
+                                        width: appearance.width * scale,
                                         layer,
                                         visibility,
                                         color,

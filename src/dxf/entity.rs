@@ -28,11 +28,13 @@ pub(super) struct Read {
 }
 
 /// The appearance that the entity states.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Appearance {
     pub(super) paint: Paint,
     pub(super) stroke: Stroke,
     pub(super) invisible: bool,
+    /// The largest width of a polyline, in its own units; 0 for none.
+    pub(super) width: f64,
     /// Its extended data under the name of this program.
     pub(super) marks: Option<Marks>,
 }
@@ -160,6 +162,8 @@ pub(super) struct Common {
     /// Texts of the extended data of the application `WEDM`, and whether its data are being read.
     marks: Vec<Tag>,
     is_own: bool,
+    /// The largest width that a polyline states.
+    width: f64,
     /// Within a group `{` … `}` of another program.
     pub(super) group: bool,
     /// A subclass marker names the class of the tags after it.
@@ -235,6 +239,15 @@ impl Common {
             Number::Exact(value) => Some(value),
             other => self.blemished(lexer, tag, other),
         }
+    }
+
+    /// The width of a polyline at a vertex, or of all of it. What is no number is no width: it changes no contour.
+    pub(super) fn take_width(&mut self, lexer: &Lexer, tag: Tag) {
+        self.width = self.width.max(width(lexer, tag));
+    }
+
+    pub(super) fn has_width(&self) -> bool {
+        self.width > 0.0
     }
 
     /// The bulge of a vertex.
@@ -400,6 +413,7 @@ impl Common {
             paint,
             stroke,
             invisible: self.invisible,
+            width: self.width,
             marks: (!marks.is_empty()).then(|| marks.into()),
         }
     }
@@ -424,6 +438,14 @@ impl Common {
             vertices: None,
             frames: Vec::new(),
         }
+    }
+}
+
+/// The number of a tag that states a width; 0 where it states none.
+pub(super) fn width(lexer: &Lexer, tag: Tag) -> f64 {
+    match number::number(lexer.lines.content(tag.value_line())) {
+        Number::Exact(value) | Number::Blemished(value, _) if value.is_finite() => value,
+        _ => 0.0,
     }
 }
 

@@ -354,6 +354,7 @@ impl Pass<'_> {
         let mut ids = EntityId(0)..EntityId(0);
         let mut name: Option<Handle> = None;
         for BlockPart {
+            width,
             layer,
             visibility,
             color,
@@ -378,6 +379,7 @@ impl Pass<'_> {
             self.table.set_item_of(id, self.table.items.len() as u32);
             let drawing = &mut self.reading.drawing;
             drawing.set_visibility(id, visibility.0, &visibility.1);
+            drawing.set_width(id, width);
             drawing.set_color(id, color);
             drawing.set_linetype(id, linetype);
             drawing.set_marks(id, insert.appearance.marks.clone());
@@ -419,6 +421,7 @@ pub(super) fn set_appearance(
     let linetype = stroke(&appearance.stroke, None, layer, states);
     let is_stroked_otherwise = drawing.set_linetype(id, linetype);
     let is_marked_otherwise = drawing.set_marks(id, appearance.marks);
+    drawing.set_width(id, appearance.width);
     let seen_otherwise = drawing.set_visibility(id, visibility, layer);
     drawing.set_color(id, color) | seen_otherwise | is_stroked_otherwise | is_marked_otherwise
 }

@@ -42,7 +42,7 @@ impl Affine {
     }
 
     /// The scale, and whether it mirrors, of a transformation that keeps angles; `None` of any other.
-    fn similarity(&self) -> Option<(f64, bool)> {
+    pub(super) fn similarity(&self) -> Option<(f64, bool)> {
         let (x, y) = (self.x_axis.norm(), self.y_axis.norm());
         let alike =
             (x - y).abs() <= ALIKE * x && self.x_axis.dot(&self.y_axis).abs() <= ALIKE * x * y;

@@ -75,13 +75,20 @@ impl Document {
     }
 
     /// One finding for each layer that is not simply shown and has something drawn on it, at its entry; one for all
-    /// entities that are invisible themselves, at the first of them.
+    /// entities that are invisible themselves, at the first of them; one for polylines with a width.
     fn name_unseen(&mut self) {
         for unseen in self.drawing.unseen() {
             let entry = self.entry_of(&unseen.layer);
             let mut finding = Finding::from(unseen);
             finding.place = Place::Text {
                 range: entry.unwrap_or_else(|| self.range_of(&finding.place)),
+            };
+            self.findings.push(finding);
+        }
+        if let Some(wide) = self.drawing.wide() {
+            let mut finding = Finding::from(wide);
+            finding.place = Place::Text {
+                range: self.range_of(&finding.place),
             };
             self.findings.push(finding);
         }

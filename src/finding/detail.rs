@@ -169,6 +169,9 @@ told! {
     /// `count` entities are drawn on a layer that is not simply shown, or are invisible themselves.
     Unseen { layer: Arc<str>, visibility: Visibility, count: usize }
         => unseen(layer, *visibility, *count);
+    /// `count` polylines are drawn with a width, the largest of which is given.
+    Wide { count: usize, width: f64 }
+        => say!(polylines_with_a_width_are_cut_along_their_middle, count, telling.mm(*width));
     /// Entities drawn only to be read, not to be cut.
     SetAside(parts: Vec<SetAside>) => set_aside(parts);
     /// The larger side of the largest contour, which suggests another unit.

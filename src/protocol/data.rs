@@ -132,6 +132,10 @@ impl FindingData {
                 self.count = Some(parts.iter().map(|part| part.count).sum());
             }
             Detail::Unseen { count, .. } | Detail::More { count } => self.count = Some(*count),
+            Detail::Wide { count, width } => {
+                self.count = Some(*count);
+                self.distance = Some(*width);
+            }
             Detail::SharpCorner {
                 turn,
                 radius,

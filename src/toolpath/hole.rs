@@ -90,12 +90,21 @@ impl Job<'_> {
         let mut faults = Vec::new();
         let contours = Contours::about(self, outlines);
         let mut given: Vec<(Point, usize)> = Vec::new();
+        let openings = self.openings_of_lines(outlines);
         for (&index, wanted) in outlines.iter().zip(wanted) {
-            let Requested { thread, .. } = self.with_room(index, wanted, &contours);
             let outline = &self.outlines[index];
             if !outline.contour.closed && outline.lacks_side() {
                 continue;
             }
+            let thread = match outline.is_on_line() {
+                // Where nothing is said of it, it is threaded where it begins.
+                true => self
+                    .as_drawn(index, &self.with_room(index, wanted, &contours))
+                    .ok()
+                    .filter(|path| !self.is_threaded_in_opening(path, &openings))
+                    .map(|path| path.thread_hole),
+                false => wanted.thread,
+            };
             if let Some(at) = thread {
                 faults.extend(self.hole_fault(at, reach, &contours));
                 given.push((at, index));

@@ -5,6 +5,7 @@ mod clearances;
 mod contradictions;
 mod electrode;
 mod ends;
+mod filled;
 mod fixes;
 mod four_b;
 mod holes;

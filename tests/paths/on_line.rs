@@ -233,3 +233,23 @@ fn a_slit_at_a_corner_is_no_part_of_the_contour_there() {
         .collect();
     assert_eq!(closed, [(false, Role::Line), (true, Role::Opening)]);
 }
+
+/// A line begins in solid steel where nothing else is near: its start hole is checked as a given one is.
+#[test]
+fn the_start_hole_of_a_line_keeps_clear_of_the_walls() {
+    for (name, own, is_told) in [
+        ("far from any wall", line(44.0, 20.0, 50.0, 20.0), false),
+        ("beside a wall", line(40.8, 20.0, 50.0, 20.0), true),
+        ("in the opening", line(35.0, 20.0, 50.0, 20.0), false),
+    ] {
+        let entities = with_lines(&[("S", own)]);
+        let (drawing, _) = drawing(&of(&entities));
+        let settings = Arc::new(Effective {
+            start_hole: Some(2.0),
+            ..settings()
+        });
+        let (found, _) = Analysis::new(&drawing, settings).findings(&drawing, usize::MAX);
+        let told = found.iter().any(|it| it.rule.name() == "start-hole");
+        assert_eq!(told, is_told, "{name}: {found:?}");
+    }
+}

@@ -34,6 +34,13 @@ pub(in crate::dxf) fn read(start: Tag, lexer: &mut Lexer, layers: &mut Layers) -
             Err(refused) => Err(refused),
         },
         _ if pass_over(lexer) => Err(Refused::Unsupported(say!(it_lies_in_paper_space))),
+        b"HATCH" | b"MPOLYGON" => Err(Refused::Unsupported(say!(only_its_boundary_could_be_cut))),
+        b"REGION" | b"BODY" | b"3DSOLID" | b"SURFACE" => {
+            Err(Refused::Unsupported(say!(its_edges_cannot_be_read)))
+        }
+        b"SOLID" | b"TRACE" | b"WIPEOUT" => {
+            Err(Refused::Unsupported(say!(its_edges_are_no_contour)))
+        }
         _ => Err(Refused::Unsupported(say!(this_kind_is_not_cut))),
     };
     match read {

@@ -2,7 +2,7 @@
 
 use crate::drawing::{Geometry, Kind, Vertex};
 use crate::dxf::entity::{
-    Common, Plane, Read, Refused, VertexLines, pass_over, pass_over_followers, tag_of_record,
+    Common, Plane, Read, Refused, VertexLines, pass_over, pass_over_followers, tag_of_record, width,
 };
 use crate::dxf::fault::{meaning, quoted};
 use crate::dxf::layers::Layers;
@@ -100,6 +100,7 @@ pub(super) fn light_polyline(
                 read.take(tag, start.line, &mut common, lexer)
             }
             _ if common.take(lexer, tag) => read.end_own(),
+            40 | 41 | 43 => common.take_width(lexer, tag),
             38 | 70 | 90 => {
                 read.end_own();
                 match tag.code {
@@ -126,8 +127,9 @@ pub(super) fn light_polyline(
     let first = read.lines.first().copied().unwrap_or_default();
     let line = count.map_or(0, |tag| (tag.line - start.line) as u32);
     let own = match line < first {
-        true => read.own.unwrap_or(read.vertices.len()),
-        false => 0,
+        // What one vertex says of the width, all of it may have.
+        true if !common.has_width() => read.own.unwrap_or(read.vertices.len()),
+        _ => 0,
     };
     let own = (own as u32, line);
     polyline_of(
@@ -177,6 +179,7 @@ pub(in crate::dxf) fn read_run(
         match tag.code {
             10 | 20 | 42 => read.take(tag, start, &mut common, &mut lexer),
             38 | 70 | 90 => return None,
+            40 | 41 | 43 if width(&lexer, tag) > 0.0 => return None,
             _ if common.take(&mut lexer, tag) => return None,
             _ => {}
         }
@@ -266,6 +269,7 @@ pub(super) fn polyline(
         match tag.code {
             70 => flags = common.flags(lexer, tag),
             30 => height = common.coordinate(lexer, tag).unwrap_or_default(),
+            40 | 41 => common.take_width(lexer, tag),
             _ => {}
         }
     }
@@ -299,6 +303,7 @@ pub(super) fn polyline(
                 30 => numbers[2] = of_vertex.coordinate(lexer, tag),
                 42 => numbers[3] = of_vertex.bulge(lexer, tag),
                 70 => vertex_flags = of_vertex.flags(lexer, tag),
+                40 | 41 => common.take_width(lexer, tag),
                 _ => {}
             }
         }

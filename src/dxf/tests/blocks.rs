@@ -228,8 +228,7 @@ fn what_would_never_end_is_refused() {
 #[test]
 fn what_a_block_holds_and_is_not_cut_is_named_where_it_is_drawn() {
     let blocks = "0 BLOCK 2 B 10 0 20 0 0 HATCH 8 0 0 LINE 8 0 10 0 20 0 11 1 21 1 0 ENDBLK 0 BLOCK 2 UNUSED 10 0 20 0 0 3DFACE 8 0 0 ENDBLK";
-    let finding =
-        r#"information at "HATCH": 1 HATCH: wedm takes no contour from this kind of entity"#;
+    let finding = r#"information at "HATCH": 1 HATCH: what it fills is cut along lines and arcs that are drawn round it; its own boundary is not read (draw it in CAD: HATCHEDIT, recreate boundary)"#;
     check(
         blocks,
         "0 INSERT 5 A 8 P 2 B 10 0 20 0",

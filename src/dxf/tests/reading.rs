@@ -259,7 +259,7 @@ fn one_fault_is_one_finding_and_harms_no_neighbour() {
         ),
         (
             "0 HATCH 10 x 20 3",
-            r#"information at "HATCH": 1 HATCH: wedm takes no contour from this kind of entity"#,
+            r#"information at "HATCH": 1 HATCH: what it fills is cut along lines and arcs that are drawn round it; its own boundary is not read (draw it in CAD: HATCHEDIT, recreate boundary)"#,
         ),
         (
             "0 LINE 67 1 10 1 20 2 11 3 21 4",

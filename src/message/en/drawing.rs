@@ -2,6 +2,9 @@
 
 declare! {
     this_kind_is_not_cut => "wedm takes no contour from this kind of entity";
+    its_edges_are_no_contour => "it is a filled area; draw its edges as lines";
+    its_edges_cannot_be_read => "its edges are kept in a form that only CAD programs read (EXPLODE makes lines and arcs of them)";
+    only_its_boundary_could_be_cut => "what it fills is cut along lines and arcs that are drawn round it; its own boundary is not read (draw it in CAD: HATCHEDIT, recreate boundary)";
     it_lies_in_paper_space => "it lies in paper space";
     its_plane_is_tilted => "its plane is tilted against the drawing's plane";
     its_points_differ_in_z => "its points differ in z";

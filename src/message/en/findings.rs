@@ -136,6 +136,7 @@ declare! {
     frozen => "frozen";
     switched_off => "switched off";
     invisible_entities_are_not_cut(entities, are) => "{entities} {are} invisible (group code 60): not cut";
+    polylines_with_a_width_are_cut_along_their_middle(count, width) => "polylines with a width ({count}, up to {width} mm wide): they are cut along their middle, not along the edges of what is drawn";
     entities_of_a_layer_that_is_not_plotted_are_cut(layer, entities, are) => "layer {layer} is not plotted: {entities} on it {are} cut all the same, unless its role is ignore ([layers])";
     drawn_to_be_read_and_not_cut(entities, are, parts) => "{entities} {are} ignored as annotation: {parts}";
     in_a_linetype(count, name) => "{count} in linetype {name}";

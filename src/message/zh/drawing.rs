@@ -2,6 +2,9 @@
 
 translate! {
     this_kind_is_not_cut => "这类图元不作为轮廓";
+    its_edges_are_no_contour => "它是填充区；请把它的边画成直线";
+    its_edges_cannot_be_read => "它的边以只有 CAD 程序能读的形式保存（EXPLODE 可分解为直线和圆弧）";
+    only_its_boundary_could_be_cut => "填充区按其周围所画的直线和圆弧切割；它自己的边界不读取（在 CAD 中用 HATCHEDIT 重新生成边界）";
     it_lies_in_paper_space => "它在布局空间";
     its_plane_is_tilted => "它所在平面相对图形平面倾斜";
     its_points_differ_in_z => "各点的 Z 不同";

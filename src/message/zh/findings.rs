@@ -131,6 +131,7 @@ translate! {
     frozen => "已冻结";
     switched_off => "已关闭";
     invisible_entities_are_not_cut(entities, are) => "{entities}{are}不可见（组码 60）：不切割";
+    polylines_with_a_width_are_cut_along_their_middle(count, width) => "带宽度的多段线（{count} 条，最宽 {width} mm）：沿其中线切割，不沿所画的边";
     entities_of_a_layer_that_is_not_plotted_are_cut(layer, entities, are) => "图层 {layer} 不打印：其上 {entities}{are}照样切割，除非其用途为 ignore（[layers]）";
     drawn_to_be_read_and_not_cut(entities, are, parts) => "{entities}{are}是制图用线，不切割：{parts}";
     in_a_linetype(count, name) => "线型 {name} {count} 个";
