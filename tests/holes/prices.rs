@@ -32,11 +32,13 @@ fn prices(drawing: &Drawing, settings: &Effective) -> Option<RadiusPrices> {
     radius_prices(drawing, &outlines(drawing, settings), settings)
 }
 
-/// Side, radii of the corners, more settings, a segment, and what is said of it.
+/// Side, radii of the corners, settings, a segment, and what is said of it.
+type Priced<'a> = (Role, [f64; 4], &'a str, usize, Option<&'a str>);
+
 #[test]
 fn a_radius_says_what_it_costs() {
     let money = format!("{SHOP}machine-rate = 60\n");
-    let rows: [(Role, [f64; 4], &str, usize, Option<&str>); 11] = [
+    let rows: [Priced; 11] = [
         // 40 mm of contour less 2 R − R · π / 2, times 40 mm, by 50 and by 100 mm²/min.
         (
             Role::Opening,
