@@ -346,6 +346,7 @@ fn written(
         paths,
         finished,
         holes,
+        off_chords,
     } = planned(snapshot, &of_format, chosen.as_deref(), true, watch)?;
     if settings.mills {
         milling::too_short(snapshot, &paths)?;
@@ -358,7 +359,7 @@ fn written(
         watch.is_wanted()
     };
     let unit_mm = settings.unit_of(&snapshot.drawing).mm;
-    let program = wanted
+    let mut program = wanted
         .format
         .write(&paths, unit_mm, settings, &mut go_on)
         .map_err(|error| {
@@ -367,6 +368,7 @@ fn written(
                 say!(no_program_of_this_drawing, reason)
             })
         })?;
+    program.off_chords = off_chords * unit_mm * 1000.0;
     let is_left_out = |one: &&Finding| chosen.is_none() && one.rule == Rule::UnsupportedEntity;
     let left_out = findings.iter().filter(is_left_out).cloned().collect();
     let mut warnings = findings;

@@ -484,6 +484,10 @@ export interface Settings {
    */
   arcFit?: number;
   /**
+   * Five or more lines in a row that lie this near to one arc (mm) are cut as that arc; 0: none are. The drawing stays as it is, and how far the arcs are from it at most is said with the program. To change the drawing, repair `arc-as-chords`.
+   */
+  chordFit?: number;
+  /**
    * Severity of a rule, by its name. It applies to every case of the rule, to the milder ones too; the defaults are on each rule's page.
    */
   rules?: {
@@ -1336,6 +1340,10 @@ export interface PairProgram {
    */
   deviation: number;
   /**
+   * Largest distance in µm of an arc of the path's outline from the chords of the drawing for which it stands, under `chord-fit`.
+   */
+  offChords?: number;
+  /**
    * What all passes leave of the contours, where several are cut or a contour is open.
    */
   finished?: FinishedPart;
@@ -1829,6 +1837,10 @@ export interface Program {
    * Largest distance in µm of the decoded blocks from the path, over their whole length.
    */
   deviation: number;
+  /**
+   * Largest distance in µm of an arc of the path's outline from the chords of the drawing for which it stands, under `chord-fit`.
+   */
+  offChords?: number;
   /**
    * What all passes leave of the contours, where several are cut or a contour is open.
    */

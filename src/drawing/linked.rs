@@ -80,13 +80,11 @@ impl Linked {
                 pieces.all(|(at, _)| about.iter().all(|&about| joints.is_crumb(*at, about)))
             };
             // What is no larger than the gap between its ends does not close.
-            let is_dot = closed
-                && !is_ring
-                && joints.distance(start, end) > joints.certain()
-                && lies_about_its_ends(pieces);
+            let is_wide = joints.distance(start, end) > joints.certain();
+            let is_dot = closed && !is_ring && is_wide && lies_about_its_ends(pieces);
             if closed && !is_dot || joints.is_lone(start) && joints.is_lone(end) {
-                // Two entities that close a loop may lie on each other.
-                let by_ends = !(closed && pieces.len() == 2
+                // Two entities that close a loop may lie on each other, and one that is smaller than its gap does not close.
+                let by_ends = !(closed && (pieces.len() == 2 || is_wide)
                     || !is_special.is_empty()
                         && pieces.iter().any(|(at, _)| is_special[*at as usize]));
                 linked.ways.push(Way {

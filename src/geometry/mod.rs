@@ -8,6 +8,7 @@ mod arc;
 mod biarc;
 mod bounds;
 mod boxes;
+pub(crate) mod chords;
 mod ellipse;
 mod few;
 mod grid;

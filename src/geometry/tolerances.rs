@@ -21,6 +21,8 @@ pub struct Tolerances {
     pub(crate) short: f64,
     /// Chords whose corners lie this near to one circle stand for an arc.
     pub(crate) chords: f64,
+    /// The path of the wire takes chords that lie as near to an arc for that arc; 0: none.
+    pub(crate) chord_fit: f64,
     /// A segment shorter than this has no direction.
     pub(crate) zero_length: f64,
     /// How deep a new arc's disc may dip into a neighbour before the arc counts as cutting it.
@@ -40,6 +42,7 @@ impl Default for Tolerances {
             same_place: 0.005,
             short: 0.005,
             chords: 0.002,
+            chord_fit: 0.0,
             touch: 1e-3,
             zero_length: 1e-9,
             clearance: 1e-7,
@@ -61,6 +64,7 @@ impl Tolerances {
             touch: self.touch / unit_mm,
             short: self.short / unit_mm,
             chords: self.chords / unit_mm,
+            chord_fit: self.chord_fit / unit_mm,
             zero_length: self.zero_length / unit_mm,
             clearance: self.clearance / unit_mm,
             flat: self.flat / unit_mm,

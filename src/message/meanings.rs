@@ -31,6 +31,7 @@ const MEANINGS: &[(&str, &str)] = &[
     ("colors", "某颜色图元的用途，颜色由图元自己或其图层给出，用于图元和图层都没有用途的。颜色为 `red`、`yellow`、`green`、`cyan`、`blue`、`magenta`、`white`、`1` 至 `255`（AutoCAD 颜色号）、`#rrggbb`。"),
     ("drawings", "一个图形的设置，按文件名：`[drawings.\"plate.dxf\".suppress.2A]`。"),
     ("arc-fit", "代替椭圆和样条的圆弧与它们相差多少，mm。"),
+    ("chord-fit", "连续五条以上的直线，离同一圆弧不超过它（mm）时，按该圆弧切割；0：都不按圆弧。图形不变，圆弧最多偏离图形多少随程序给出。要改图形，修复 [`arc-as-chords`](rules/arc-as-chords.md)。"),
     ("rules", "规则的级别，按规则名。用于该规则的所有情形，默认较轻的也在内；默认级别见[各规则的说明页](rules/)。"),
     ("docs-url", "规则说明页的地址，如 `https://edm.example/rules/{rule}.html`：`{rule}` 代表规则名。问题链接到那里。未设置时没有链接，用 `wedm explain RULE` 显示说明页。"),
     ("workpieces", "画在同一处、互不检查的零件，各按名称列出所在图层；不在这些图层上的自成一个零件。设置了 `pair.clearance` 时检查零件间的配合：[`does-not-fit`](rules/does-not-fit.md)。"),

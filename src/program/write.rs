@@ -26,6 +26,8 @@ pub struct ProvedProgram {
     /// Largest distance in µm of the decoded blocks from the path, over their whole length, each from where the program
     /// stands.
     pub(crate) deviation: f64,
+    /// How far at most the outlines that the paths follow lie from chords of the drawing for which they hold arcs, µm.
+    pub(crate) off_chords: f64,
     /// What the control has to offset by, mm, where it does: the correction of each pass, with the word that says where
     /// the control finds it, which is empty where there is one for all.
     pub(crate) offsets: Vec<(String, f64)>,

@@ -65,6 +65,9 @@ pub(crate) struct Program {
     pub(crate) closure: Closure,
     /// Largest distance in µm of the decoded blocks from the path, over their whole length.
     pub(crate) deviation: f64,
+    /// Largest distance in µm of an arc of the path's outline from the chords of the drawing for which it stands, under `chord-fit`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) off_chords: Option<f64>,
     /// What all passes leave of the contours, where several are cut or a contour is open.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) finished: Option<FinishedPart>,
@@ -147,6 +150,7 @@ impl Program {
             jumps: proved.jumps,
             closure: Closure::of(proved.closure),
             deviation: proved.deviation,
+            off_chords: Some(proved.off_chords).filter(|&off| off > 0.0),
             finished: finished.map(|finished| FinishedPart {
                 uncut: finished.uncut,
                 at: finished.at.into(),

@@ -3,8 +3,7 @@
 //! Somewhere on its way an arc of the drawing was broken into chords. The wire cuts the facets, and
 //! the program has a block for each. Fix: one arc.
 //!
-//! Where chords are short, the rounding of their corners hides how the contour turns from one to the next: the corners
-//! are then also taken in strides ([`STRIDES`]), and those between only have to lie on the circle.
+//! The arcs are found by `geometry::chords`.
 //!
 //! An observation at a segment depends on the windows of chords that start there or hold it. A sequence begins where a
 //! window at the first fits one circle, none at the second does, and no longer window holds it: at the end of an arc
@@ -13,7 +12,9 @@
 use super::{LocalRule, Observation, Outlook};
 use crate::drawing::{Change, ContourSegment, Geometry, Vertex};
 use crate::finding::{Detail, Fix, FixKind, Rule};
-use crate::geometry::{Arc, Point, Segment, cross, left_normal, line_line, positive_angle};
+pub(crate) use crate::geometry::chords::steepest;
+use crate::geometry::chords::{FittedCircle, LEAST, STRIDES, Within, longest, longest_window};
+use crate::geometry::{Arc, Point, Segment, positive_angle};
 use std::f64::consts::TAU;
 use std::ops::Range;
 
@@ -28,102 +29,11 @@ pub(crate) const RULE: LocalRule = LocalRule {
     ..LocalRule::PLAIN
 };
 
-/// The number of chords that make an arc.
-const LEAST: usize = 5;
-
-/// Every how many corners the turn is looked at. A circle of R 10 mm in a thousand chords of 0.06 mm, rounded to
-/// 0.001 mm: a corner turns by 0.4°, and rounding turns it by 1°; every fourth corner, 1.4° and 0.2°.
-const STRIDES: [usize; 3] = [1, 4, 16];
-
 /// The answer at a segment or a corner depends on at most this many segments before and after it.
 pub(crate) const REACH: usize = LEAST * STRIDES[STRIDES.len() - 1];
 
 /// The most chords in one finding. Further chords make a second finding once the first are an arc.
 const MOST: usize = 4096;
-
-/// Tangent of the largest turn (25°) from chord to chord: a hexagon stays a hexagon, 16 chords to the full circle are
-/// an arc.
-const STEEPEST: f64 = 0.466_307_658;
-
-/// The circle through some points in a row.
-#[derive(Clone, Copy, Debug)]
-struct FittedCircle {
-    center: Point,
-    radius: f64,
-    deviation: f64,
-    counter_clockwise: bool,
-}
-
-/// The circle through the ends of chords in a row, `point` by number. `None` unless they all turn the same way by a
-/// small angle, at one of some strides, lie within `tolerance` of one circle, and fit it clearly better than a straight
-/// line.
-fn fit(
-    point: impl Fn(usize) -> Point,
-    chords: usize,
-    strides: &[usize],
-    tolerance: f64,
-) -> Option<FittedCircle> {
-    let turns = |stride: &usize| turn_of_all(&point, chords, chords / stride);
-    let side = strides.iter().find_map(turns)?;
-    let (first, last) = (point(0), point(chords));
-    // On a full circle both ends are one point.
-    let round = (last - first).norm() < (point(1) - first).norm() * 0.5;
-    let (middle, end) = if round {
-        (point(chords / 3), point(2 * chords / 3))
-    } else {
-        (point(chords / 2), last)
-    };
-    let center = center_through(first, middle, end)?;
-    let radius = (first - center).norm();
-    let axis = last - first;
-    let (mut deviation, mut rise) = (0_f64, 0_f64);
-    for corner in (0..=chords).map(&point) {
-        deviation = deviation.max(((corner - center).norm() - radius).abs());
-        if deviation > tolerance {
-            return None;
-        }
-        rise = rise.max(cross(axis, corner - first).abs());
-    }
-    rise = if round { radius } else { rise / axis.norm() };
-    let is_shallow = |at: usize| turn_of_corner([at - 1, at, at + 1].map(&point)).is_some();
-    (rise > 4.0 * deviation && (1..chords).all(is_shallow)).then_some(FittedCircle {
-        center,
-        radius,
-        deviation,
-        counter_clockwise: side > 0.0,
-    })
-}
-
-/// The side to which `pieces` of about the same number of chords turn, all of them.
-fn turn_of_all(point: &impl Fn(usize) -> Point, chords: usize, pieces: usize) -> Option<f64> {
-    let node = |index: usize| point(index * chords / pieces);
-    let turn = |middle: usize| turn_of_corner([node(middle - 1), node(middle), node(middle + 1)]);
-    if pieces < LEAST {
-        return None;
-    }
-    let side = turn(1)?;
-    let alike = |turn: f64| turn * side > 0.0;
-    (1..pieces)
-        .all(|middle| turn(middle).is_some_and(alike))
-        .then_some(side)
-}
-
-/// Positive to the left; `None` where it is too steep for chords of an arc.
-fn turn_of_corner([before, corner, behind]: [Point; 3]) -> Option<f64> {
-    let (one, other) = (corner - before, behind - corner);
-    let (sine, cosine) = (cross(one, other), one.dot(&other));
-    (cosine > 0.0 && sine.abs() <= STEEPEST * cosine).then_some(sine)
-}
-
-fn center_through(a: Point, b: Point, c: Point) -> Option<Point> {
-    let (one, other) = (b - a, c - b);
-    line_line(
-        a + one * 0.5,
-        left_normal(one),
-        b + other * 0.5,
-        left_normal(other),
-    )
-}
 
 /// Corners of at most `count` segments from `first` on, as long as they are lines.
 fn corners(outlook: &Outlook, first: isize, count: usize) -> Vec<Point> {
@@ -193,26 +103,11 @@ fn windows(outlook: &Outlook, starts: Range<isize>) -> Vec<usize> {
             false => lines[first + index].map(|line| line.start),
         };
         let point = |index, chords| end(index, chords).unwrap_or_default();
-        longest_window(point, most, outlook.limits.tolerances.chords)
+        longest_window(point, most, within(outlook))
     };
     (0..starts.len())
         .map(|first| window(first).unwrap_or(0))
         .collect()
-}
-
-/// The longest window of at most `most` chords that fits one circle; `point` by its number, of so many chords.
-fn longest_window(
-    point: impl Fn(usize, usize) -> Point,
-    most: usize,
-    tolerance: f64,
-) -> Option<usize> {
-    let fits = |stride: &usize| {
-        let chords = LEAST * stride;
-        let is_it = chords <= most
-            && fit(|index| point(index, chords), chords, &[*stride], tolerance).is_some();
-        is_it.then_some(chords)
-    };
-    STRIDES.iter().rev().find_map(fits)
 }
 
 /// For each of some segments: whether the corner at its start lies between chords that are reported as an arc.
@@ -229,11 +124,6 @@ pub(crate) fn are_between_chords(outlook: &Outlook, range: Range<usize>) -> Vec<
     between.split_off(between.len().saturating_sub(range.len()))
 }
 
-/// A corner that turns by more than this (radians) does not lie between chords.
-pub(crate) fn steepest() -> f64 {
-    STEEPEST.atan()
-}
-
 /// Whether, at the first segment of a closed contour, the sequence begins there or has no beginning at all.
 fn holds(outlook: &Outlook, observation: Observation) -> bool {
     let most = outlook.contour.len().min(MOST) as isize;
@@ -246,24 +136,16 @@ fn holds(outlook: &Outlook, observation: Observation) -> bool {
 fn sequence(outlook: &Outlook, first: usize) -> Option<(usize, FittedCircle, Vec<Point>)> {
     let mut points = corners(outlook, first as isize, outlook.contour.len().min(MOST));
     let most = points.len().saturating_sub(1);
-    let tolerance = outlook.limits.tolerances.chords;
-    let fit = |chords: usize| fit(|index| points[index], chords, &STRIDES, tolerance);
-    let mut chords = longest_window(|index, _| points[index], most, tolerance)?;
-    // Doubled while it fits, then found between what fits and what does not.
-    let mut too_many = most + 1;
-    while too_many - chords > 1 {
-        let next = match too_many > most {
-            true => (2 * chords).min(most),
-            false => chords.midpoint(too_many),
-        };
-        match fit(next) {
-            Some(_) => chords = next,
-            None => too_many = next,
-        }
-    }
-    let best = fit(chords)?;
+    let (chords, best) = longest(|index| points[index], most, within(outlook))?;
     points.truncate(chords + 1);
     Some((chords, best, points))
+}
+
+fn within(outlook: &Outlook) -> Within {
+    Within {
+        corners: outlook.limits.tolerances.chords,
+        chords: f64::INFINITY,
+    }
 }
 
 fn detail(outlook: &Outlook, observation: Observation, _count: Option<usize>) -> Option<Detail> {

@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 
 /// The change that moves the end (or, with `at_end` false, the start) of a contour's segment to `to`. A line swings
 /// about its other end, an arc keeps its sweep. `None` where the segment is not the last of its entity on that side,
-/// for a circle, and for an arc of nearly a full turn, whose ends hardly determine it.
+/// for a circle, for an arc of nearly a full turn, whose ends hardly determine it, and for arcs that stand for a curve.
 pub(crate) fn end_moved(
     drawing: &Drawing,
     place: &ContourSegment,
@@ -16,6 +16,9 @@ pub(crate) fn end_moved(
     let entity = place.entity;
     let own_end = at_end != place.reversed;
     let geometry = &drawing.get(entity)?.geometry;
+    if !drawing.is_editable(entity) {
+        return None;
+    }
     match geometry {
         Geometry::Line { start, end } => {
             let (start, end) = if own_end { (*start, to) } else { (to, *end) };
@@ -123,7 +126,7 @@ pub(crate) fn led_together(
     let led = |place: &ContourSegment, at_end: bool| {
         let entity = place.entity;
         match drawing.get(entity)?.geometry {
-            Geometry::Arc { .. } => {
+            Geometry::Arc { .. } if drawing.is_editable(entity) => {
                 let own = drawing.segment(entity, 0)?;
                 let led = led_to(&own, at_end != place.reversed, corner);
                 let geometry = Geometry::of_arc(led.as_arc()?);

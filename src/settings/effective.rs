@@ -246,6 +246,7 @@ impl Effective {
                 join: settings.join(),
                 certain: settings.join().min(Tolerances::default().certain),
                 arc_fit: settings.arc_fit(),
+                chord_fit: settings.chord_fit(),
                 resolution: settings.resolution(),
                 ..Tolerances::default()
             },

@@ -24,6 +24,9 @@ const ARC_FIT: Range = Range::of(1e-6, 0.1);
 /// Below a micrometre no two ends of a real drawing meet; a millimetre is more than any wire.
 const JOINS: Range = Range::of(0.001, 1.0);
 
+/// As with `ARC_FIT`; 0 leaves chords as they are.
+const CHORD_FITS: Range = Range::of(0.0, 0.1);
+
 /// Digits of controllers: with fewer than four nothing larger than a millimetre could be cut.
 const DIGITS: Range = Range::of(4.0, 9.0);
 
@@ -86,6 +89,9 @@ tables! {
         drawings: BTreeMap<String, DrawingSettings> => tables;
         /// How near the arcs lie to the ellipses and splines that they stand for, mm.
         arc_fit: f64 = 0.001 => number in ARC_FIT;
+        /// Five or more lines in a row that lie this near to one arc (mm) are cut as that arc; 0: none are. The drawing stays as it is, and how
+        /// far the arcs are from it at most is said with the program. To change the drawing, repair [`arc-as-chords`](rules/arc-as-chords.md).
+        chord_fit: f64 = 0.0 => number in CHORD_FITS;
         /// Severity of a rule, by its name. It applies to every case of the rule, to the milder ones too; the defaults are on
         /// [each rule's page](rules/).
         rules: BTreeMap<String, RuleSeverity> => rules;

@@ -1,10 +1,12 @@
 //! The contours that the wire may meet on its way to one of them: those in the same workpiece.
 
+use super::chords::with_arcs;
 use super::clearance::Walls;
 use super::job::Job;
-use crate::drawing::{Drawing, EntityId, Outline};
+use super::offset::{Wall, walls};
+use crate::drawing::{Contour, ContourSegment, Drawing, EntityId, Outline};
 use crate::finding::Place;
-use crate::geometry::{Bounds, Grid, Point};
+use crate::geometry::{Bounds, Grid, Point, Tolerances};
 use crate::settings::Workpieces;
 use std::sync::OnceLock;
 
@@ -14,6 +16,7 @@ pub(super) struct Contours<'a> {
     outlines: &'a [Outline],
     /// The part that they are of, where there are several.
     part: Option<(&'a Workpieces, u16)>,
+    tolerances: Tolerances,
     /// Once somebody has asked what is near.
     known: OnceLock<WallsOf>,
     /// The closed ones that are cut, once somebody has asked what lies in an area.
@@ -35,6 +38,7 @@ impl Contours<'_> {
             drawing: job.drawing,
             outlines: job.outlines,
             part: first.map(|&first| (workpieces, job.workpiece(first))),
+            tolerances: job.tolerances(),
             known: OnceLock::new(),
             closed: OnceLock::new(),
         }
@@ -81,14 +85,34 @@ impl Contours<'_> {
         })
     }
 
+    /// A contour as its own path meets it: with arcs in place of chords where those are followed.
+    fn walls_of(&self, contour: &Contour) -> Vec<ContourSegment> {
+        if self.tolerances.chord_fit == 0.0 {
+            return contour.segments(self.drawing).collect();
+        }
+        let segment = |at: usize| contour.segment(self.drawing, at);
+        let walls = walls(contour.len(), segment, contour.closed, &self.tolerances);
+        let (walls, _) = with_arcs(walls, contour.closed, self.tolerances.chord_fit);
+        let segment = |wall: &Wall| {
+            let (entity, segment) = wall.source.segment()?;
+            Some(ContourSegment {
+                entity,
+                segment,
+                reversed: false,
+                geometry: wall.geometry,
+            })
+        };
+        walls.iter().filter_map(segment).collect()
+    }
+
     fn known(&self) -> &WallsOf {
         self.known.get_or_init(|| {
             let (mut segments, mut of) = (Vec::new(), Vec::new());
             let is_met = |(_, outline): &(usize, &Outline)| self.is_met(outline);
             for (index, outline) in self.outlines.iter().enumerate().filter(is_met) {
-                for segment in outline.contour.segments(self.drawing) {
-                    segments.push(segment.geometry);
-                    of.push((index, segment.entity, segment.segment));
+                for wall in self.walls_of(&outline.contour) {
+                    segments.push(wall.geometry);
+                    of.push((index, wall.entity, wall.segment));
                 }
             }
             // Those that make the paths of other contours may wait for it.

@@ -206,7 +206,7 @@ impl Job<'_> {
         if let Some(point) = wanted.entry {
             return match nearest(walls, point, tie) {
                 Some((entry, distance))
-                    if distance <= self.units(self.settings.tolerances.join) =>
+                    if distance <= self.tolerances().join.max(self.tolerances().chord_fit) =>
                 {
                     Ok(Some(entry))
                 }

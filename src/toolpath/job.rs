@@ -1,12 +1,14 @@
 //! The common data of all contours of one request.
 
+use super::chords::with_arcs;
 use super::offset::{Wall, walls};
 use super::path::Refusal;
 use crate::drawing::{Contour, ContourSegment, Drawing, EntityId, Outline};
-use crate::geometry::Point;
+use crate::geometry::{Point, Tolerances};
 use crate::settings::Effective;
 use rustc_hash::FxHashMap;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::Ordering::Relaxed;
+use std::sync::atomic::{AtomicBool, AtomicU64};
 
 /// How much nearer than the correction a path may come by rounding, mm.
 pub(super) const ROUNDING: f64 = 1e-6;
@@ -32,6 +34,10 @@ pub(super) struct Job<'a> {
     pub(crate) cut_out: FxHashMap<usize, f64>,
     /// The contour that all passes leave is worked out, too.
     pub(crate) finishes: bool,
+    /// The wire follows the arcs for which chords stand, within `chord-fit`: in paths, not in what is found in the drawing.
+    pub(crate) fits_chords: bool,
+    /// The bits of the largest distance of such an arc from its chords.
+    pub(crate) off_chords: AtomicU64,
     /// A loop that is everywhere at its distance is enough: whether the offset has others is not
     /// checked.
     pub(crate) a_loop_will_do: bool,
@@ -55,6 +61,8 @@ impl<'a> Job<'a> {
             unit_mm: settings.unit_of(drawing).mm,
             cut_out: FxHashMap::default(),
             finishes: false,
+            fits_chords: false,
+            off_chords: AtomicU64::default(),
             a_loop_will_do: false,
             searched: Default::default(),
             goes_on: &|| true,
@@ -128,8 +136,28 @@ impl Job<'_> {
         closed: bool,
         shortest: f64,
     ) -> Vec<Wall> {
-        let certain = self.units(self.settings.tolerances.certain);
-        walls(count, segment, closed, self.units(shortest), certain)
+        let tolerances = Tolerances {
+            zero_length: self.units(shortest),
+            ..self.tolerances()
+        };
+        let walls = walls(count, segment, closed, &tolerances);
+        let (walls, off_chords) = with_arcs(walls, closed, tolerances.chord_fit);
+        self.off_chords.fetch_max(off_chords.to_bits(), Relaxed);
+        walls
+    }
+
+    /// In drawing units.
+    pub(super) fn tolerances(&self) -> Tolerances {
+        let tolerances = self.settings.tolerances.in_units(self.unit_mm);
+        let chord_fit = if self.fits_chords {
+            tolerances.chord_fit
+        } else {
+            0.0
+        };
+        Tolerances {
+            chord_fit,
+            ..tolerances
+        }
     }
 
     /// A point of the settings, mm, in drawing units.

@@ -5,6 +5,7 @@
 //! cannot be, there is an error finding at the place and no path. Everything is in drawing units; settings are in mm.
 
 mod at_limit;
+mod chords;
 mod clearance;
 mod containment;
 mod contour_path;
@@ -109,6 +110,8 @@ pub struct Planned {
     pub(crate) finished: Option<Finished>,
     /// Where the wire is threaded, in the order of the cuts.
     pub holes: Vec<StartHole>,
+    /// The largest distance of an arc of the paths' outlines from the chords for which it stands; 0 where none does.
+    pub(crate) off_chords: f64,
 }
 
 impl Planned {
@@ -209,7 +212,7 @@ pub(crate) fn plan_while(
         return Ok(Planned {
             paths: vec![path],
             holes: vec![hole],
-            finished: None,
+            ..Planned::default()
         });
     }
     if let LengthSetting::ByHandle(tabs) = &settings.tab {
@@ -220,6 +223,7 @@ pub(crate) fn plan_while(
     let mut job = Job {
         picks,
         finishes,
+        fits_chords: true,
         goes_on,
         ..job
     };
@@ -235,6 +239,7 @@ pub(crate) fn plan_while(
             Err(refusal) => return Err(refusal),
         }
     }
+    all.off_chords = f64::from_bits(job.off_chords.into_inner());
     match faults.is_empty() {
         true => Ok(all),
         false => Err(Refusal::Findings(faults)),
@@ -289,6 +294,7 @@ fn of_workpiece(
             holes: firsts.map(hole).collect(),
             paths,
             finished,
+            ..Planned::default()
         })
     } else {
         Err(Refusal::Findings(findings))

@@ -4,7 +4,7 @@ use super::cores::{any, each};
 use super::path::{PathSegment, Source};
 use crate::drawing::ContourSegment;
 use crate::geometry::{
-    Arc, Line, Point, Segment, Vector, corner_between, equally_far, led_to, left_normal,
+    Arc, Line, Point, Segment, Tolerances, Vector, corner_between, equally_far, led_to, left_normal,
 };
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
@@ -29,9 +29,13 @@ pub(super) fn walls(
     count: usize,
     segment: impl Fn(usize) -> Option<ContourSegment> + Sync + Send,
     closed: bool,
-    zero_length: f64,
-    certain: f64,
+    tolerances: &Tolerances,
 ) -> Vec<Wall> {
+    let Tolerances {
+        zero_length,
+        certain,
+        ..
+    } = *tolerances;
     let is_any_short = AtomicBool::new(false);
     let is_long = |wall: &Wall| wall.geometry.length() > zero_length;
     let mut walls = each(count, AT_A_TIME, |at| {

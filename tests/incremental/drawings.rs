@@ -78,13 +78,14 @@ proptest! {
     fn many_entities_that_move_at_once_are_chained_as_if_afresh(
         start in proptest::collection::vec(geometry(), 30..60),
         moves in proptest::collection::vec(proptest::collection::vec((0..60usize, geometry(), 0..4usize), 17..40), 1..4),
+        join in prop_oneof![Just(0.01), Just(0.05), Just(0.6)],
     ) {
         let mut drawing = Drawing::new(None);
         for geometry in start {
             drawing.push(entity(geometry, None));
         }
         let is_cut = |drawing: &Drawing, id: EntityId| drawing.get(id).is_some_and(|entity| entity.geometry.segment_count() > 0);
-        let mut chains = Chains::new(&drawing, 0.01, &|id| is_cut(&drawing, id));
+        let mut chains = Chains::new(&drawing, join, &|id| is_cut(&drawing, id));
         for batch in moves {
             let touched: Vec<EntityId> = batch
                 .into_iter()
@@ -102,7 +103,7 @@ proptest! {
                 })
                 .collect();
             let rechained = chains.update(&drawing, &touched, &|id| is_cut(&drawing, id));
-            let fresh = Chains::new(&drawing, 0.01, &|id| is_cut(&drawing, id));
+            let fresh = Chains::new(&drawing, join, &|id| is_cut(&drawing, id));
             prop_assert_eq!(contours(&drawing, &chains), contours(&drawing, &fresh));
             prop_assert!(rechained.gone.iter().all(|&key| chains.get(key).is_none()));
             for &id in drawing.order() {

@@ -1,5 +1,6 @@
 //! The rules on segments and on contours: what they see in a drawing, however it is drawn, and that a fix lets it go.
 
+mod chords;
 mod corners;
 mod crumbs;
 mod doubles;

@@ -303,6 +303,9 @@ impl PageShare {
                     lengths(length, jumps, say!(comma)),
                     program.deviation
                 );
+                let off = program.off_chords;
+                let arcs = (off > 0.0).then(|| say!(chords_are_cut_as_arcs, off));
+                let arcs = arcs.map(|line| format!("<p>{}</p>\n", text(line)));
                 let finished = made.finished.as_ref().map(|finished| {
                     let at = finished.at * unit_mm;
                     say!(
@@ -327,8 +330,9 @@ impl PageShare {
                     format!("{:08X}", crc32fast::hash(program.text.as_bytes()))
                 );
                 format!(
-                    "<p>{}</p>\n<p>{}</p>\n{}<p class=\"faint\">{}</p>\n<details{open}><summary>{}</summary>\n<pre>{}</pre>\n{left_out}</details>\n",
+                    "<p>{}</p>\n{}<p>{}</p>\n{}<p class=\"faint\">{}</p>\n<details{open}><summary>{}</summary>\n<pre>{}</pre>\n{left_out}</details>\n",
                     text(facts),
+                    arcs.unwrap_or_default(),
                     text(named),
                     offsets.unwrap_or_default(),
                     text(finished.unwrap_or_default()),

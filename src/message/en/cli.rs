@@ -189,6 +189,7 @@ declare! {
     offset_of_a_register(register, mm) => "{register} = {mm:.4} mm";
     offset_of_all(mm) => "correction = {mm} mm";
     decoded_again(deviation, drift) => "decoded again: at most {deviation:.2} µm from the path{drift}";
+    chords_are_cut_as_arcs(off) => "chords of the drawing are cut as arcs: at most {off:.2} µm from the outline";
     the_wire_is_threaded_at(x, y) => "the wire is threaded at {x:.3}, {y:.3} mm";
     default_is(value) => "default: {value}";
     all_of_them_can_be_cut => "all of them can be cut";

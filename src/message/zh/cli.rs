@@ -189,6 +189,7 @@ translate! {
     offset_of_a_register(register, mm) => "{register} = {mm:.4} mm";
     offset_of_all(mm) => "补偿量 = {mm} mm";
     decoded_again(deviation, drift) => "重新解码：偏离切割轨迹最多 {deviation:.2} µm{drift}";
+    chords_are_cut_as_arcs(off) => "图形中的弦按圆弧切割：偏离轮廓最多 {off:.2} µm";
     the_wire_is_threaded_at(x, y) => "穿丝孔位于 {x:.3}, {y:.3} mm";
     default_is(value) => "默认：{value}";
     all_of_them_can_be_cut => "全部可以切割";

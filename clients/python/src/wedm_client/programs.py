@@ -96,6 +96,8 @@ class Program(Value):
     thread_hole: Point | None = None
     #: The length of the ways without a cut between contours, mm; ``length`` excludes them.
     jumps: float = 0.0
+    #: How far arcs of the path's outline lie at most from the chords that they stand for, µm, under ``chord_fit``.
+    off_chords: float | None = None
     finished: FinishedPart | None = None
     milling: Milling | None = None
     minutes: float | None = None

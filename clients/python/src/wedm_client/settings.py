@@ -149,6 +149,7 @@ class Settings(TypedDict, total=False):
     colors: Mapping[str, Literal["opening", "punch", "both", "left", "right", "line", "ignore"]]
     drawings: Mapping[str, DrawingSettings]
     arc_fit: float
+    chord_fit: float
     rules: Mapping[str, Literal["error", "warning", "information", "hint", "off"]]
     docs_url: str
     workpieces: Mapping[str, Sequence[str]]
