@@ -64,7 +64,6 @@ pub(crate) const SUPPRESS: &str = "suppress";
 pub(crate) struct Appearance {
     /// Set where it is not simply shown, with the layer that decides it.
     pub(crate) unseen: Option<(Visibility, Arc<str>)>,
-    pub(crate) width: f64,
     pub(crate) linetype: Option<Linetype>,
     pub(crate) color: Option<Color>,
     pub(crate) marks: Option<Marks>,
@@ -275,7 +274,6 @@ impl Drawing {
     pub(crate) fn appearance(&self, id: EntityId) -> Appearance {
         Appearance {
             unseen: self.unseen.get(&id).cloned(),
-            width: self.widths.get(&id).copied().unwrap_or_default(),
             linetype: self.linetypes.get(&id).cloned(),
             marks: self.marks.get(&id).cloned(),
             color: self.colors.get(id.0 as usize).copied().flatten(),
@@ -287,7 +285,6 @@ impl Drawing {
             Some(unseen) => self.unseen.insert(id, unseen),
             None => self.unseen.remove(&id),
         };
-        self.set_width(id, appearance.width);
         self.set_linetype(id, appearance.linetype);
         self.set_marks(id, appearance.marks);
         self.set_color(id, appearance.color);

@@ -28,6 +28,8 @@ enum Content {
     Shape {
         layer: Arc<str>,
         appearance: Appearance,
+        /// The largest width of a polyline; 0 for none.
+        width: f64,
         kind: Kind,
         shape: Shape,
         lies: Lies,
@@ -187,6 +189,7 @@ impl Blocks {
                 block.contents.push(Content::Shape {
                     layer: read.layer,
                     appearance: read.appearance,
+                    width: read.vertices.map_or(0.0, |vertices| vertices.width),
                     kind: read.kind,
                     shape: read.shape,
                     lies: read.lies,
@@ -374,6 +377,7 @@ impl Blocks {
                             kind,
                             shape,
                             appearance,
+                            width,
                             lies,
                             ..
                         } => {
@@ -393,7 +397,7 @@ impl Blocks {
                                 Ok((geometry, _)) if geometry.is_sound() => {
                                     let (layer, visibility) = (layer.clone(), visibility.clone());
                                     pen.drawn.parts.push(BlockPart {
-                                        width: appearance.width * scale,
+                                        width: width * scale,
                                         layer,
                                         visibility,
                                         color,

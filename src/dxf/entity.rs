@@ -28,13 +28,11 @@ pub(super) struct Read {
 }
 
 /// The appearance that the entity states.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Appearance {
     pub(super) paint: Paint,
     pub(super) stroke: Stroke,
     pub(super) invisible: bool,
-    /// The largest width of a polyline, in its own units; 0 for none.
-    pub(super) width: f64,
     /// Its extended data under the name of this program.
     pub(super) marks: Option<Marks>,
 }
@@ -82,6 +80,8 @@ pub(crate) struct VertexLines {
     pub(super) own: u32,
     /// The line of the stated number of vertices, counted likewise; 0 where there is none.
     pub(super) count: u32,
+    /// The largest width; 0 for none.
+    pub(super) width: f64,
 }
 
 impl VertexLines {
@@ -246,8 +246,8 @@ impl Common {
         self.width = self.width.max(width(lexer, tag));
     }
 
-    pub(super) fn has_width(&self) -> bool {
-        self.width > 0.0
+    pub(super) fn width(&self) -> f64 {
+        self.width
     }
 
     /// The bulge of a vertex.
@@ -413,7 +413,6 @@ impl Common {
             paint,
             stroke,
             invisible: self.invisible,
-            width: self.width,
             marks: (!marks.is_empty()).then(|| marks.into()),
         }
     }

@@ -360,6 +360,8 @@ impl Document {
                     if looks_new && delta.touched.last() != Some(&Touched::Entity { entity: id }) {
                         delta.touched.push(Touched::Entity { entity: id });
                     }
+                    let width = vertices.as_ref().map_or(0.0, |vertices| vertices.width);
+                    drawing.set_width(id, width);
                     drawing.set_straight(
                         id,
                         vertices.as_ref().is_some_and(|vertices| vertices.in_space),

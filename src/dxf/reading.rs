@@ -287,6 +287,7 @@ impl Pass<'_> {
         item.became = Became::Entity(id);
         if let Some(vertices) = read.vertices {
             drawing.set_straight(id, vertices.in_space);
+            drawing.set_width(id, vertices.width);
             self.table.vertices.insert(id, vertices);
         }
     }
@@ -421,7 +422,6 @@ pub(super) fn set_appearance(
     let linetype = stroke(&appearance.stroke, None, layer, states);
     let is_stroked_otherwise = drawing.set_linetype(id, linetype);
     let is_marked_otherwise = drawing.set_marks(id, appearance.marks);
-    drawing.set_width(id, appearance.width);
     let seen_otherwise = drawing.set_visibility(id, visibility, layer);
     drawing.set_color(id, color) | seen_otherwise | is_stroked_otherwise | is_marked_otherwise
 }

@@ -121,7 +121,6 @@ impl Look {
         };
         let marks: Vec<Arc<str>> = self.xdata.into_iter().map(Arc::from).collect();
         Appearance {
-            width: 0.0,
             unseen: visibility.map(|visibility| (visibility, layer.clone())),
             linetype: self
                 .linetype

@@ -275,7 +275,7 @@ impl Job<'_> {
     }
 
     /// Brings openings before the lines that begin in them.
-    pub(super) fn behind_their_openings(&self, order: &mut Vec<usize>) {
+    pub(super) fn behind_their_openings(&self, order: &mut [usize]) {
         for (line, opening) in self.openings_of_lines(order) {
             let place = |of: usize| order.iter().position(|&other| other == of);
             if let (Some(early), Some(late)) = (place(line), place(opening))

@@ -2,6 +2,8 @@
 
 use super::Desk;
 
+const BLOCKS: &str = "0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n2\nRING\n10\n0\n20\n0\n0\nLWPOLYLINE\n8\n0\n90\n2\n70\n1\n43\n1.5\n10\n0\n20\n0\n42\n1\n10\n10\n20\n0\n42\n1\n0\nENDBLK\n0\nENDSEC\n";
+
 /// Entities, what is said of them, and how many contours they make.
 #[test]
 fn what_encloses_without_being_a_contour_is_named() {
@@ -18,6 +20,12 @@ fn what_encloses_without_being_a_contour_is_named() {
 0\nPOLYLINE\n5\nB\n8\n0\n66\n1\n70\n1\n40\n2\n41\n2\n0\nVERTEX\n8\n0\n10\n20\n20\n0\n0\nVERTEX\n8\n0\n10\n30\n20\n0\n0\nVERTEX\n8\n0\n10\n25\n20\n8\n0\nSEQEND\n",
             "polylines with a width (2, up to 2.000 mm wide)",
             2,
+        ),
+        (
+            "in a block, drawn twice as large",
+            "0\nINSERT\n5\nA\n8\n0\n2\nRING\n10\n0\n20\n0\n41\n2\n42\n2\n43\n2\n",
+            "polylines with a width (1, up to 3.000 mm wide)",
+            1,
         ),
         (
             "a width of nothing",
@@ -47,7 +55,7 @@ fn what_encloses_without_being_a_contour_is_named() {
         let desk = Desk::new();
         desk.write(
             "a.dxf",
-            format!("0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n{entities}0\nENDSEC\n0\nEOF\n"),
+            format!("0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n{BLOCKS}0\nSECTION\n2\nENTITIES\n{entities}0\nENDSEC\n0\nEOF\n"),
         );
         let checked = desk.run("check a.dxf --side punch");
         let told = checked.stdout.matches("unsupported-entity").count();

@@ -128,7 +128,7 @@ pub(super) fn light_polyline(
     let line = count.map_or(0, |tag| (tag.line - start.line) as u32);
     let own = match line < first {
         // What one vertex says of the width, all of it may have.
-        true if !common.has_width() => read.own.unwrap_or(read.vertices.len()),
+        true if common.width() <= 0.0 => read.own.unwrap_or(read.vertices.len()),
         _ => 0,
     };
     let own = (own as u32, line);
@@ -236,6 +236,7 @@ fn polyline_of(
         in_space,
         own,
         count,
+        width: common.width(),
     };
     let read = common.finish(lexer, layers, kind, (Shape::Plain(geometry), lies));
     Ok(Read {
