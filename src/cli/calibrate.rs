@@ -117,6 +117,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
 fn told(text: &mut String, kerf: &Kerf) {
     let Kerf {
         pass,
+        correction,
         half,
         uncertainty,
         features,
@@ -125,6 +126,7 @@ fn told(text: &mut String, kerf: &Kerf) {
     let mut line = say!(
         kerf_of_a_pass,
         pass,
+        correction,
         half,
         uncertainty,
         say!(features, *features)
@@ -174,6 +176,7 @@ fn settle(
             say!(
                 a_pass_is_calibrated,
                 kerf.pass,
+                kerf.correction,
                 say!(features, kerf.features),
                 kerf.uncertainty
             )

@@ -47,6 +47,8 @@ pub struct Setup {
 pub struct Kerf {
     /// 1-based.
     pub pass: usize,
+    /// The correction with which it was cut, mm.
+    pub correction: f64,
     pub half: f64,
     /// 95 % confidence.
     pub uncertainty: f64,
@@ -260,8 +262,10 @@ fn kerf(pass: usize, features: &[Feature<'_>], setup: &Setup) -> Kerf {
         }
     };
     let half = mean(&all);
+    let set = setup.corrections.get(pass.saturating_sub(1));
     Kerf {
         pass,
+        correction: set.copied().unwrap_or_default(),
         half,
         uncertainty: by_scatter.max(setup.uncertainty / 2.0),
         gap: setup.wire_radius.map(|radius| half - radius),

@@ -28,9 +28,9 @@ fn a_piece_gives_the_kerf_of_each_pass_and_what_the_file_gets() {
         0,
         &[
             // 0.215 − 0.113 / 2, and so on: 0.1584, 0.1590, 0.1585; t of two degrees of freedom is 4.303.
-            "pass 1: half of the kerf 0.1586 ± 0.0010 mm from 3 features (outer 0.1587, inner 0.1585), gap 0.0336 ± 0.0010 mm\n",
+            "pass 1, cut with 0.2150 mm: half of the kerf 0.1586 ± 0.0010 mm from 3 features (outer 0.1587, inner 0.1585), gap 0.0336 ± 0.0010 mm\n",
             // A is one feature: 0.1400, 0.1392, 0.1395, 0.1401.
-            "pass 3: half of the kerf 0.1397 ± 0.0010 mm from 4 features (outer 0.1396, inner 0.1398), gap 0.0147 ± 0.0010 mm\n",
+            "pass 3, cut with 0.1400 mm: half of the kerf 0.1397 ± 0.0010 mm from 4 features (outer 0.1396, inner 0.1398), gap 0.0147 ± 0.0010 mm\n",
             // The rough pass leaves 0.215 − 0.125 − 0.03 as before.
             "  passes.corrections = [0.2186, 0.1700, 0.1397]\n  passes.gaps = [0.0336, 0.0150, 0.0147]\n",
             "!with --write shop/wedm.toml gets:",
@@ -61,7 +61,7 @@ fn a_piece_gives_the_kerf_of_each_pass_and_what_the_file_gets() {
     assert!(mark.starts_with("# calibrated 20"), "{mark}");
     assert!(
         mark.ends_with(
-            ": pass 1 from 3 features, ± 0.0010 mm; pass 3 from 4 features, ± 0.0010 mm"
+            ": pass 1, cut with 0.2150 mm, from 3 features, ± 0.0010 mm; pass 3, cut with 0.1400 mm, from 4 features, ± 0.0010 mm"
         ),
         "{mark}"
     );
@@ -86,7 +86,7 @@ fn sizes_may_be_options_and_the_wire_may_be_unknown() {
             "--outer 20=20.006 --inner 10=9.994 --correction 0.155",
             None,
             &[
-                "pass 1: half of the kerf 0.1520 ± 0.0010 mm from 2 features (outer 0.1520, inner 0.1520)\n",
+                "pass 1, cut with 0.1550 mm: half of the kerf 0.1520 ± 0.0010 mm from 2 features (outer 0.1520, inner 0.1520)\n",
                 "gap: not known, since wire-diameter is not set\n",
                 "!with --write ./wedm.toml gets:",
                 "  correction = 0.1520\n",
@@ -96,7 +96,7 @@ fn sizes_may_be_options_and_the_wire_may_be_unknown() {
             "--outer 20=20.006 --correction 0.155 --wire-diameter 0.25",
             None,
             &[
-                "pass 1: half of the kerf 0.1520 ± 0.0010 mm from 1 feature, gap 0.0270 ± 0.0010 mm\n",
+                "pass 1, cut with 0.1550 mm: half of the kerf 0.1520 ± 0.0010 mm from 1 feature, gap 0.0270 ± 0.0010 mm\n",
                 "pass 1 was measured once: nothing shows how the sizes scatter",
                 "  wire-diameter = 0.25\n  gap = 0.0270\n",
             ],

@@ -259,11 +259,11 @@ declare! {
     a_nominal_and_a_measured_size => "expected NOMINAL=MEASURED in mm, such as 20=20.006";
     nothing_says_the_correction => "nothing says what the piece was cut with: expected --correction, --passes or a wedm.toml with the correction that was set";
     no_gap_without_the_wire => "gap: not known, since wire-diameter is not set";
-    kerf_of_a_pass(pass, half, uncertainty, features) => "pass {pass}: half of the kerf {half:.4} ± {uncertainty:.4} mm from {features}";
+    kerf_of_a_pass(pass, correction, half, uncertainty, features) => "pass {pass}, cut with {correction:.4} mm: half of the kerf {half:.4} ± {uncertainty:.4} mm from {features}";
     of_outer_and_inner_features(outer, inner) => " (outer {outer:.4}, inner {inner:.4})";
     and_the_gap(gap, uncertainty) => ", gap {gap:.4} ± {uncertainty:.4} mm";
     a_single_measurement(pass) => "  pass {pass} was measured once: nothing shows how the sizes scatter, and ± is that of the measuring alone";
-    a_pass_is_calibrated(pass, features, uncertainty) => "pass {pass} from {features}, ± {uncertainty:.4} mm";
+    a_pass_is_calibrated(pass, correction, features, uncertainty) => "pass {pass}, cut with {correction:.4} mm, from {features}, ± {uncertainty:.4} mm";
     the_file_cannot_take_the_values => "its keys stand where no lines can be added, as in an inline table: write them as a table of their own";
     file_is_calibrated(written, file) => "{written} {file}:";
     with_write_a_file_gets(file) => "with --write {file} gets:";

@@ -259,11 +259,11 @@ translate! {
     a_nominal_and_a_measured_size => "应为 公称=实测（mm），如 20=20.006";
     nothing_says_the_correction => "没有说明试件切割时的补偿量：应有 --correction、--passes，或写有当时补偿量的 wedm.toml";
     no_gap_without_the_wire => "放电间隙：未设 wire-diameter，无法得知";
-    kerf_of_a_pass(pass, half, uncertainty, features) => "第 {pass} 次切割：切缝半宽 {half:.4} ± {uncertainty:.4} mm，由 {features}得出";
+    kerf_of_a_pass(pass, correction, half, uncertainty, features) => "第 {pass} 次切割，补偿量 {correction:.4} mm：切缝半宽 {half:.4} ± {uncertainty:.4} mm，由 {features}得出";
     of_outer_and_inner_features(outer, inner) => "（外形 {outer:.4}，内形 {inner:.4}）";
     and_the_gap(gap, uncertainty) => "，放电间隙 {gap:.4} ± {uncertainty:.4} mm";
     a_single_measurement(pass) => "  第 {pass} 次切割只测量了一次：看不出尺寸的分散，± 只是测量本身的";
-    a_pass_is_calibrated(pass, features, uncertainty) => "第 {pass} 次切割，{features}，± {uncertainty:.4} mm";
+    a_pass_is_calibrated(pass, correction, features, uncertainty) => "第 {pass} 次切割，补偿量 {correction:.4} mm，{features}，± {uncertainty:.4} mm";
     the_file_cannot_take_the_values => "其中的键写在无法加行的地方，如内联表：请写成单独的表";
     file_is_calibrated(written, file) => "{written} {file}：";
     with_write_a_file_gets(file) => "加上 --write，{file} 写入：";
