@@ -19,11 +19,12 @@ export function told(generated: Program, format: Format): string {
   // A drift that rounds to zero has no sign.
   const [x, y] = [generated.closure.x, generated.closure.y].map((drift) => (Math.round(drift * 100) / 100 + 0).toFixed(2));
   const drift = ENDINGS[format][0] === "iso" ? "" : t("; rounding of J, added up: {0}, {1} µm", x ?? "", y ?? "");
+  const chords = generated.offChords === undefined ? "" : t("; chords of the drawing are cut as arcs, at most {0} µm from the outline", generated.offChords.toFixed(2));
   const minutes = generated.minutes === undefined ? "" : t("; {0} minutes on the machine", generated.minutes.toFixed(1));
   const milled = generated.milling === undefined ? "" : toldOfMilling(generated.milling);
   const slugs = (generated.work?.slugs ?? []).map(({ contour, mass }) => t("{0}: {1} g", contour, mass.toFixed(1)));
   const drops = slugs.length === 0 ? "" : t("; what drops out: {0}", slugs.slice(0, SLUGS).join(", ") + (slugs.length > SLUGS ? ", …" : ""));
-  return t("{0}, {1}{2}.", blocksOf(generated.blocks), path, drift + minutes + milled + drops) + findingsOf(generated.warnings.length);
+  return t("{0}, {1}{2}.", blocksOf(generated.blocks), path, drift + chords + minutes + milled + drops) + findingsOf(generated.warnings.length);
 }
 
 /** With several contours the floor is that of all of them, and the wear of the electrode that after the last one. */
