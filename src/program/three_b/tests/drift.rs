@@ -33,7 +33,7 @@ fn outline() -> impl Strategy<Value = Vec<Segment>> {
 }
 
 /// The largest distance of a program from the nodes of its path, as a control counts and in exact arcs, µm. An arc may
-/// have become up to eight blocks.
+/// have become many blocks: one whose centre is farther away than the numbers reach is written as chords.
 fn farthest(path: &[Segment], text: &str) -> [f64; 2] {
     let begin = snap(path[0].start() * 1000.0).expect("near");
     let (mut machine, mut exact) = (point_of(begin), point_of(begin));
@@ -48,7 +48,7 @@ fn farthest(path: &[Segment], text: &str) -> [f64; 2] {
     for piece in path {
         let node = piece.end() * 1000.0;
         let off = |index: &usize| (ends[*index].2[0] - node).norm();
-        let next = at..ends.len().min(at + 8);
+        let next = at..ends.len().min(at + 64);
         let own = next
             .min_by(|a, b| off(a).total_cmp(&off(b)))
             .expect("a block");
