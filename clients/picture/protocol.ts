@@ -450,7 +450,7 @@ export interface Settings {
    */
   passes?: Passes;
   /**
-   * Role of the entities on a layer, by its name. An entity's own `role` comes first. A contour takes the role of its first entity that has one. A role other than `ignore` cuts also what is frozen or switched off.
+   * Role of the entities on a layer, by its name. An entity's own `role` comes first. A contour takes the role of its first entity that has one. A role other than `ignore` cuts also what is frozen or switched off. `line` cuts on the line, without correction.
    */
   layers?: {
     [k: string]: Role;
@@ -718,6 +718,18 @@ export interface JobSettings {
    * Cost of an hour of the machine, in any currency: the times that follow from `passes.rates` then have a cost.
    */
   machineRate?: number;
+  /**
+   * Diameters of the wires that the shop has, mm. With `wire-gaps`, `wire-rates` and `thickness`, hover and report say what a small radius costs: prices of radii.
+   */
+  wires?: number[];
+  /**
+   * Spark gap of the last pass of each of `wires`, mm.
+   */
+  wireGaps?: number[];
+  /**
+   * What each of `wires` cuts in a minute, all its passes together, mm²/min.
+   */
+  wireRates?: number[];
   /**
    * Heading of the page of `wedm report`. Not set: the part, else the name of the drawing.
    */

@@ -74,7 +74,7 @@ export async function job(checks: WindowChecks): Promise<void> {
       const page = await window.pictureOf("way.dxf");
       await window.openContour(page, "2A");
       const card = page.locator("#card");
-      expectEqual("what it may be", await card.locator(".row", { hasText: "Side" }).getByRole("button").allInnerTexts(), ["Left", "Right", "Not cut"]);
+      expectEqual("what it may be", await card.locator(".row", { hasText: "Side" }).getByRole("button").allInnerTexts(), ["Left", "Right", "On the line", "Not cut"]);
       await card.getByRole("button", { name: "Left" }).click();
       await expectSoon("left kept", async () => (await kept()).includes('[drawings."way.dxf".contours.2A]\nside = "left"'), kept);
       await page.locator("svg .wire").first().waitFor({ state: "attached" });
