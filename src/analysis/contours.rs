@@ -65,11 +65,9 @@ impl Analysis {
         }
     }
 
-    /// True for a contour that is cut on the line, which only a role of its own says.
+    /// True for a contour that is cut on the line.
     pub(super) fn is_on_line(&self, key: ContourKey) -> bool {
-        self.known
-            .get(&key)
-            .is_some_and(|known| known.stated == Some(Role::Line))
+        self.known.get(&key).is_some_and(|known| known.is_on_line())
     }
 
     pub(super) fn wire_side(&self, key: ContourKey, role: Role) -> Option<Side> {

@@ -1,6 +1,5 @@
 //! All findings of a drawing, put together from the observations for each report.
 
-use super::known::Known;
 use super::notable::{Counted, Kind, Notability, Sums, TightArc};
 use super::report::{Report, Tally};
 use super::{Analysis, electrode, together};
@@ -11,7 +10,6 @@ use crate::settings::SideSetting;
 use crate::toolpath;
 use rustc_hash::FxHashMap;
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 /// The most segments that are looked at to find which repairs of arcs below the correction would
 /// cause another fault.
@@ -135,8 +133,7 @@ impl Analysis {
         if report.shows_findings() {
             of_job.extend(electrode::faults(drawing, self.segments, &self.settings));
         }
-        let is_on_line = |known: &Arc<Known>| known.stated == Some(Role::Line);
-        let has_lines = self.stated > 0 && self.known.values().any(is_on_line);
+        let has_lines = self.stated > 0 && self.known.values().any(|known| known.is_on_line());
         let is_small = self.segments <= toolpath::MOST_SEGMENTS_OF_MISFITS;
         if has_lines && is_small && report.shows_findings() {
             let outlines = self.outlines(drawing).clone();

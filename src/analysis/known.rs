@@ -40,6 +40,11 @@ impl Known {
         }
     }
 
+    /// It is cut on the line, which only a role of its own says.
+    pub(crate) fn is_on_line(&self) -> bool {
+        self.stated == Some(Role::Line)
+    }
+
     /// Runs every local rule on the segments of `changed` and those within its reach. `all` is the
     /// whole contour, where that is at hand.
     pub(crate) fn check(
@@ -57,7 +62,7 @@ impl Known {
             index: &self.index,
             limits,
             part: self.part,
-            on_line: self.stated == Some(Role::Line),
+            on_line: self.is_on_line(),
             at_hand: None,
         };
         let (count, runs) = (contour.len(), self.index.run_count());

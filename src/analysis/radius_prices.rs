@@ -144,7 +144,7 @@ impl RadiusPrices {
             diameter,
             more.join(say!(comma))
         );
-        let others = self.barring(first).len() - 1;
+        let others = self.barring(first).len().saturating_sub(1);
         Some(match others {
             0 => price,
             _ => say!(and_others_need_it, price, say!(places, others)),

@@ -268,7 +268,7 @@ fn summarise((target, format): (Option<&Path>, Format), program: &ProvedProgram,
         Format::Iso | Format::Milling => String::new(),
     };
     output::say(&say!(decoded_again, program.deviation, drift));
-    if program.off_chords > 0.0 {
-        output::say(&say!(chords_are_cut_as_arcs, program.off_chords));
+    if let Some(line) = output::off_chords(program) {
+        output::say(&line);
     }
 }

@@ -110,6 +110,12 @@ pub(crate) fn say_once(text: &str) {
     }
 }
 
+/// How far the outline lies from arcs that are cut in place of its chords, where there are any.
+pub(crate) fn off_chords(program: &ProvedProgram) -> Option<String> {
+    let off = program.off_chords;
+    (off > 0.0).then(|| say!(chords_are_cut_as_arcs, off))
+}
+
 /// The corrections that have to be entered at the control, where it offsets the contour.
 pub(crate) fn offsets(program: &ProvedProgram) -> Option<String> {
     let offsets = &program.offsets;

@@ -125,9 +125,8 @@ fn say_written(path: &Path, document: &Document, part: &PartProgram, target: &Pa
         is_of_tab || job::is_of_program(finding)
     });
     report::say(path, document, &said);
-    if let Some(line) = output::offsets(program) {
-        output::say(&line);
-    }
+    let lines = [output::off_chords(program), output::offsets(program)];
+    lines.iter().flatten().for_each(|line| output::say(line));
     output::say_thread_hole(&part.made.holes, document.unit_mm());
     output::say_what_holds(&part.made.warnings, document.telling());
     let beyond: Vec<String> = (1..)

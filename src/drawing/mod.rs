@@ -129,19 +129,22 @@ impl Drawing {
     ///
     /// [`Tolerances::flat`]: crate::geometry::Tolerances::flat
     pub(crate) fn flat(&self) -> f64 {
-        self.tolerances().flat
+        self.in_units(Tolerances::default().flat)
     }
 
     /// [`Tolerances::certain`] in drawing units: ends this near to each other belong together whatever else is near.
     ///
     /// [`Tolerances::certain`]: crate::geometry::Tolerances::certain
     fn certain(&self) -> f64 {
-        self.tolerances().certain
+        self.in_units(Tolerances::default().certain)
     }
 
-    fn tolerances(&self) -> Tolerances {
-        let unit = self.unit.or(self.assumed_unit).unwrap_or(Unit::MILLIMETRE);
-        Tolerances::default().in_units(unit.mm)
+    fn in_units(&self, mm: f64) -> f64 {
+        mm / self
+            .unit
+            .or(self.assumed_unit)
+            .unwrap_or(Unit::MILLIMETRE)
+            .mm
     }
 
     /// Segment `index` of an entity in its own direction.

@@ -92,7 +92,7 @@ pub fn calibrate(measurements: &[Measurement], setup: &Setup) -> Result<Vec<Kerf
         let found = features(own, correction).and_then(|features| {
             let features: Vec<Feature<'_>> = features.into_values().collect();
             match contradictions(pass, &features, setup.uncertainty) {
-                none if none.is_empty() => Ok(kerf(pass, &features, setup)),
+                none if none.is_empty() => Ok(kerf((pass, correction), &features, setup)),
                 some => Err(some),
             }
         });
@@ -246,7 +246,7 @@ fn standing_out(values: &[f64], least: f64) -> Option<(usize, f64, f64)> {
     ((values.get(index)? - of_others).abs() > allowed).then_some((index, of_others, allowed))
 }
 
-fn kerf(pass: usize, features: &[Feature<'_>], setup: &Setup) -> Kerf {
+fn kerf((pass, correction): (usize, f64), features: &[Feature<'_>], setup: &Setup) -> Kerf {
     let all: Vec<f64> = features.iter().map(Feature::half).collect();
     // The measurements of one feature share its form: only where there is no other do they count one by one.
     let estimates = match features {
@@ -262,10 +262,9 @@ fn kerf(pass: usize, features: &[Feature<'_>], setup: &Setup) -> Kerf {
         }
     };
     let half = mean(&all);
-    let set = setup.corrections.get(pass.saturating_sub(1));
     Kerf {
         pass,
-        correction: set.copied().unwrap_or_default(),
+        correction,
         half,
         uncertainty: by_scatter.max(setup.uncertainty / 2.0),
         gap: setup.wire_radius.map(|radius| half - radius),

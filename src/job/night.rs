@@ -5,6 +5,7 @@
 
 use crate::document::Snapshot;
 use crate::program::Format;
+use crate::program::iso::block::{Block, Stop};
 use crate::settings::{Effective, Jumps, Lead};
 use crate::toolpath::{WirePath, Work};
 
@@ -80,7 +81,8 @@ pub(crate) fn alone(night: &[Watch]) -> Option<(f64, bool)> {
 fn waits_before(path: &WirePath, next: &WirePath, settings: &Effective, format: Format) -> bool {
     let profile = settings.profile.as_ref().ok();
     let profile = profile.filter(|_| format == Format::Iso);
-    let stops = |lines: &[String]| lines.iter().any(|line| stops_the_machine(line));
+    let is_stop = |line: &String| Block::of(line.as_bytes()).stop == Some(Stop::Pause);
+    let stops = |lines: &[String]| lines.iter().any(is_stop);
     let is_same = path.outline == next.outline;
     if next.goes_back_along_tab() {
         return false;
@@ -101,16 +103,4 @@ fn waits_before(path: &WirePath, next: &WirePath, settings: &Effective, format: 
     }
     let is_by_hand = settings.jumps == Jumps::None && !is_same;
     is_by_hand || profile.is_none_or(|profile| stops(&profile.pause))
-}
-
-/// True of a line of a profile with M00 or M01.
-fn stops_the_machine(line: &str) -> bool {
-    line.to_ascii_uppercase().split('M').skip(1).any(|behind| {
-        let digits = behind.trim_start_matches('0');
-        let is_whole = |rest: &str| !rest.starts_with(|letter: char| letter.is_ascii_digit());
-        match digits.strip_prefix('1') {
-            Some(rest) => is_whole(rest),
-            None => digits.len() < behind.len() && is_whole(digits),
-        }
-    })
 }

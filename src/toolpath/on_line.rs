@@ -28,11 +28,9 @@ pub(crate) fn line_faults(
     outlines: &[Outline],
     settings: &Effective,
 ) -> Vec<Finding> {
-    let is_cut = |it: &&usize| outlines[**it].contour.double_of.is_none();
     let lines: Vec<usize> = (0..outlines.len())
-        .filter(|&index| outlines[index].is_on_line())
+        .filter(|&index| outlines[index].is_on_line() && outlines[index].is_cut())
         .collect();
-    let lines: Vec<usize> = lines.iter().filter(is_cut).copied().collect();
     if lines.is_empty() || settings.compensation == Compensation::None {
         return Vec::new();
     }

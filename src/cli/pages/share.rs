@@ -303,8 +303,7 @@ impl PageShare {
                     lengths(length, jumps, say!(comma)),
                     program.deviation
                 );
-                let off = program.off_chords;
-                let arcs = (off > 0.0).then(|| say!(chords_are_cut_as_arcs, off));
+                let arcs = output::off_chords(program);
                 let arcs = arcs.map(|line| format!("<p>{}</p>\n", text(line)));
                 let finished = made.finished.as_ref().map(|finished| {
                     let at = finished.at * unit_mm;
