@@ -133,7 +133,8 @@ export class Radii implements vscode.TreeDataProvider<Row>, vscode.Disposable {
     const located = await segmentAt(this.server, editor.document.uri, editor.selection.active);
     const entity = this.#rows.find((row) => located !== null && row.handles.includes(located.handle));
     const row = entity?.segments.find((row) => row.handle === located?.handle && row.segment.index === located.segment) ?? entity;
-    if (row !== undefined) {
+    // Meanwhile the user may have turned to another view, or another text: revealing would bring the list back over it.
+    if (row !== undefined && this.#view.visible && vscode.window.activeTextEditor === editor) {
       await this.#view.reveal(row, { select: true, focus: false });
     }
   }

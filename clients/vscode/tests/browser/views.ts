@@ -20,13 +20,6 @@ export async function views(checks: WindowChecks): Promise<void> {
   const window = new Window(host.page);
   checks.page = host.page;
   const texts = host.page.locator(".editor-group-container .view-lines");
-  const open = async (name: string): Promise<void> => {
-    const explorer = host.page.locator(".explorer-folders-view");
-    if (!(await explorer.isVisible())) {
-      await window.press("Control+Shift+e", explorer);
-    }
-    await window.open(name);
-  };
   const webviews = host.page.locator("iframe.webview.ready");
   try {
     await host.page.locator('.activitybar [aria-label*="Wire EDM"]').first().waitFor();
@@ -86,7 +79,7 @@ export async function views(checks: WindowChecks): Promise<void> {
       await actUntil("the line of the row", () => row.click(), async () => (await window.line()) === 50);
       await host.page.keyboard.press("Control+1");
       await actUntil("the text closed", () => host.page.keyboard.press("Control+w"), async () => (await texts.count()) === 0);
-      await open("small-radius.dxf");
+      await window.open("small-radius.dxf");
     });
     const again = await window.pictureOf("small-radius.dxf");
     await checks.check("Fix all and Program stand in the toolbar of the picture, which is the only one", async () => {
@@ -109,7 +102,7 @@ export async function views(checks: WindowChecks): Promise<void> {
       await window.command("Notifications: Clear All Notifications");
     });
     await checks.check("they stand in the title of the editor, too", async () => {
-      await open("plate.dxf");
+      await window.open("plate.dxf");
       await window.pictureOf("plate.dxf");
       const tools = host.page.locator(".editor-group-container.active .editor-actions");
       await tools.locator('[aria-label^="Wire EDM: Fix All"], [aria-label^="Fix All"]').first().waitFor();
@@ -119,7 +112,7 @@ export async function views(checks: WindowChecks): Promise<void> {
       await host.page.keyboard.press("Escape");
     });
     await checks.check("a broken file says in the empty space what is wrong with it", async () => {
-      await open("broken.dxf");
+      await window.open("broken.dxf");
       const broken = await broughtUp(window, "broken.dxf");
       await expectSoon("the reason", async () => (await broken.locator("#trouble").innerText()).includes("group code"), () => broken.locator("#trouble").innerText());
       await checks.shot("broken-file");
@@ -137,7 +130,7 @@ export async function views(checks: WindowChecks): Promise<void> {
       await expectSoon("one tab of it", async () => (await host.page.locator('.tabs-container .tab[data-resource-name="binary.dxf"]').count()) === 1);
     });
     await checks.check("a DXB does, too, and is drawn again when it is saved", async () => {
-      await open("plate.dxb");
+      await window.open("plate.dxb");
       const shown = await window.pictureOf("plate.dxb");
       await expectSoon("its contour", async () => (await shown.locator("svg .drawing .contour").count()) === 4, async () => String(await shown.locator("svg .drawing .contour").count()));
       await checks.shot("dxb");
@@ -145,7 +138,7 @@ export async function views(checks: WindowChecks): Promise<void> {
       await expectSoon("why it breaks off", async () => (await shown.locator("#trouble").innerText()) !== "", () => shown.locator("#faults").innerText());
     });
     await checks.check("one broken number of the settings leaves the others in force", async () => {
-      await open("plate.dxf");
+      await window.open("plate.dxf");
       await window.hold(host.folder, 'correction = "abc"\nwire-diameter = 0.3\ngap = 0.02\nside = "auto"\n', "0.170");
       await rm(join(host.folder, "wedm.toml"));
     });

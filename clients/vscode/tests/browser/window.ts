@@ -9,9 +9,16 @@ export class Window {
   constructor(readonly page: Page) {}
 
   async open(name: string): Promise<void> {
-    const row = this.page.locator(".explorer-folders-view .monaco-list-row", { hasText: name }).first();
+    const explorer = this.page.locator(".explorer-folders-view");
+    const row = explorer.locator(".monaco-list-row", { hasText: name }).first();
+    const doubleClick = async (): Promise<void> => {
+      if (!(await explorer.isVisible())) {
+        await this.press("Control+Shift+e", explorer);
+      }
+      await row.dblclick({ timeout: 8_000 }).catch(() => undefined);
+    };
     // A list that takes up new files may move under the pointer: then another row gets the second click.
-    await actUntil(`${name} in front`, () => row.dblclick(), () => this.#front(name).isVisible());
+    await actUntil(`${name} in front`, doubleClick, () => this.#front(name).isVisible());
   }
 
   /** Opens a file as a text. */
