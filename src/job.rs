@@ -17,7 +17,7 @@ mod tabs;
 
 pub(crate) use convert::{Converted, Target, convert};
 pub(crate) use corners::is_of_program;
-pub(crate) use night::{Watch as NightWatch, alone, night};
+pub(crate) use night::{Watch as NightWatch, alone, night, unattended};
 pub(crate) use pair::{Cut, cuts, programs};
 pub use pair::{PartProgram, pair};
 pub use repairs::ROUNDS;
@@ -253,6 +253,8 @@ impl Wanted<'_> {
 
 /// The program of a drawing.
 pub struct Generated {
+    /// What it was made of, of a pair the part alone: outlines are counted in it.
+    pub(crate) snapshot: Snapshot,
     pub program: ProvedProgram,
     /// The paths of the wire that it follows, in drawing units.
     pub paths: Vec<WirePath>,
@@ -263,6 +265,8 @@ pub struct Generated {
     pub holes: Vec<StartHole>,
     /// Lengths, times and costs of the program on the machine.
     pub work: Work,
+    /// What happens at the machine while nobody stands by, in sentences.
+    pub(crate) unattended: Vec<String>,
     /// Additional findings.
     pub warnings: Vec<Finding>,
     /// What is drawn and not cut, where all of the drawing was asked for.
@@ -419,7 +423,13 @@ fn written(
         work = milling::in_layers(work, milled);
     }
     let finished = finished_by(finished, &program);
+    let night = match program.milled {
+        Some(_) => Vec::new(),
+        None => night(snapshot, &paths, &work, wanted.format),
+    };
     Ok(Generated {
+        snapshot: snapshot.clone(),
+        unattended: unattended(snapshot, &night),
         program,
         contours: paths.iter().filter(|path| path.is_first()).count(),
         paths,

@@ -30,6 +30,7 @@
     (too-many . "选的图元太多：最多 %1 个，不选则全部")
     (no-file . "没有选文件，什么都没有写")
     (written . "%1：%2 条，轮廓 %3 个")
+    (off-chords . "图形中的弦按圆弧切割：偏离轮廓最多 %1 微米")
     (draw-path . "在图层 WEDM_PATH 上画出电极丝轨迹 [是(Yes)/否(No)] <否>：")
     (drawn . "电极丝轨迹已画在图层 WEDM_PATH 上")
     (viewed . "%1 已在浏览器中打开；再用 WEDMVIEW 就重新写出")

@@ -42,6 +42,7 @@
     (too-many . "too many entities are selected: at most %1, or none for all")
     (no-file . "no file was chosen, nothing is written")
     (written . "%1: %2 blocks, contours: %3")
+    (off-chords . "Chords of the drawing are cut as arcs: at most %1 um from the outline")
     (draw-path . "Draw the wire's path on the layer WEDM_PATH [Yes/No] <No>: ")
     (drawn . "the wire's path is on the layer WEDM_PATH")
     (viewed . "%1 is shown in the browser; WEDMVIEW writes it again")
@@ -568,6 +569,8 @@
       (if (setq program (assoc 'program items))
         (progn
           (wedm:say 'written (list file (wedm:get 'blocks program) (wedm:get 'contours program)))
+          (if (wedm:get 'off-chords program)
+            (wedm:say 'off-chords (list (wedm:get 'off-chords program))))
           (initget "Yes No")
           (if (= (getkword (strcat "\n" (wedm:text 'draw-path nil))) "Yes")
             (wedm:draw-path (wedm:of-kind 'wire items))))))))

@@ -24,7 +24,8 @@ export function told(generated: Program, format: Format): string {
   const milled = generated.milling === undefined ? "" : toldOfMilling(generated.milling);
   const slugs = (generated.work?.slugs ?? []).map(({ contour, mass }) => t("{0}: {1} g", contour, mass.toFixed(1)));
   const drops = slugs.length === 0 ? "" : t("; what drops out: {0}", slugs.slice(0, SLUGS).join(", ") + (slugs.length > SLUGS ? ", …" : ""));
-  return t("{0}, {1}{2}.", blocksOf(generated.blocks), path, drift + chords + minutes + milled + drops) + findingsOf(generated.warnings.length);
+  const alone = (generated.unattended ?? []).map((sentence) => `; ${sentence}`).join("");
+  return t("{0}, {1}{2}.", blocksOf(generated.blocks), path, drift + chords + minutes + milled + drops + alone) + findingsOf(generated.warnings.length);
 }
 
 /** With several contours the floor is that of all of them, and the wear of the electrode that after the last one. */

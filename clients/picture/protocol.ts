@@ -1368,6 +1368,11 @@ export interface PairProgram {
    */
   holes?: StartHole[];
   /**
+   * How long the machine runs alone, what falls meanwhile and in which order it would run longest, in sentences; nothing of a single
+   * cut, and of times where `job.thickness` or `passes.rates` is not set.
+   */
+  unattended?: string[];
+  /**
    * What the program comes to on the machine.
    */
   work?: Work;
@@ -1865,6 +1870,11 @@ export interface Program {
    * Where the wire is threaded, in the order of the cuts.
    */
   holes?: StartHole[];
+  /**
+   * How long the machine runs alone, what falls meanwhile and in which order it would run longest, in sentences; nothing of a single
+   * cut, and of times where `job.thickness` or `passes.rates` is not set.
+   */
+  unattended?: string[];
   /**
    * What the program comes to on the machine.
    */

@@ -1,6 +1,6 @@
 //! `wedm calibrate`: gap and corrections from what was measured on a cut test piece.
 
-use super::options::{Common, CutWith, positive};
+use super::options::{Common, CutWith, Form, positive};
 use super::output::{self, push_line, styled};
 use super::{Failure, Verdict, files, init};
 use crate::disk;
@@ -9,6 +9,7 @@ use crate::job::calibration::{Kerf, Measurement, Setup, calibrate};
 use crate::settings::{self, Effective, FILE_NAME, Origin};
 use crate::text::Writing;
 use clap::Args;
+use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -31,6 +32,8 @@ pub(super) struct Arguments {
     uncertainty: f64,
     #[arg(long)]
     write: bool,
+    #[arg(long, value_enum, default_value_t = Form::Text)]
+    output: Form,
     #[command(flatten)]
     cut_with: CutWith,
     #[arg(long, value_name = "FILE", help_heading = "Settings")]
@@ -105,12 +108,14 @@ pub(super) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
             return Ok(Verdict::Errors);
         }
     };
-    let mut text = String::new();
-    kerfs.iter().for_each(|kerf| told(&mut text, kerf));
-    if setup.wire_radius.is_none() {
-        push_line(&mut text, say!(no_gap_without_the_wire));
+    if arguments.output == Form::Text {
+        let mut text = String::new();
+        kerfs.iter().for_each(|kerf| told(&mut text, kerf));
+        if setup.wire_radius.is_none() {
+            push_line(&mut text, say!(no_gap_without_the_wire));
+        }
+        output::print(text)?;
     }
-    output::print(text)?;
     settle(arguments, near, &effective, &kerfs)
 }
 
@@ -211,12 +216,35 @@ fn settle(
     } else {
         output::say(&say!(with_write_a_file_gets, name));
     }
+    if arguments.output == Form::Json {
+        output::print_json(&json(kerfs, &values))?;
+        return Ok(Verdict::Clean);
+    }
     let lines: String = values
         .iter()
         .map(|(key, value)| format!("  {key} = {value}\n"))
         .collect();
     output::print(lines)?;
     Ok(Verdict::Clean)
+}
+
+/// The kerfs, mm, and the keys that they set.
+fn json(kerfs: &[Kerf], values: &[(&'static str, String)]) -> Value {
+    let kerf = |kerf: &Kerf| {
+        let [outer, inner] = kerf.by_kind;
+        json!({
+            "pass": kerf.pass, "correction": kerf.correction, "halfKerf": kerf.half, "uncertainty": kerf.uncertainty,
+            "gap": kerf.gap, "features": kerf.features, "outer": outer, "inner": inner,
+        })
+    };
+    let numbers = |text: &String| serde_json::from_str(text).unwrap_or(Value::Null);
+    let settings = values
+        .iter()
+        .map(|(key, text)| ((*key).to_owned(), numbers(text)));
+    json!({
+        "passes": kerfs.iter().map(kerf).collect::<Vec<_>>(),
+        "settings": settings.collect::<serde_json::Map<_, _>>(),
+    })
 }
 
 /// What the kerfs set. The last pass leaves the part to size; one before it leaves as much stock as it was meant to, where

@@ -141,6 +141,9 @@ fn generate(
         }
     }
     told(&snapshot, &made.work);
+    for line in &made.unattended {
+        output::say(line);
+    }
     if let Some(finished) = made.finished {
         let at = finished.at * document.unit_mm();
         output::say(&say!(
@@ -165,6 +168,7 @@ fn add_to(answer: &mut Answer, target: Option<&Path>, format: Format, made: &Gen
         "blocks": program.blocks,
         "contours": made.contours,
         "length": program.length,
+        "offChords": Some(program.off_chords).filter(|&off| off > 0.0),
         "holes": made.holes.iter().map(|hole| [hole.at.x, hole.at.y]).collect::<Vec<_>>(),
     });
     answer.push("program", &about);

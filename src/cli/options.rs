@@ -10,7 +10,11 @@ use std::sync::LazyLock;
 
 /// Groups of options: their heading, the table whose keys they set, and their names.
 const GROUPS: [(&str, &str, &[&str]); 9] = [
-    ("Settings", "", &["correction", "passes", "side"]),
+    (
+        "Settings",
+        "",
+        &["correction", "passes", "side", "join", "chord-fit"],
+    ),
     (
         "Program",
         "program.",
@@ -354,7 +358,7 @@ mod tests {
     #[test]
     fn every_option_is_a_key_of_the_settings() {
         let all = (0..GROUPS.len()).flat_map(options);
-        assert_eq!(all.filter(|(_, row)| row.words.is_empty()).count(), 33);
+        assert_eq!(all.filter(|(_, row)| row.words.is_empty()).count(), 35);
         assert_eq!(row("program.corner").words, ["arc", "intersection"]);
     }
 }

@@ -4,10 +4,17 @@
 //! settings and profile say. Lines of a profile that cut and thread the wire without M00 or M01 stop nothing.
 
 use crate::document::Snapshot;
+use crate::message::duration;
 use crate::program::Format;
 use crate::program::iso::block::{Block, Stop};
 use crate::settings::{Effective, Jumps, Lead};
-use crate::toolpath::{WirePath, Work};
+use crate::toolpath::{Nesting, WirePath, Work};
+use std::collections::BTreeSet;
+
+/// The most contours named in one sentence.
+const MOST_NAMED: usize = 8;
+/// Another order that wins no more than this is not worth a thought, minutes.
+const WORTH_SAYING: f64 = 1.0;
 
 /// One path of the cut, and what is the case when it is done.
 pub(crate) struct Watch {
@@ -76,6 +83,101 @@ pub(crate) fn night(
 pub(crate) fn alone(night: &[Watch]) -> Option<(f64, bool)> {
     let first = night.iter().position(|watch| watch.waits)?;
     Some((night.get(first)?.until?, first + 1 == night.len()))
+}
+
+/// How long the machine runs alone, what falls meanwhile, and in which order it would run longest; nothing of a single cut.
+pub(crate) fn unattended(snapshot: &Snapshot, night: &[Watch]) -> Vec<String> {
+    if night.len() < 2 {
+        return Vec::new();
+    }
+    let names = |outlines: &[usize]| {
+        let names = outlines.iter().take(MOST_NAMED).map(|&outline| {
+            let outline = snapshot.outlines.get(outline);
+            outline.map_or("?", |outline| outline.name(&snapshot.drawing))
+        });
+        let more = (outlines.len() > MOST_NAMED).then_some("…");
+        names.chain(more).collect::<Vec<_>>().join(say!(comma))
+    };
+    let mut sentences = Vec::new();
+    let alone = alone(night);
+    if let Some((minutes, is_end)) = alone {
+        sentences.push(match is_end {
+            true => say!(it_runs_alone_to_its_end, duration(minutes)),
+            false => say!(it_runs_alone, duration(minutes)),
+        });
+    }
+    let falls = |watch: &&Watch| {
+        let loose = watch.loose.as_ref();
+        loose.is_some_and(|loose| !loose.is_watched)
+    };
+    let falling: Vec<usize> = night.iter().filter(falls).map(|it| it.outline).collect();
+    if !falling.is_empty() {
+        sentences.push(say!(it_falls_unattended, names(&falling)));
+    }
+    if let Some((now, false)) = alone
+        && let Some((minutes, first)) = longest_alone(snapshot, night)
+        && minutes > now + WORTH_SAYING
+    {
+        sentences.push(say!(
+            it_would_run_longest_alone,
+            duration(minutes),
+            names(&first)
+        ));
+    }
+    sentences
+}
+
+/// All passes along one contour.
+struct Stay {
+    outline: usize,
+    /// Minutes until the machine waits within it, else until it is done.
+    alone: f64,
+    waits_within: bool,
+}
+
+/// The contours to begin with so that nobody has to come for the longest time, and that time in minutes: all those during
+/// which the machine never waits, then the one that it works on longest. What lies within a contour is cut before it.
+fn longest_alone(snapshot: &Snapshot, night: &[Watch]) -> Option<(f64, Vec<usize>)> {
+    let mut stays: Vec<Stay> = Vec::new();
+    let (mut begin, mut waits_between) = (0.0, false);
+    for passes in night.chunk_by(|one, next| one.outline == next.outline) {
+        let (last, before) = passes.split_last()?;
+        let wait = before.iter().find(|watch| watch.waits);
+        stays.push(Stay {
+            outline: last.outline,
+            alone: wait.unwrap_or(last).until? - begin,
+            waits_within: wait.is_some(),
+        });
+        begin = last.until?;
+        let is_end = std::ptr::eq(last, night.last()?);
+        waits_between |= last.waits && !is_end;
+    }
+    let chosen: Vec<usize> = stays.iter().map(|stay| stay.outline).collect();
+    let around = Nesting::new(&snapshot.drawing, &snapshot.outlines, &chosen).around;
+    let mut taken: BTreeSet<usize> = BTreeSet::new();
+    let mut order = Vec::new();
+    let can_be_next = |index: usize, taken: &BTreeSet<usize>| {
+        let mut inner = (0..stays.len()).filter(|&inner| around[inner].contains(&index));
+        !taken.contains(&index) && inner.all(|inner| taken.contains(&inner))
+    };
+    let runs_on = |index: &usize| !waits_between && !stays[*index].waits_within;
+    while let Some(next) = (0..stays.len())
+        .filter(runs_on)
+        .find(|&index| can_be_next(index, &taken))
+    {
+        taken.insert(next);
+        order.push(next);
+    }
+    let last = (0..stays.len()).filter(|&index| can_be_next(index, &taken));
+    order.extend(last.max_by(|&one, &other| stays[one].alone.total_cmp(&stays[other].alone)));
+    let minutes = order.iter().map(|&index| stays[index].alone).sum();
+    Some((
+        minutes,
+        order
+            .into_iter()
+            .map(|index| stays[index].outline)
+            .collect(),
+    ))
 }
 
 fn waits_before(path: &WirePath, next: &WirePath, settings: &Effective, format: Format) -> bool {

@@ -77,6 +77,10 @@ pub(crate) struct Program {
     /// Where the wire is threaded, in the order of the cuts.
     #[serde(default)]
     pub(crate) holes: Vec<StartHole>,
+    /// How long the machine runs alone, what falls meanwhile and in which order it would run longest, in sentences; nothing of a single
+    /// cut, and of times where `job.thickness` or `passes.rates` is not set.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(crate) unattended: Vec<String>,
     /// What the program comes to on the machine.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) work: Option<Work>,
@@ -111,12 +115,13 @@ pub(crate) struct FinishedPart {
 }
 
 impl Program {
-    /// `cut` is what the program was made of, beside what all its passes leave.
+    /// `snapshot` is what the program was made of: outlines are counted in it. `warnings` are those of the program.
     pub(crate) fn new(
         snapshot: &Snapshot,
         proved: ProvedProgram,
         finished: Option<Finished>,
         (holes, work): (&[toolpath::StartHole], &toolpath::Work),
+        unattended: Vec<String>,
         warnings: Vec<Diagnostic>,
     ) -> Program {
         let Snapshot {
@@ -142,6 +147,7 @@ impl Program {
                 })
                 .collect(),
             minutes: work.minutes,
+            unattended,
             work: Some(Work::new(drawing, outlines, work)),
             program: proved.text,
             thread_hole: holes.first().map(|hole| hole.at.into()),

@@ -9,7 +9,7 @@ use rustc_hash::FxHashMap;
 pub(super) type Places = FxHashMap<usize, u32>;
 
 /// Which of some contours lie within which.
-pub(super) struct Nesting {
+pub(crate) struct Nesting {
     /// By place: the places of the contours round it, the outermost first.
     pub(crate) around: Vec<Vec<usize>>,
 }

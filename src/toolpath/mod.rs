@@ -56,6 +56,7 @@ mod vicinity;
 mod work;
 
 pub(crate) use clearance::Walls;
+pub(crate) use containment::Nesting;
 pub(crate) use cores::each;
 pub(crate) use crowd::looks_beside;
 pub(crate) use finished::Finished;
@@ -82,7 +83,7 @@ use crate::drawing::{Drawing, EntityId, Outline};
 use crate::finding::{Detail, Finding, Rule, Severity};
 use crate::geometry::Point;
 use crate::settings::{Compensation, Effective, LengthSetting, Order};
-use containment::{Nesting, Places};
+use containment::Places;
 use contour_path::{Fault, Laid};
 use contours::Contours;
 use job::Job;

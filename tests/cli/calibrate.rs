@@ -78,6 +78,24 @@ fn a_piece_gives_the_kerf_of_each_pass_and_what_the_file_gets() {
     check(&desk, "check clean.dxf --config shop/wedm.toml", 0, &[]);
 }
 
+#[test]
+fn a_script_reads_the_passes_and_the_settings() {
+    let desk = Desk::new();
+    let ended = desk.run("calibrate --outer 20=20.006 --inner 10=9.994 --correction 0.155 --wire-diameter 0.25 --output json");
+    let expected = serde_json::json!({
+        "passes": [{ "pass": 1, "correction": 0.155, "halfKerf": 0.152, "uncertainty": 0.001, "gap": 0.027, "features": 2, "outer": 0.152, "inner": 0.152 }],
+        "settings": { "wire-diameter": 0.25, "gap": 0.027 },
+    });
+    let mut found = ended.json();
+    for number in found["passes"][0].as_object_mut().unwrap().values_mut() {
+        if let Some(length) = number.as_f64().filter(|_| number.is_f64()) {
+            *number = ((length * 1e6).round() / 1e6).into();
+        }
+    }
+    assert_eq!(found, expected);
+    assert!(ended.stderr.contains("with --write"), "{ended:?}");
+}
+
 /// The options, the `wedm.toml`, how the command ends, and what it says.
 #[test]
 fn sizes_may_be_options_and_the_wire_may_be_unknown() {

@@ -266,6 +266,56 @@ fn a_page_says_what_small_radii_cost() {
     assert!(!page(&desk).contains("What small radii cost"));
 }
 
+/// A drawing of closed squares, each with its handle, the left edge and the length of its sides.
+fn squares(all: &[(&str, f64, f64)]) -> String {
+    let square = |&(handle, x, side): &(&str, f64, f64)| {
+        let corners = [[x, 0.0], [x + side, 0.0], [x + side, side], [x, side]];
+        let corners = corners.map(|[x, y]| format!("10\n{x}\n20\n{y}\n")).concat();
+        format!(
+            "0\nLWPOLYLINE\n5\n{handle}\n100\nAcDbEntity\n8\n0\n100\nAcDbPolyline\n90\n4\n70\n1\n{corners}"
+        )
+    };
+    let entities: String = all.iter().map(square).collect();
+    format!("0\nSECTION\n2\nENTITIES\n{entities}0\nENDSEC\n0\nEOF\n")
+}
+
+/// The contours to begin with so that nobody has to come for longest, said with the program, too.
+#[test]
+fn an_order_that_runs_longer_alone_is_said() {
+    const JOB: &str = "side = \"opening\"\ncorrection = 0.1\n[job]\nthickness = 40\n[passes]\nrates = [100]\n[program]\norder = \"as-drawn\"\n";
+    const THREADS: &str =
+        "format = \"iso\"\nprofile = \"own\"\n[profiles.own]\npause = [\"M50\", \"M60\"]\n";
+    let rows = [
+        // The machine waits behind each contour: the longest one first.
+        (
+            JOB.to_owned(),
+            "would run alone for 1 h 06 min, begun with contour A1 (order of",
+        ),
+        // It threads by itself and stops before each tab.
+        (
+            format!(
+                "{}tab = 2\ntab-stop = \"M00\"\n{THREADS}",
+                JOB.replace("[passes]", "slug-limit = 10\n[passes]")
+            ),
+            "would run alone for 1 h 0",
+        ),
+        (format!("{JOB}{THREADS}"), "runs alone to its end"),
+    ];
+    for (settings, expected) in rows {
+        let desk = Desk::new();
+        desk.write(
+            "three.dxf",
+            squares(&[("A0", 0.0, 10.0), ("A1", 20.0, 40.0), ("A2", 70.0, 20.0)]),
+        );
+        desk.write("wedm.toml", settings);
+        let said = desk.run("generate three.dxf -o three.iso").stderr;
+        assert!(said.contains(expected), "{expected} in {said}");
+        desk.run("report three.dxf -o pages");
+        let page = String::from_utf8(desk.read("pages/three.html")).unwrap();
+        assert!(page.contains(expected), "{expected} in {page}");
+    }
+}
+
 /// What is loose when, what falls by itself, and until when nobody is needed: of two openings, the second one with a tab or none,
 /// by the machine's way to thread.
 #[test]
@@ -275,13 +325,6 @@ fn a_page_says_what_happens_unattended() {
     const TABBED: &str = "side = \"opening\"\ncorrection = 0.1\n[job]\nthickness = 40\nslug-limit = 10\n[passes]\nrates = [100]\n";
     const PAIR: &str = "side = \"opening\"\n[job]\nthickness = 40\n[passes]\ncorrections = [0.12, 0.1]\nrates = [100, 200]\n";
     const THREADS: &str = "[program]\nformat = \"iso\"\nprofile = \"own\"\n[profiles.own]\npause = [\"M50\", \"M60\"]\n";
-    let square = |handle: &str, x: f64| {
-        let corners = [[x, 0.0], [x + 10.0, 0.0], [x + 10.0, 10.0], [x, 10.0]];
-        let corners = corners.map(|[x, y]| format!("10\n{x}\n20\n{y}\n")).concat();
-        format!(
-            "0\nLWPOLYLINE\n5\n{handle}\n100\nAcDbEntity\n8\n0\n100\nAcDbPolyline\n90\n4\n70\n1\n{corners}"
-        )
-    };
     let rows: [(&str, &str, &[&str], &str); 5] = [
         // 39.2 mm of path and a lead of 2.9 there and back, times 40, by 100.
         (
@@ -327,11 +370,7 @@ fn a_page_says_what_happens_unattended() {
     ];
     for (job, more, parts, absent) in rows {
         let desk = Desk::new();
-        let entities = square("A0", 0.0) + &square("A1", 20.0);
-        desk.write(
-            "two.dxf",
-            format!("0\nSECTION\n2\nENTITIES\n{entities}0\nENDSEC\n0\nEOF\n"),
-        );
+        desk.write("two.dxf", squares(&[("A0", 0.0, 10.0), ("A1", 20.0, 10.0)]));
         desk.write("wedm.toml", format!("{job}{more}"));
         let ended = desk.run("report two.dxf -o pages");
         let page = String::from_utf8(desk.read("pages/two.html")).unwrap();

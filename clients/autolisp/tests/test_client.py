@@ -84,6 +84,11 @@ def square(document: Drawing, x: float = 0) -> None:
     document.modelspace().add_lwpolyline([(x, 0), (x + 10, 0), (x + 10, 10), (x, 10)], close=True)
 
 
+def disc_of_chords(document: Drawing) -> None:
+    points = [(10 * math.cos(math.tau * turn / 360), 10 * math.sin(math.tau * turn / 360)) for turn in range(360)]
+    document.modelspace().add_lwpolyline(points, close=True)
+
+
 def all_kinds(document: Drawing) -> None:
     for place, draw in enumerate((tight, tight_and_wide, tight_lines, old_polyline, old_polyline_with_crumb, doubles, chords, from_below)):
         draw(document, 20.0 * place)
@@ -230,6 +235,13 @@ def test_a_program_is_that_of_the_command_line(tmp_path: Path, command: str, end
     assert again.read_bytes() == target.read_bytes()
     assert len([entity for entity in program.space if entity.dxf.layer == "WEDM_PATH"]) == 2
     assert [entity.dxf.layer for entity in program.space if entity.dxf.layer == "WEDM_MARKS"] == []
+
+
+def test_chords_that_are_cut_as_arcs_are_said(tmp_path: Path) -> None:
+    (tmp_path / "wedm.toml").write_text('side = "punch"\nchord-fit = 0.002\n')
+    program = cad(tmp_path, disc_of_chords)
+    shown = program.run("WEDM3B", str(tmp_path / "a.3b"), "No")
+    assert re.search(r"cut as arcs: at most 0\.[0-9]+ um from the outline", shown), shown
 
 
 def test_a_side_that_is_known_is_not_asked_for(tmp_path: Path) -> None:

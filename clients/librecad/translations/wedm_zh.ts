@@ -983,6 +983,10 @@
         <translation>J 取整误差合计 %1, %2 µm。</translation>
     </message>
     <message>
+        <source>Chords of the drawing are cut as arcs: at most %1 µm from the outline.</source>
+        <translation>图形中的弦按圆弧切割：偏离轮廓最多 %1 µm。</translation>
+    </message>
+    <message>
         <source>%1 layers; simulated: the floor %2 to %3 mm deep, the electrode %4 mm shorter.</source>
         <translation>%1 层；模拟：底面深 %2 至 %3 mm，电极缩短 %4 mm。</translation>
     </message>

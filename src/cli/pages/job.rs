@@ -92,21 +92,6 @@ pub(super) fn night(
         let outline = snapshot.outlines.get(watch.outline);
         outline.map_or("?", |outline| outline.name(&snapshot.drawing))
     };
-    let mut facts = Vec::new();
-    if let Some((minutes, is_end)) = job::alone(&night) {
-        facts.push(match is_end {
-            true => say!(it_runs_alone_to_its_end, duration(minutes)),
-            false => say!(it_runs_alone, duration(minutes)),
-        });
-    }
-    let falling = night.iter().filter(|watch| {
-        let loose = watch.loose.as_ref();
-        loose.is_some_and(|loose| !loose.is_watched)
-    });
-    let falling: Vec<&str> = falling.take(MOST_PLACES).map(name).collect();
-    if !falling.is_empty() {
-        facts.push(say!(it_falls_unattended, falling.join(say!(comma))));
-    }
     let row = |watch: &NightWatch| {
         let pass = match watch.cut_off {
             false => watch.pass.to_string(),
@@ -142,7 +127,9 @@ pub(super) fn night(
         say!(column_stop),
     ];
     let rows = night.iter().take(MOST).map(row);
-    self::facts(&facts) + &table(&heads, rows) + &more(night.len(), MOST)
+    self::facts(&job::unattended(snapshot, &night))
+        + &table(&heads, rows)
+        + &more(night.len(), MOST)
 }
 
 /// The most places named for a wire that they keep out.

@@ -109,6 +109,7 @@ Exit codes: 0 no error found, 1 errors in the drawing, 2 could not read, or wron
     ("calibrate inner", "A size of an opening; again for each"),
     ("calibrate pass", "The pass after which --outer and --inner were measured [default: the last]"),
     ("calibrate uncertainty", "Of a single measurement, mm: 95 of 100 are nearer to the truth"),
+    ("calibrate output", "Form of the output"),
     ("calibrate write", "Write the values into the wedm.toml, with the date"),
     ("config", "Print what can be set"),
     ("config-examples", "Examples:

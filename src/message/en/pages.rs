@@ -91,6 +91,7 @@ declare! {
     it_runs_alone(time) => "runs alone for {time}, then somebody has to come";
     it_runs_alone_to_its_end(time) => "runs alone to its end, {time}";
     it_falls_unattended(contours) => "falls while nobody stands by: contour {contours}; a tab (program.tab) holds it until the machine has stopped";
+    it_would_run_longest_alone(time, contours) => "would run alone for {time}, begun with contour {contours} (order of [drawings.….contours])";
     column_done_after => "done after";
     column_loose => "what is loose then";
     column_stop => "machine";

@@ -230,6 +230,7 @@ pub(in crate::message) const HELP: &[(&str, &str)] = &[
         "calibrate uncertainty",
         "单次测量的不确定度，mm：100 次中有 95 次在此之内",
     ),
+    ("calibrate output", "输出的形式"),
     ("calibrate write", "把这些值连同日期写入 wedm.toml"),
     ("config", "说明可以设置什么"),
     (

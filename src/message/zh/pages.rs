@@ -91,6 +91,7 @@ translate! {
     it_runs_alone(time) => "可无人看管 {time}，之后须有人到场";
     it_runs_alone_to_its_end(time) => "可无人看管直到结束，{time}";
     it_falls_unattended(contours) => "无人在场时落下：轮廓 {contours}；暂留段（program.tab）可把它留住，直到机床停下";
+    it_would_run_longest_alone(time, contours) => "若先切轮廓 {contours}，可无人看管 {time}（[drawings.….contours] 的 order）";
     column_done_after => "切完时";
     column_loose => "此时松脱的";
     column_stop => "机床";

@@ -38,12 +38,12 @@ pub(in crate::server) fn generate(context: &RequestContext, params: Generate) ->
     context.check()?;
     let made = made.map_err(|refusal| task.refused(context, &refusal))?;
     let warnings = convert::diagnostics(&task.subject, &made.warnings, context.encoding);
-    let of_cuts = (made.holes.as_slice(), &made.work);
     Ok(Program::new(
-        &task.snapshot,
+        &made.snapshot,
         made.program,
         made.finished,
-        of_cuts,
+        (&made.holes, &made.work),
+        made.unattended,
         warnings,
     ))
 }

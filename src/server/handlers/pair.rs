@@ -25,15 +25,17 @@ pub(in crate::server) fn pair(context: &RequestContext, params: Generate) -> Res
     let made = made.map_err(|refusal| task.refused(context, &refusal))?;
     let programs = made.into_iter().map(|part| {
         let warnings = convert::diagnostics(&task.subject, &part.made.warnings, context.encoding);
+        let made = part.made;
         PairProgram {
             part: part.part,
             corrections: part.corrections,
             other_side: part.is_other_side,
             program: Program::new(
-                &task.snapshot,
-                part.made.program,
-                part.made.finished,
-                (&part.made.holes, &part.made.work),
+                &made.snapshot,
+                made.program,
+                made.finished,
+                (&made.holes, &made.work),
+                made.unattended,
                 warnings,
             ),
         }

@@ -24,6 +24,7 @@ Program programFromJson(const QJsonObject &result, const QString &format)
     program.cut = result.value("length").toDouble();
     program.jumps = result.value("jumps").toDouble();
     program.deviation = result.value("deviation").toDouble();
+    program.offChords = result.value("offChords").toDouble();
     program.closureX = result.value("closure").toObject().value("x").toDouble();
     program.closureY = result.value("closure").toObject().value("y").toDouble();
     const QJsonObject milling = result.value("milling").toObject();

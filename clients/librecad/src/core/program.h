@@ -23,6 +23,8 @@ struct Program {
     double cut = 0;
     double jumps = 0;
     double deviation = 0;
+    /// In µm: how far arcs that are cut in place of the drawing's chords lie from them; 0 without any.
+    double offChords = 0;
     double closureX = 0;
     double closureY = 0;
     /// For an electrode, in mm: the highest and deepest place of the floor, and by how much the electrode is shorter at the end.

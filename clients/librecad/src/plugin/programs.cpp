@@ -64,6 +64,12 @@ QString findings(const QStringList &warnings)
     return warnings.isEmpty() ? QString() : QLatin1Char('\n') + tr("Findings in the drawing: %1").arg(warnings.mid(0, NAMED).join(QStringLiteral("; ")));
 }
 
+QString offChords(const Program &program)
+{
+    return program.offChords > 0 ? QLatin1Char(' ') + tr("Chords of the drawing are cut as arcs: at most %1 µm from the outline.").arg(program.offChords, 0, 'f', 2)
+                                 : QString();
+}
+
 } // namespace
 
 QString written(const Program &program)
@@ -83,7 +89,7 @@ QString written(const Program &program)
                                        .arg(program.worn, 0, 'f', 4);
     else if (program.format != QLatin1String("iso"))
         text += QLatin1Char(' ') + tr("Rounding of J, added up: %1, %2 µm.").arg(micrometres(program.closureX), micrometres(program.closureY));
-    return text + findings(program.warnings);
+    return text + offChords(program) + findings(program.warnings);
 }
 
 QString writtenPair(const QVector<Program> &programs)
@@ -96,7 +102,7 @@ QString writtenPair(const QVector<Program> &programs)
         QString text = tr("%1, %2: correction %3 mm").arg(QFileInfo(each.path).fileName(), partName(each.part), corrections.join(QStringLiteral(" / ")));
         if (each.otherSide)
             text += tr(", the wire on what is drawn or on its other side");
-        lines += text + tr(", %1 blocks, cut %2 mm, jumps %3 mm").arg(each.blocks).arg(mm(each.cut), mm(each.jumps));
+        lines += text + tr(", %1 blocks, cut %2 mm, jumps %3 mm").arg(each.blocks).arg(mm(each.cut), mm(each.jumps)) + offChords(each);
     }
     const QString folder = programs.isEmpty() ? QString() : QDir::toNativeSeparators(QFileInfo(programs.at(0).path).absolutePath());
     return tr("Written to %1:").arg(folder) + QLatin1Char('\n') + lines.join(QLatin1Char('\n')) + findings(programs.value(0).warnings);

@@ -14,6 +14,7 @@ import sys
 import warnings
 
 from .archive import Checked, check_many, report
+from .calibration import Calibration, Kerf, calibrate
 from .cad import UnsupportedEntity, UnsupportedUnits
 from .documents import Action, Document, Drawing, ProgramFormat, TextDocument, WireFormat, write_back
 from .entities import Arc, Change, Circle, Delete, Entity, Line, Mark, Point, Polyline, Put, Splice, Text, Vertex
@@ -89,6 +90,7 @@ __all__ = [
     "Action",
     "Arc",
     "Bounds",
+    "Calibration",
     "Change",
     "Checked",
     "Circle",
@@ -117,6 +119,7 @@ __all__ = [
     "InspectedEntity",
     "Inspection",
     "Job",
+    "Kerf",
     "LargestWire",
     "Line",
     "Located",
@@ -173,6 +176,7 @@ __all__ = [
     "WorkCut",
     "WrongProtocol",
     "WrongSettings",
+    "calibrate",
     "check_many",
     "find",
     "report",

@@ -101,6 +101,8 @@ class Program(Value):
     finished: FinishedPart | None = None
     milling: Milling | None = None
     minutes: float | None = None
+    #: How long the machine runs alone, what falls meanwhile and in which order it would run longest, in sentences.
+    unattended: list[str] = field(default_factory=list)
     holes: list[StartHole] = field(default_factory=list)
     work: Work | None = None
     #: What the control has to hold, one for each pass, where it offsets the contour.

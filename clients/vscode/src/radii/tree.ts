@@ -127,14 +127,15 @@ export class Radii implements vscode.TreeDataProvider<Row>, vscode.Disposable {
   }
 
   async #select(editor: vscode.TextEditor): Promise<void> {
-    if (!this.#view.visible) {
+    // Asked twice: meanwhile the user may turn to another view or text, and revealing would bring the list back over it.
+    const isWanted = (): boolean => this.#view.visible && vscode.window.activeTextEditor === editor;
+    if (!isWanted()) {
       return;
     }
     const located = await segmentAt(this.server, editor.document.uri, editor.selection.active);
     const entity = this.#rows.find((row) => located !== null && row.handles.includes(located.handle));
     const row = entity?.segments.find((row) => row.handle === located?.handle && row.segment.index === located.segment) ?? entity;
-    // Meanwhile the user may have turned to another view, or another text: revealing would bring the list back over it.
-    if (row !== undefined && this.#view.visible && vscode.window.activeTextEditor === editor) {
+    if (row !== undefined && isWanted()) {
       await this.#view.reveal(row, { select: true, focus: false });
     }
   }
