@@ -25,9 +25,12 @@ fn mirrored(text: &str) -> String {
                     .is_some_and(|of| of.trim_matches(['0', ' ']).is_empty())
         };
         let mirrored = match quadrant {
+            // Along an axis a wrong quadrant stays a wrong one.
+            _ if is_zero(1) => quadrant,
             "1" if is_zero(2) => "3",
+            "2" if is_zero(2) => "4",
             "3" if is_zero(2) => "1",
-            "2" | "4" if is_zero(1) => quadrant,
+            "4" if is_zero(2) => "2",
             "1" => "2",
             "2" => "1",
             "3" => "4",
