@@ -17,20 +17,21 @@ fn mirrored(text: &str) -> String {
             return line.to_owned();
         };
         // A line along an axis is written with the quadrant of its direction.
+        let is_zero = |of: &str| !of.is_empty() && of.trim_matches(['0', ' ']).is_empty();
         let fields: Vec<&str> = head.split('B').collect();
-        let is_zero = |field: usize| {
-            head.ends_with('L')
-                && fields
-                    .get(field)
-                    .is_some_and(|of| of.trim_matches(['0', ' ']).is_empty())
+        let [is_along_x, is_along_y] = match fields[..] {
+            _ if !head.ends_with('L') => [false, false],
+            ["", x, y, _] => [is_zero(y), !is_zero(y) && is_zero(x)],
+            // Where a B is lost, the zero beside it is not: then the direction in which is counted says it.
+            _ => ["GX", "GY"].map(|of| head.contains(of) && fields.iter().any(|it| is_zero(it))),
         };
         let mirrored = match quadrant {
             // Along an axis a wrong quadrant stays a wrong one.
-            _ if is_zero(1) => quadrant,
-            "1" if is_zero(2) => "3",
-            "2" if is_zero(2) => "4",
-            "3" if is_zero(2) => "1",
-            "4" if is_zero(2) => "2",
+            "1" if is_along_x => "3",
+            "2" if is_along_x => "4",
+            "3" if is_along_x => "1",
+            "4" if is_along_x => "2",
+            _ if is_along_y => quadrant,
             "1" => "2",
             "2" => "1",
             "3" => "4",
