@@ -1,6 +1,6 @@
 //! `wedm fit`: whether a punch goes into its plate.
 
-use super::options::{Common, Form, Pairing, Program};
+use super::options::{Common, Form, Pairing, Program, no_pair};
 use super::output::{self, push_line, styled};
 use super::{Failure, Verdict, files, report};
 use crate::geometry::Xy;
@@ -41,14 +41,13 @@ pub(super) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     if let Some(target) = target.filter(|target| form_of(target).is_none()) {
         return Err(Failure::of(target, say!(the_fit_is_drawn_as_svg)));
     }
-    let last = arguments
-        .pairing
-        .beside(&arguments.common.settings_with(&arguments.program));
+    let own = arguments.common.settings_with(&arguments.program);
+    let last = arguments.pairing.0.overlaid(&own);
     let (opened, snapshot) =
         files::drawing_to_use(&arguments.path, target, &arguments.common, &last)?;
     if let Err(missing) = snapshot.settings.fit() {
         let needed = say!(whether_it_fits_needs, missing.listed());
-        return Err(Failure::of(path, Pairing::refusal(&last, &missing, needed)));
+        return Err(Failure::of(path, no_pair(&last, &missing, needed)));
     }
     let unit_mm = opened.document.unit_mm();
     let fit = match job::fit(&opened.document, &snapshot, &()) {

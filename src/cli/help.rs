@@ -57,8 +57,10 @@ fn explain_argument(command: &str, mut argument: Arg) -> Arg {
         _ => None,
     };
     let text = match of_settings {
-        // A fit goes by what is stated of the wire.
-        Some(row) if heading == "heading Pair" => Some(row.first_sentence()),
+        // A fit goes by what is stated of the wire, and without that the correction has its own default.
+        Some(row) if heading == "heading Pair" || ["wire-diameter", "gap"].contains(&&*row.key) => {
+            Some(row.first_sentence())
+        }
         Some(row) => Some(row.first_sentence() + &shown_default(row)),
         None if id == "config" => help("config-file").map(str::to_owned),
         None => help(&format!("{command} {id}"))

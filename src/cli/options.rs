@@ -9,11 +9,20 @@ use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
 /// Groups of options: their heading, the table whose keys they set, and their names.
-const GROUPS: [(&str, &str, &[&str]); 9] = [
+const GROUPS: [(&str, &str, &[&str]); 8] = [
     (
         "Settings",
         "",
-        &["correction", "passes", "side", "join", "chord-fit"],
+        // A correction that is given together with the wire wins.
+        &[
+            "wire-diameter",
+            "gap",
+            "correction",
+            "passes",
+            "side",
+            "join",
+            "chord-fit",
+        ],
     ),
     (
         "Program",
@@ -42,7 +51,6 @@ const GROUPS: [(&str, &str, &[&str]); 9] = [
         "pair.",
         &["drawn-as", "clearance", "stripper", "holder"],
     ),
-    ("Pair", "", &["wire-diameter", "gap"]),
     // A conversion takes the path as it is: nothing that plans one.
     (
         "Program",
@@ -125,51 +133,33 @@ pub(crate) enum FileLanguage {
 pub(crate) type Program = Keys<1>;
 
 /// How a program that holds its path already is written.
-pub(crate) type Written = Keys<5>;
+pub(crate) type Written = Keys<4>;
 
 /// The head of a page for the workshop.
-pub(crate) type Head = Keys<7>;
+pub(crate) type Head = Keys<6>;
 
 /// The correction that 4B needs.
-pub(crate) type Corrected = Keys<6>;
+pub(crate) type Corrected = Keys<5>;
 
 /// Words of a program.
 pub(crate) type Words = Keys<2>;
 
 /// What a test piece was cut with.
-pub(crate) type CutWith = Keys<8>;
+pub(crate) type CutWith = Keys<7>;
 
-// The settings of a pair.
-#[derive(Args, Clone, Debug, Default)]
-pub(crate) struct Pairing {
-    #[command(flatten)]
-    pair: Keys<3>,
-    #[command(flatten)]
-    wire: Keys<4>,
-}
+/// The settings of a pair.
+pub(crate) type Pairing = Keys<3>;
 
-impl Pairing {
-    /// The command line's settings, with those of the pair: a correction that is given together
-    /// with the wire wins.
-    pub(crate) fn beside(&self, settings: &Settings) -> Settings {
-        self.wire.0.overlaid(&self.pair.0).overlaid(settings)
-    }
-
-    /// Why there is no pair where keys are missing: a side on the command line has ended the one of a `wedm.toml`.
-    pub(crate) fn refusal(
-        settings: &Settings,
-        missing: &MissingForFit,
-        else_said: String,
-    ) -> String {
-        let key = "pair.drawn-as";
-        let side = settings.side.filter(|side| *side != SideSetting::Both);
-        match side {
-            Some(side) if missing.0.contains(&key) => {
-                let refused = say!(a_pair_on_one_side, key, side.name());
-                say!(says, "--side", refused)
-            }
-            _ => else_said,
+/// Why there is no pair where keys are missing: a side on the command line has ended the one of a `wedm.toml`.
+pub(crate) fn no_pair(settings: &Settings, missing: &MissingForFit, else_said: String) -> String {
+    let key = "pair.drawn-as";
+    let side = settings.side.filter(|side| *side != SideSetting::Both);
+    match side {
+        Some(side) if missing.0.contains(&key) => {
+            let refused = say!(a_pair_on_one_side, key, side.name());
+            say!(says, "--side", refused)
         }
+        _ => else_said,
     }
 }
 

@@ -1,6 +1,6 @@
 //! `wedm pair`: the programs of all parts of a pair.
 
-use super::options::{Common, Pairing, Program};
+use super::options::{Common, Pairing, Program, no_pair};
 use super::output::{self, styled};
 use super::{Failure, Verdict, ending, files, report};
 use crate::disk;
@@ -44,16 +44,15 @@ pub(super) fn run(arguments: &Arguments) -> Result<Verdict, Failure> {
     if let Some(folder) = &arguments.output {
         ending::folder(folder)?;
     }
-    let last = arguments
-        .pairing
-        .beside(&arguments.common.settings_with(&arguments.program));
+    let own = arguments.common.settings_with(&arguments.program);
+    let last = arguments.pairing.0.overlaid(&own);
     let (mut opened, snapshot) =
         files::drawing_to_use(&arguments.path, None, &arguments.common, &last)?;
     let format = arguments.format;
     let format = format.unwrap_or_else(|| ending::of_settings(&snapshot.settings));
     if let (Err(missing), true) = (snapshot.settings.fit(), format != Format::Milling) {
         let needed = say!(a_pair_needs, missing.listed());
-        return Err(Failure::of(path, Pairing::refusal(&last, &missing, needed)));
+        return Err(Failure::of(path, no_pair(&last, &missing, needed)));
     }
     let document = &opened.document;
     let wanted = Wanted {
