@@ -84,7 +84,7 @@ def square(document: Drawing, x: float = 0) -> None:
     document.modelspace().add_lwpolyline([(x, 0), (x + 10, 0), (x + 10, 10), (x, 10)], close=True)
 
 
-def disc_of_chords(document: Drawing) -> None:
+def disc_of_chords(document: Drawing, _: float = 0) -> None:
     points = [(10 * math.cos(math.tau * turn / 360), 10 * math.sin(math.tau * turn / 360)) for turn in range(360)]
     document.modelspace().add_lwpolyline(points, close=True)
 

@@ -29,5 +29,6 @@ def test_a_table_of_several_passes_is_written_where_that_is_asked_for(program: s
 def test_what_contradicts_itself_is_refused(program: str, tmp_path: Path) -> None:
     with pytest.raises(WedmError, match="outer"):
         calibrate(outer=[(20, 20.02), (12, 12.021)], inner=[(10, 10.02), (6, 6.021)], correction=0.1, command=program)
+    (tmp_path / "wedm.toml").write_text("side = 'punch'\n")
     with pytest.raises(WedmError, match="correction"):
         calibrate(outer=[(20, 20.02)], config=tmp_path / "wedm.toml", command=program)
