@@ -4,7 +4,6 @@
 //! present the result; refusals are decided and worded here. Nothing here reads or writes a file,
 //! or knows who asked.
 
-pub mod calibration;
 mod convert;
 mod corners;
 pub(crate) mod drill;

@@ -24,6 +24,7 @@ pub mod message;
 
 #[allow(clippy::indexing_slicing)]
 pub mod analysis;
+pub mod calibration;
 #[allow(clippy::indexing_slicing)]
 pub mod cli;
 #[allow(clippy::indexing_slicing)]

@@ -3,9 +3,10 @@
 use super::options::{Common, CutWith, Form, positive};
 use super::output::{self, push_line, styled};
 use super::{Failure, Verdict, files, init};
+use crate::calibration::{Kerf, Measurement, Setup, calibrate};
 use crate::disk;
 use crate::finding::Severity;
-use crate::job::calibration::{Kerf, Measurement, Setup, calibrate};
+use crate::protocol::CalibratedPass;
 use crate::settings::{self, Effective, FILE_NAME, Origin};
 use crate::text::Writing;
 use clap::Args;
@@ -228,21 +229,14 @@ fn settle(
     Ok(Verdict::Clean)
 }
 
-/// The kerfs, mm, and the keys that they set.
+/// The passes as `wedm/calibrate` answers, and the keys that they set.
 fn json(kerfs: &[Kerf], values: &[(&'static str, String)]) -> Value {
-    let kerf = |kerf: &Kerf| {
-        let [outer, inner] = kerf.by_kind;
-        json!({
-            "pass": kerf.pass, "correction": kerf.correction, "halfKerf": kerf.half, "uncertainty": kerf.uncertainty,
-            "gap": kerf.gap, "features": kerf.features, "outer": outer, "inner": inner,
-        })
-    };
     let numbers = |text: &String| serde_json::from_str(text).unwrap_or(Value::Null);
     let settings = values
         .iter()
         .map(|(key, text)| ((*key).to_owned(), numbers(text)));
     json!({
-        "passes": kerfs.iter().map(kerf).collect::<Vec<_>>(),
+        "passes": kerfs.iter().map(CalibratedPass::from).collect::<Vec<_>>(),
         "settings": settings.collect::<serde_json::Map<_, _>>(),
     })
 }

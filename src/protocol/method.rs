@@ -69,6 +69,7 @@ messages! {
     Settings "wedm/settings" (DrawingName) -> SettingsInForce;
     RulePage "wedm/rulePage" (RulePage) -> RulePageText;
     Generate "wedm/generate" (Generate) -> Program, refused by Refused;
+    Calibrate "wedm/calibrate" (Calibrate) -> Calibrated;
     ApplyDrawingEdit "wedm/applyDrawingEdit" by server (ApplyDrawingEdit) -> Applied;
     ResendDrawing "wedm/resendDrawing" by server (ResendDrawing) -> Resent;
 }

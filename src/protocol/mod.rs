@@ -5,6 +5,7 @@
 //! transport or state.
 
 mod against;
+mod calibrate;
 mod change;
 mod contours;
 mod data;
@@ -30,6 +31,7 @@ mod vertex;
 mod work;
 
 pub(crate) use against::{Against, as_stated};
+pub(crate) use calibrate::{Calibrate, Calibrated, CalibratedPass, FeatureKind};
 pub(crate) use change::{DrawingChange, apply, changes_of};
 pub use contours::Contours;
 pub(crate) use contours::{ContourPiece, ContoursContour, Direction};

@@ -270,7 +270,8 @@ pub(super) fn service(
         )
         .custom_method(messages::DidCloseDrawing::NAME, Backend::did_close_drawing)
         .custom_method(messages::Settings::NAME, Backend::settings)
-        .custom_method(messages::RulePage::NAME, Backend::rule_page);
+        .custom_method(messages::RulePage::NAME, Backend::rule_page)
+        .custom_method(messages::Calibrate::NAME, Backend::calibrate);
     #[cfg(feature = "testing")]
     let build = build
         .custom_method("wedm/test/panic", Backend::test_panic)
@@ -421,6 +422,14 @@ impl Backend {
         let unknown = || Error::invalid_params(say!(there_is_no_rule_named, params.rule));
         let rule = Rule::named(&params.rule).ok_or_else(unknown)?;
         Ok(RulePageText { text: rule.page() })
+    }
+
+    /// About no document: what was measured stands in the params.
+    async fn calibrate(
+        &self,
+        params: <messages::Calibrate as Message>::Params,
+    ) -> Result<<messages::Calibrate as Message>::Answer> {
+        calibrate::calibrate(params)
     }
 
     #[cfg(feature = "testing")]

@@ -1,7 +1,7 @@
 //! `wedm calibrate`: the kerf from a cut test piece, and what contradicts itself.
 
 use super::{Desk, check};
-use wedm::job::calibration::{Measurement, Setup, calibrate, student_t};
+use wedm::calibration::{Measurement, Setup, calibrate, student_t};
 
 const PIECE: &str = "\
 feature,kind,pass,nominal,measured

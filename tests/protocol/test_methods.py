@@ -43,6 +43,10 @@ BULGE = 41
 #: A contour that is cut twice.
 PAIR = {"side": "both", "wireDiameter": 0.18, "gap": 0.01, "pair": {"drawnAs": "punch", "clearance": 0.01}}
 
+# A test piece cut with 0.155 mm.
+OUTER = {"kind": "outer", "nominal": 20, "measured": 20.006}
+INNER = {"kind": "inner", "nominal": 10, "measured": 9.994}
+
 CASES = [
     Case("textDocument/hover", DXF, {"contents": anything, "range": anything}, at(BULGE, 2)),
     Case("textDocument/hover", PROGRAM, {"contents": anything}, at(2, 6)),
@@ -98,6 +102,7 @@ CASES = [
     Case("wedm/locate", DXF, {"handle": "2A", "segment": 1, "range": {"start": {"line": BULGE}}}, at(BULGE, 0)),
     Case("wedm/locate", DXF, {"handle": "2A", "segment": 1, "range": {"start": {"line": BULGE}}}, {"handle": "2A", "segment": 1}),
     Case("wedm/rulePage", DXF, {"text": anything}, {"rule": "small-radius"}),
+    Case("wedm/calibrate", DXF, {"passes": [{"pass": 1, "features": 2, "halfKerf": near(0.152), "gap": near(0.027)}]}, {"measurements": [OUTER, INNER], "corrections": [0.155], "wireDiameter": 0.25}),
     Case("wedm/settings", DXF, {"correction": near(0.1), "correctionFrom": "default", "side": "both", "unitsToMm": 1.0, "unitsFrom": anything, "said": text("correction 0.100 mm (default), both sides (default), mm (")}),
     Case(
         "wedm/generate",
@@ -203,7 +208,7 @@ async def test_params_that_do_not_fit(client: Client, params: Any) -> None:
     assert await client.ask("wedm/inspect", {"uri": CAD})
 
 
-@pytest.mark.parametrize("case", [case for case in CASES if case.uri in (DXF, CAD, PROGRAM) and case.method not in ("wedm/settings", "wedm/rulePage")], ids=str)
+@pytest.mark.parametrize("case", [case for case in CASES if case.uri in (DXF, CAD, PROGRAM) and case.method not in ("wedm/settings", "wedm/rulePage", "wedm/calibrate")], ids=str)
 async def test_a_document_that_is_not_open(client: Client, case: Case) -> None:
     params = asked(Case(case.method, case.uri.replace("session", "nowhere").replace("plate", "none"), None, case.params))
     if case.method.startswith("wedm/") or case.method == "textDocument/codeAction":
@@ -245,6 +250,9 @@ REFUSALS = [
     ("wedm/simulate", {"uri": CAD}, -32803, "is a drawing, expected a program"),
     ("wedm/simulate", {"uri": PROGRAM, "feed": "fast"}, -32602, "fast"),
     ("wedm/simulate", {"uri": PROGRAM, "feed": -1}, -32602, "feed is -1, expected mm/min above 0"),
+    ("wedm/calibrate", {"measurements": [OUTER], "corrections": [-0.1]}, -32602, "expected a length"),
+    ("wedm/calibrate", {"measurements": [], "corrections": [0.1]}, -32602, "nothing"),
+    ("wedm/calibrate", {"measurements": [OUTER, {**INNER, "measured": 10.4}], "corrections": [0.155]}, -32803, "outer"),
     ("wedm/rulePage", {"rule": "tight"}, -32602, "no rule named tight"),
     ("wedm/settings", {"uri": 7}, -32602, "expected a string"),
     ("wedm/locate", {"uri": DXF}, -32602, "either position or handle"),

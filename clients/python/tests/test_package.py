@@ -27,7 +27,7 @@ def schema(root: Path) -> dict[str, Any]:
 # Read by code of the package's own: findings and places, whose lines and columns it counts from 1, and what is handed out bare.
 READ_OTHERWISE = {
     *("Diagnostic", "CodeDescription", "FindingData", "RelatedInformation", "RelatedPlace", "Location", "Located", "Range", "Position"),
-    *("Point", "RulePageText", "Refused", "Exported", "ContourSettings"),
+    *("Point", "RulePageText", "Refused", "Exported", "ContourSettings", "Calibrated", "CalibratedPass"),
 }
 # What is answered only to those who ask for it: the package asks for the whole.
 UNASKED = {("ContoursContour", "handles"), ("Picture", "pieces")}

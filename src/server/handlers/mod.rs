@@ -1,5 +1,6 @@
 //! The request handlers, a file each: from the params to the core's answer.
 
+pub(super) mod calibrate;
 pub(super) mod code_action;
 pub(super) mod commands;
 pub(super) mod completion;

@@ -13,6 +13,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 
+/// Of a single measurement, where nothing is stated, mm.
+pub(crate) const UNCERTAINTY: f64 = 0.002;
+
 /// The share of measurements that may lie outside of what is stated.
 const OUTSIDE: f64 = 0.05;
 
