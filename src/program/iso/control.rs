@@ -101,10 +101,6 @@ impl Reader for Control<'_> {
 
     const REACH: usize = corner::REACH;
 
-    fn ahead(cut: &Cut) -> usize {
-        cut.ahead as usize
-    }
-
     /// All places of a cut count from where the wire enters it.
     fn take_on(cut: &mut Cut, from: &Entry, to: &Entry) -> bool {
         from.is_like(to) && (from.at == to.at || !cut.fixed)
@@ -119,7 +115,7 @@ impl Control<'_> {
     /// Arcs that the wire cannot follow at its distance: those of a part's contour, whether the control offsets it or
     /// nobody does.
     fn tight_arcs(&self, placed: &[Placed], twice_area: f64) -> impl Iterator<Item = Finding> {
-        let role = self.limits.side.role();
+        let role = self.limits.settings.side.role();
         let by_settings = role.and_then(|role| wire_side(role, true, twice_area));
         placed.iter().filter_map(move |(made, range)| {
             let side_of_center = match made.motion {
@@ -129,7 +125,7 @@ impl Control<'_> {
             };
             let side = match made.side {
                 Some(side) => side,
-                None if self.limits.compensation == Compensation::Path => return None,
+                None if self.limits.settings.compensation == Compensation::Path => return None,
                 None => by_settings.unwrap_or(side_of_center),
             };
             let required = correction_in(self.table, self.limits, made.offset);

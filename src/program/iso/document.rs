@@ -43,7 +43,7 @@ pub struct Document {
     order: Option<Order>,
     pub(super) contours: Contours,
     /// The settings that faults depend on.
-    pub(crate) limits: Box<Limits>,
+    pub(crate) limits: Arc<Limits>,
     /// The values that the program puts into the control's table.
     pub(crate) table: Box<Table>,
     /// The slips that may explain the findings, once somebody has asked for them.
@@ -71,7 +71,7 @@ impl Document {
             evidence: Evidence::default(),
             order: None,
             contours: Contours::default(),
-            limits: Box::new(limits),
+            limits: Arc::new(limits),
             table: Box::default(),
             repairs: OnceLock::new(),
             searches: Searches::default(),
@@ -106,9 +106,8 @@ impl Document {
 
     /// Checks again under other settings.
     pub(crate) fn set_settings(&mut self, settings: &Effective) {
-        let limits = Limits::of(settings);
-        if limits != *self.limits {
-            *self.limits = limits;
+        if *settings != self.limits.settings {
+            self.limits = Arc::new(Limits::of(settings));
             self.repairs = OnceLock::new();
             self.read_all();
         }
@@ -262,7 +261,7 @@ impl Document {
     /// The control before the first line.
     pub(super) fn first_machine(&self) -> Machine {
         Machine {
-            inch: self.limits.inch,
+            inch: self.limits.inch(),
             ..Machine::default()
         }
     }
@@ -284,7 +283,7 @@ impl Document {
     /// What nothing but the settings says of how numbers are meant.
     fn first_evidence(&self) -> Evidence {
         Evidence {
-            inches: u32::from(self.limits.inch),
+            inches: u32::from(self.limits.inch()),
             ..Evidence::default()
         }
     }

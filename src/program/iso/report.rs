@@ -314,7 +314,7 @@ impl<'a> Report<'a> {
         };
         if let Some(side) = side {
             let is_inside = |area: f64| (side == Side::Left) == (area > 0.0);
-            let is_wrong = |inside: bool| match self.limits.side {
+            let is_wrong = |inside: bool| match self.limits.settings.side {
                 SideSetting::Opening => !inside,
                 SideSetting::Punch => inside,
                 _ => false,

@@ -292,7 +292,7 @@ impl Offer<'_> {
         self.subprograms("M98 ");
         self.push("M00", say!(stop_to_thread_the_wire));
         self.push(self.document.limits.end.clone(), say!(end_of_the_program));
-        let profile = self.document.limits.profile.as_deref();
+        let profile = self.document.limits.profile();
         let register = profile.map_or("", |profile| &profile.register);
         for line in self.document.limits.lines() {
             let line = line.replace("{x}", &zero).replace("{y}", &zero);

@@ -173,7 +173,7 @@ impl Report<'_> {
 
     fn contour_of(&mut self, passes: &[Pass]) {
         if passes.len() > 1 {
-            if self.limits.side.role().is_none() {
+            if self.limits.settings.side.role().is_none() {
                 self.sides_of(passes);
             }
             self.against_each_other(passes);
@@ -182,7 +182,7 @@ impl Report<'_> {
 
     /// Passes of one contour run on one side of it: that of the settings, else that of most of them, and of the first.
     fn sides_of(&mut self, passes: &[Pass]) {
-        let stated = match self.limits.side {
+        let stated = match self.limits.settings.side {
             SideSetting::Opening => Some(true),
             SideSetting::Punch => Some(false),
             _ => None,

@@ -291,7 +291,8 @@ impl Report<'_> {
 
     /// What whole numbers are taken for, where neither the text nor the settings say it; the program is so large, mm.
     fn whole_numbers(&mut self, size: f64) {
-        let is_said = self.limits.whole.is_some() || self.limits.writes_micrometres;
+        let is_said =
+            self.limits.settings.whole_numbers.is_some() || self.limits.writes_micrometres();
         if is_said || !self.document.evidence().may_be_whole_units() {
             return;
         }
@@ -310,7 +311,7 @@ impl Report<'_> {
         let evidence = self.document.evidence();
         // Millimetres are written to the thousandth; in inches that would be 25 µm.
         let has_micrometres = evidence.places[3] == evidence.with_point;
-        let is_said = evidence.units > 0 || self.limits.has_unit;
+        let is_said = evidence.units > 0 || self.limits.settings.program_units.is_some();
         if is_said || evidence.with_point == 0 || has_micrometres {
             return false;
         }
