@@ -110,14 +110,3 @@ fn end_word(settings: &Effective) -> String {
 
 /// The last value of each place of the control's table, nm.
 pub(crate) type Table = FxHashMap<Register, i64>;
-
-/// The correction in a place of a table, µm: from there, else from the settings.
-pub(super) fn correction_in(table: &Table, limits: &Limits, offset: Option<Register>) -> f64 {
-    stated_in(table, offset).unwrap_or(limits.settings.correction * 1e3)
-}
-
-/// The same where the table states it.
-pub(super) fn stated_in(table: &Table, offset: Option<Register>) -> Option<f64> {
-    let stated = table.get(&offset?)?;
-    Some((*stated as f64 / 1e3).abs())
-}
