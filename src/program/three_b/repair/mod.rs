@@ -17,7 +17,7 @@ use super::entry::travel_of;
 use crate::geometry::{Point, Segment, Vector};
 use crate::program::grid::Node;
 use crate::program::repair::cut::{Piece, Pieces, Stated};
-use crate::program::repair::slip::{self, Cut, Ends, Sort};
+use crate::program::repair::slip::{self, BLOCK_KEYS, Cut, Ends, Sort};
 use crate::settings::Effective;
 
 pub(super) type Change = slip::Change<(Block, Slip)>;
@@ -28,9 +28,6 @@ pub(super) const BLOCKS: std::ops::RangeInclusive<usize> = 1..=1000;
 
 /// Contours of fewer blocks could be closed by too many changes.
 pub(super) const FEWEST_BLAMED: usize = 4;
-
-/// Characters of a block.
-const BLOCK_KEYS: i32 = 20;
 
 /// A block of a contour as it stands in the text.
 #[derive(Clone, Debug, Default)]
@@ -126,13 +123,7 @@ impl Cut for Suspect<'_> {
             (own, before) => own.is_none() && before.is_none(),
         };
         let is_twin = is_equal && own.number == before.number && is_stated_again;
-        Some(slip::Slip {
-            change: Change::Delete { index },
-            count: 1,
-            pieces: Vec::new(),
-            sort: if is_twin { Sort::Twin } else { Sort::Deletion },
-            keys: if is_twin { 1 } else { BLOCK_KEYS },
-        })
+        Some(slip::Slip::deletion(index, is_twin, (1, Vec::new())))
     }
 
     fn exchanged(&self, index: usize) -> Option<slip::Slip<(Block, Slip)>> {
@@ -143,13 +134,8 @@ impl Cut for Suspect<'_> {
         let may_be = is_out_of_turn || self.pieces.is_off(index) || (self.is_sound && is_plain);
         let is_read = own.block.is_some() && next.block.is_some();
         let pieces = self.pieces.all.get(index..index + 2)?;
-        (may_be && is_read && own.block != next.block).then(|| slip::Slip {
-            change: Change::Exchange { index },
-            count: 2,
-            pieces: vec![pieces[1], pieces[0]],
-            sort: Sort::Exchange,
-            keys: 1,
-        })
+        (may_be && is_read && own.block != next.block)
+            .then(|| slip::Slip::exchange(index, (2, vec![pieces[1], pieces[0]])))
     }
 
     fn inserted(&self, index: usize, way: &Segment) -> Option<slip::Slip<(Block, Slip)>> {

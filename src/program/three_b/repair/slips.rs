@@ -5,12 +5,13 @@ use super::super::decode::{decode, meant};
 use super::super::encode::{counted, line_block};
 use super::super::rules::{self, Counts};
 use super::loose::{Loose, Number};
-use super::{BLOCK_KEYS, Suspect, Written};
+use super::{Suspect, Written};
 use crate::finding::Rule;
 use crate::geometry::{Arc, Point, Segment, Vector};
 use crate::program::grid::Node;
 use crate::program::path::tolerance;
 use crate::program::repair::keys;
+use crate::program::repair::slip::BLOCK_KEYS;
 use crate::program::repair::slip::{self, Ends, Sort};
 use crate::settings::Effective;
 
