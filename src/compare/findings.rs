@@ -1,6 +1,6 @@
 //! The findings of a comparison, at the program and at the drawing.
 
-use super::{Comparison, Drawn, Traced, compare};
+use super::{Difference, Drawn, Traced, compare};
 use crate::drawing::EntityId;
 use crate::finding::{Detail, DifferenceKind, Finding, Place, Rule, Severity, Unlike};
 use crate::settings::Effective;
@@ -22,6 +22,15 @@ pub enum Beside {
 pub struct Partner<T> {
     pub name: Arc<str>,
     pub made: Result<Arc<T>, String>,
+}
+
+impl<T> Partner<T> {
+    fn read(&self) -> Result<&T, DifferenceKind> {
+        let made = self.made.as_deref();
+        made.map_err(|reason| DifferenceKind::Unreadable {
+            reason: reason.clone(),
+        })
+    }
 }
 
 /// The data by which a document is compared.
@@ -74,23 +83,14 @@ pub(crate) fn of_program(
         let more = others.join(", ");
         found.extend(whole(DifferenceKind::Several { more }));
     }
-    let drawn = match &drawing.made {
-        Ok(drawn) => drawn,
-        Err(reason) => {
-            let reason = reason.clone();
-            found.extend(whole(DifferenceKind::Unreadable { reason }));
+    let compared = drawing.read();
+    let compared = compared.and_then(|drawn| Ok((drawn, differences(drawn, traced)?)));
+    let (drawn, differences) = match compared {
+        Ok(compared) => compared,
+        Err(kind) => {
+            found.extend(whole(kind));
             return found;
         }
-    };
-    if traced.is_empty() {
-        return found;
-    }
-    let Some(Comparison { differences, .. }) = compare(drawn, traced) else {
-        found.extend(whole(match traced.mills {
-            true => DifferenceKind::Milled,
-            false => DifferenceKind::Nothing,
-        }));
-        return found;
     };
     found.extend(differences.into_iter().filter_map(|difference| {
         let handle = |(entity, _): (EntityId, usize)| drawn.handle(entity).into();
@@ -116,22 +116,12 @@ pub fn of_drawing(
 ) -> Vec<Finding> {
     let of_one = |program: &Partner<Traced>| {
         let whole = |kind| Vec::from_iter(whole(&program.name, kind, settings));
-        let traced = match &program.made {
-            Ok(traced) => traced,
-            Err(reason) => {
-                let reason = reason.clone();
-                return whole(DifferenceKind::Unreadable { reason });
-            }
-        };
-        if traced.is_empty() {
-            return Vec::new();
-        }
-        let Some(Comparison { differences, .. }) = compare(drawn, traced) else {
+        let compared = program.read().and_then(|traced| differences(drawn, traced));
+        let differences = match compared {
+            Ok(differences) => differences,
             // The program has the finding.
-            return match traced.mills {
-                true => Vec::new(),
-                false => whole(DifferenceKind::Nothing),
-            };
+            Err(DifferenceKind::Milled) => return Vec::new(),
+            Err(kind) => return whole(kind),
         };
         let said = differences.into_iter().filter_map(|difference| {
             use DifferenceKind::{Block, Moved, Unfinished};
@@ -150,6 +140,18 @@ pub fn of_drawing(
         said.collect()
     };
     programs.iter().flat_map(of_one).collect()
+}
+
+/// The differences of a program from a drawing; an error where there is only one thing to say of both as a whole.
+fn differences(drawn: &Drawn, traced: &Traced) -> Result<Vec<Difference>, DifferenceKind> {
+    if traced.is_empty() {
+        return Ok(Vec::new());
+    }
+    match compare(drawn, traced) {
+        Some(compared) => Ok(compared.differences),
+        None if traced.mills => Err(DifferenceKind::Milled),
+        None => Err(DifferenceKind::Nothing),
+    }
 }
 
 /// The finding about both documents as a whole.

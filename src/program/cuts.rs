@@ -39,11 +39,6 @@ pub(in crate::program) trait Reader: Sync {
     /// The reading of a line depends on no more than this many after it.
     const REACH: usize = 0;
 
-    /// The number of lines after its own on which the reading of a cut depends.
-    fn ahead(_: &Self::Cut) -> usize {
-        0
-    }
-
     /// Takes a cut on from one state to another; false, and unchanged, where its lines must be run again.
     fn take_on(_: &mut Self::Cut, _from: &Self::State, _to: &Self::State) -> bool {
         false
@@ -126,21 +121,10 @@ impl<C: Send + Sync, S: Clone + PartialEq + Send + Sync> Cuts<C, S> {
         let first = text.line_of(start.saturating_sub(1));
         let (old_count, last) = (text.line_count(), text.line_of(end));
         let places = &self.places;
-        let touched = places.partition_point(|place| place.lines.end <= first);
+        // The first whose reading may have looked at these lines.
+        let touched = places.partition_point(|place| place.lines.end + L::REACH <= first);
         // A cut ends where it does because of what follows it.
         let mut from = touched.min(places.len()).saturating_sub(1);
-        // Those whose reading looked ahead at these lines, even past short ones in between.
-        let (mut before, mut between) = (from, 0);
-        while between < L::REACH
-            && let Some(index) = before.checked_sub(1)
-            && let (Some(cut), Some(place)) = (self.list.get(index), places.get(index))
-        {
-            if L::ahead(cut) > between {
-                from = index;
-            }
-            between += place.lines.len();
-            before = index;
-        }
         while from > 0 && places.get(from).is_some_and(|place| place.shares) {
             from -= 1;
         }

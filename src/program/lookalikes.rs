@@ -1,6 +1,8 @@
 //! Characters that look like those of a program but differ: full-width forms, wide spaces, dashes, Cyrillic and Greek
 //! letters; in UTF-8, and in GBK, which editors of Chinese Windows write.
 
+use encoding_rs::GBK;
+
 /// The kind of a look-alike character.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::program) enum Likeness {
@@ -38,52 +40,42 @@ pub(in crate::program) fn alike(line: &[u8]) -> Vec<Alike> {
     if line.is_ascii() {
         return found;
     }
-    let is_utf_8 = std::str::from_utf8(line).is_ok();
-    let mut at = 0;
-    while let Some(rest) = line.get(at..).filter(|rest| !rest.is_empty()) {
-        if rest[0] < 0x80 {
-            at += 1;
-            continue;
-        }
-        let (likeness, length) = if is_utf_8 {
-            in_utf_8(rest)
-        } else {
-            in_gbk(rest)
-        };
-        found.extend(likeness.map(|likeness| Alike {
+    let mut add = |at, length, character: Option<char>| {
+        found.extend(character.and_then(likeness).map(|likeness| Alike {
             at,
             length,
             likeness,
         }));
+    };
+    if let Ok(text) = std::str::from_utf8(line) {
+        text.char_indices()
+            .for_each(|(at, character)| add(at, character.len_utf8(), Some(character)));
+        return found;
+    }
+    let mut at = 0;
+    while let Some(rest) = line.get(at..).filter(|rest| !rest.is_empty()) {
+        let length = match rest {
+            [0x81..=0xfe, 0x40..=0xfe, ..] => 2,
+            _ => 1,
+        };
+        let (text, _) = GBK.decode_without_bom_handling(&rest[..length]);
+        add(at, length, text.chars().next());
         at += length;
     }
     found
 }
 
-fn in_utf_8(rest: &[u8]) -> (Option<Likeness>, usize) {
-    let length = match rest[0] {
-        0xf0.. => 4,
-        0xe0.. => 3,
-        _ => 2,
-    };
-    let character = rest
-        .get(..length)
-        .and_then(|bytes| std::str::from_utf8(bytes).ok())
-        .and_then(|text| text.chars().next());
-    let likeness = match character {
-        Some(wide @ '\u{ff01}'..='\u{ff5e}') => {
-            Some(Likeness::FullWidth((wide as u32 - 0xff01 + 0x21) as u8))
+fn likeness(character: char) -> Option<Likeness> {
+    Some(match character {
+        wide @ '\u{ff01}'..='\u{ff5e}' => Likeness::FullWidth((wide as u32 - 0xff01 + 0x21) as u8),
+        '\u{a0}' | '\u{2000}'..='\u{200b}' | '\u{202f}' | '\u{205f}' | '\u{3000}' | '\u{feff}' => {
+            Likeness::Space
         }
-        Some(
-            '\u{a0}' | '\u{2000}'..='\u{200b}' | '\u{202f}' | '\u{205f}' | '\u{3000}' | '\u{feff}',
-        ) => Some(Likeness::Space),
-        Some('\u{3001}') => Some(Likeness::FullWidth(b',')),
-        Some('\u{3002}') => Some(Likeness::FullWidth(b'.')),
-        Some('\u{2212}' | '\u{2013}') => Some(Likeness::FullWidth(b'-')),
-        Some(letter) => foreign(letter).map(Likeness::Foreign),
-        None => None,
-    };
-    (likeness, length)
+        '\u{3001}' => Likeness::FullWidth(b','),
+        '\u{3002}' => Likeness::FullWidth(b'.'),
+        '\u{2212}' | '\u{2013}' => Likeness::FullWidth(b'-'),
+        letter => Likeness::Foreign(foreign(letter)?),
+    })
 }
 
 /// Letters that look like one of a program.
@@ -112,31 +104,6 @@ fn foreign(letter: char) -> Option<u8> {
         'х' => b'x',
         'У' | 'Υ' | 'Ү' => b'Y',
         'у' => b'y',
-        _ => return None,
-    })
-}
-
-fn in_gbk(rest: &[u8]) -> (Option<Likeness>, usize) {
-    match *rest {
-        [0xa3, low @ 0xa1..=0xfe, ..] => (Some(Likeness::FullWidth(low - 0x80)), 2),
-        [0xa1, 0xa1, ..] => (Some(Likeness::Space), 2),
-        [0xa1, 0xa2, ..] => (Some(Likeness::FullWidth(b',')), 2),
-        [row @ (0xa6 | 0xa7), low, ..] => (foreign_in_gbk(row, low).map(Likeness::Foreign), 2),
-        [0x81..=0xfe, 0x40..=0xfe, ..] => (None, 2),
-        _ => (None, 1),
-    }
-}
-
-/// The same letters of the Greek and the Cyrillic row of GBK.
-fn foreign_in_gbk(row: u8, low: u8) -> Option<u8> {
-    Some(match (row, low) {
-        (0xa7, 0xa3 | 0xd3) | (0xa6, 0xa2) => b'B',
-        (0xa7, 0xb7 | 0xe7) | (0xa6, 0xb6) => b'X',
-        (0xa7, 0xb5 | 0xe5) | (0xa6, 0xb4) => b'Y',
-        (0xa7, 0xb0 | 0xe0) | (0xa6, 0xaf) => b'O',
-        (0xa7, 0xa6 | 0xd6) | (0xa6, 0xa5) => b'E',
-        (0xa7, 0xa1 | 0xd1) | (0xa6, 0xa1) => b'A',
-        (0xa6, 0xad) => b'N',
         _ => return None,
     })
 }
@@ -173,10 +140,11 @@ pub(in crate::program) fn in_plain_letters(line: &[u8], alike: &[Alike]) -> Vec<
 
 /// How many bytes the wide space has that a text begins with; 0 where there is none.
 pub(in crate::program) fn wide_space(text: &[u8]) -> usize {
-    match text.first().map(|_| in_utf_8(text)) {
-        Some((Some(Likeness::Space), length)) => length,
-        _ => 0,
-    }
+    let mut head = text.get(..4).unwrap_or(text).utf8_chunks();
+    let first = head.next().and_then(|head| head.valid().chars().next());
+    first
+        .filter(|first| likeness(*first) == Some(Likeness::Space))
+        .map_or(0, char::len_utf8)
 }
 
 #[cfg(test)]

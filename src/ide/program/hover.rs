@@ -1,7 +1,7 @@
 //! The hover at a place: the block in words, and the meaning of the word under the cursor.
 
-use super::of;
 use super::words::words_of;
+use super::{iso, three_b};
 use crate::geometry::Segment;
 use crate::ide::Hover;
 use crate::ide::amounts::{degrees, mm, point, turn};
@@ -33,7 +33,11 @@ pub(crate) fn hover(document: &Document, offset: usize) -> Option<Hover> {
                 .rfind(|step| step.range.end <= part.range.start)
         })
         .or(steps.first());
-    let word = of(document).meaning(part.range.clone());
+    let own = part.range.clone();
+    let word = match document {
+        Document::ThreeB(program) => three_b::meaning(program, own),
+        Document::Iso(program) => iso::meaning(program, own),
+    };
     let block = step.map(|step| about_step(step, steps.len() > 1));
     let text = [word, block]
         .into_iter()

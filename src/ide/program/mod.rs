@@ -31,63 +31,34 @@ pub(crate) use tokens::{tokens, tokens_in};
 use super::occurrence::{Occurrence, Stop, Stopped};
 use super::{Completion, Signature};
 use crate::program::Document;
-use std::ops::Range;
-use words::{LinePart, WordKind};
-
-/// What a language of programs knows of its own text.
-trait Language {
-    /// What can stand at a byte, the most likely first.
-    fn completions(&self, offset: usize) -> Vec<Completion>;
-
-    /// The form of the block that is written at a byte; `None` where there is none.
-    fn signature(&self, offset: usize) -> Option<Signature>;
-
-    /// The meaning of the word at a range of bytes in its block, in Markdown; `None` for a word without one.
-    fn meaning(&self, word: Range<usize>) -> Option<String>;
-
-    /// The pieces of a line that begins at a byte; damaged lines are cut as far as possible.
-    fn words(&self, line: &[u8], offset: usize) -> Vec<LinePart>;
-
-    /// The word at a byte and its counterpart, unless that depends on the machine's path.
-    fn partner(&self, _: usize) -> Option<(Range<usize>, Range<usize>)> {
-        None
-    }
-
-    /// Every place of the name at a byte, in the order of the text, at most `limit`: lines that are called, rows of
-    /// tables.
-    fn named(&self, _: usize, _: usize, _: Stop<'_>) -> Result<Vec<Occurrence>, Stopped> {
-        Ok(Vec::new())
-    }
-
-    /// The letters that may lead a block number.
-    fn letters_of_numbers(&self) -> &'static [char] {
-        &['N', 'n']
-    }
-}
-
-fn of(document: &Document) -> &dyn Language {
-    match document {
-        Document::ThreeB(program) => program,
-        Document::Iso(program) => &**program,
-    }
-}
 
 /// What can stand at a byte, the most likely first.
 pub(crate) fn completions(document: &Document, offset: usize) -> Vec<Completion> {
-    of(document).completions(offset)
+    match document {
+        Document::ThreeB(program) => three_b::completions(program, offset),
+        Document::Iso(program) => iso::completions(program, offset),
+    }
 }
 
-/// Every place of the name at a byte.
+/// Every place of the name at a byte, in the order of the text, at most `limit`: lines that are called, rows of tables.
 pub(crate) fn named(
     document: &Document,
     offset: usize,
     limit: usize,
     stop: Stop<'_>,
 ) -> Result<Vec<Occurrence>, Stopped> {
-    of(document).named(offset, limit, stop)
+    if let Document::Iso(program) = document
+        && let Some(name) = iso::name_at(program, offset)
+    {
+        return iso::places(program, name, limit, stop).ok_or(Stopped);
+    }
+    Ok(Vec::new())
 }
 
 /// The form of the block that is written at a byte; `None` where there is none.
 pub(crate) fn signature(document: &Document, offset: usize) -> Option<Signature> {
-    of(document).signature(offset)
+    match document {
+        Document::ThreeB(program) => three_b::signature(program, offset),
+        Document::Iso(program) => iso::signature(program, offset),
+    }
 }

@@ -1,6 +1,6 @@
 //! Jumps between counterparts: pause to pause, way in to way out, first block of a contour to its last.
 
-use super::of;
+use super::iso;
 use crate::program::Document;
 use crate::program::path::Kind;
 use crate::program::steps::CutAt;
@@ -37,7 +37,9 @@ pub(crate) fn pauses(document: &Document) -> Vec<Range<usize>> {
 }
 
 fn pair(document: &Document, offset: usize) -> Option<(Range<usize>, Range<usize>)> {
-    if let Some(pair) = of(document).partner(offset) {
+    if let Document::Iso(program) = document
+        && let Some(pair) = iso::partner(program, offset)
+    {
         return Some(pair);
     }
     let touching = document.steps_in(offset..offset);

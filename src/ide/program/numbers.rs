@@ -1,6 +1,5 @@
 //! Block numbers: found, renamed.
 
-use super::of;
 use super::words::{WordKind, words_of};
 use crate::program::Document;
 use crate::text::TextEdit;
@@ -28,7 +27,10 @@ pub(crate) fn renamed(
     let (digits, number) =
         number_at(document, offset).ok_or(say!(there_is_no_block_number_here))?;
     let name = name.trim();
-    let letters = of(document).letters_of_numbers();
+    let letters: &[char] = match document {
+        Document::ThreeB(_) => &['N', 'n'],
+        Document::Iso(_) => &['N', 'n', 'O', 'o'],
+    };
     let name = name.strip_prefix(letters).unwrap_or(name).trim();
     let is_number =
         !name.is_empty() && name.len() <= 8 && name.bytes().all(|byte| byte.is_ascii_digit());

@@ -1,6 +1,6 @@
 //! The pieces of a line in every language, mapped to one list of kinds.
 
-use super::of;
+use super::{iso, three_b};
 use crate::program::Document;
 use std::ops::Range;
 
@@ -37,5 +37,8 @@ pub(crate) fn words_of(document: &Document, line: usize) -> Vec<LinePart> {
     let text = document.text();
     let range = text.line_range(line);
     let bytes = text.bytes().get(range.clone()).unwrap_or_default();
-    of(document).words(bytes, range.start)
+    match document {
+        Document::ThreeB(program) => three_b::line_parts(program, bytes, range.start),
+        Document::Iso(program) => iso::line_parts(program, bytes, range.start),
+    }
 }

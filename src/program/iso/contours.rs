@@ -69,7 +69,7 @@ impl Divided for Document {
     }
 
     fn control_offset(&self, cuts: &Range<usize>) -> Option<ControlOffset> {
-        self.sum_of(cuts)?.control_offset(&self.limits, &self.table)
+        self.sum_of(cuts)?.control_offset(&self.control)
     }
 }
 

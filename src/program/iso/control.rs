@@ -1,9 +1,9 @@
 //! How ISO text is read, cut by cut: the effect of a line depends on those before it.
 
-use super::block::Motion;
+use super::block::{Motion, Register};
 use super::corner;
 use super::cut::{Cut, Entry, Moves};
-use super::limits::{Limits, Table, correction_in};
+use super::limits::{Limits, Table};
 use super::moves::{Bend, Move, Place, Reading, added, apart, meet, micrometres};
 use super::order::{Order, Sequence};
 use super::read::{Placed, Run};
@@ -17,34 +17,53 @@ use crate::program::path::{
 use crate::settings::Compensation;
 use crate::text::SourceText;
 use std::ops::Range;
+use std::sync::Arc;
 
-/// How the lines of a program are read.
-pub(super) struct Control<'a> {
+/// How the lines of a program are read and judged.
+#[derive(Clone, Debug)]
+pub(crate) struct Control {
     pub(super) reading: Reading,
-    pub(super) limits: &'a Limits,
-    pub(super) table: &'a Table,
+    /// The settings that faults depend on.
+    pub(crate) limits: Arc<Limits>,
+    /// The values that the program puts into the control's table.
+    pub(super) table: Table,
+    /// The first lines, which no control reads.
     pub(super) leader: usize,
-    pub(super) order: Option<&'a Order>,
+    /// The order of the lines, where it is not that of the text.
+    pub(super) order: Option<Order>,
 }
 
-impl Control<'_> {
-    fn sequence<'t>(&'t self, text: &'t SourceText) -> Sequence<'t> {
+impl Control {
+    /// The lines of a text in the order in which they run.
+    pub(super) fn sequence<'t>(&'t self, text: &'t SourceText) -> Sequence<'t> {
         Sequence {
             text,
             leader: self.leader,
-            order: self.order,
+            order: self.order.as_ref(),
         }
+    }
+
+    /// The correction in a place of the control's table, µm: from the program's own table, else the settings.
+    pub(super) fn correction(&self, offset: Option<Register>) -> f64 {
+        let stated = self.stated_correction(offset);
+        stated.unwrap_or(self.limits.settings.correction * 1e3)
+    }
+
+    /// The same where the program itself states it.
+    pub(super) fn stated_correction(&self, offset: Option<Register>) -> Option<f64> {
+        let stated = self.table.get(&offset?)?;
+        Some((*stated as f64 / 1e3).abs())
     }
 }
 
 /// Lines that were run: the first and the one behind them, and where the wire goes.
-pub(super) struct Begun {
+pub(crate) struct Begun {
     lines: Range<usize>,
     cut: Cut,
     way: Vec<Placed>,
 }
 
-impl Reader for Control<'_> {
+impl Reader for Control {
     type State = Entry;
     type Begun = Begun;
     type Cut = Cut;
@@ -90,7 +109,7 @@ impl Reader for Control<'_> {
             }
             let start = micrometres(moves.sum.start()).coords;
             cut.bounds = Some(moves.verdict.bounds.moved(start));
-            let offset = || moves.sum.control_offset(self.limits, self.table);
+            let offset = || moves.sum.control_offset(self);
             let found = moves.sum.whole && !moves.sum.faulty;
             let found = found.then(|| Found::of(&way, offset()));
             moves.found = found.filter(|found| !found.is_clean()).map(Box::new);
@@ -100,10 +119,6 @@ impl Reader for Control<'_> {
     }
 
     const REACH: usize = corner::REACH;
-
-    fn ahead(cut: &Cut) -> usize {
-        cut.ahead as usize
-    }
 
     /// All places of a cut count from where the wire enters it.
     fn take_on(cut: &mut Cut, from: &Entry, to: &Entry) -> bool {
@@ -115,11 +130,11 @@ impl Reader for Control<'_> {
     }
 }
 
-impl Control<'_> {
+impl Control {
     /// Arcs that the wire cannot follow at its distance: those of a part's contour, whether the control offsets it or
     /// nobody does.
     fn tight_arcs(&self, placed: &[Placed], twice_area: f64) -> impl Iterator<Item = Finding> {
-        let role = self.limits.side.role();
+        let role = self.limits.settings.side.role();
         let by_settings = role.and_then(|role| wire_side(role, true, twice_area));
         placed.iter().filter_map(move |(made, range)| {
             let side_of_center = match made.motion {
@@ -129,10 +144,10 @@ impl Control<'_> {
             };
             let side = match made.side {
                 Some(side) => side,
-                None if self.limits.compensation == Compensation::Path => return None,
+                None if self.limits.settings.compensation == Compensation::Path => return None,
                 None => by_settings.unwrap_or(side_of_center),
             };
-            let required = correction_in(self.table, self.limits, made.offset);
+            let required = self.correction(made.offset);
             let arc = made.segment(&self.reading).as_arc().copied()?;
             let is_tight = side == side_of_center && is_tight(arc.radius, required);
             let detail = SmallRadius {
@@ -194,14 +209,14 @@ impl Moves {
 
 impl Summary {
     /// The offset that the control makes, with the correction of the first moves.
-    pub(super) fn control_offset(&self, limits: &Limits, table: &Table) -> Option<ControlOffset> {
+    pub(super) fn control_offset(&self, control: &Control) -> Option<ControlOffset> {
         let WireSide::One(side) = self.side else {
             return None;
         };
         let [first, second] = &self.first;
         Some(ControlOffset {
             side,
-            correction: correction_in(table, limits, second.offset.or(first.offset)),
+            correction: control.correction(second.offset.or(first.offset)),
         })
     }
 }

@@ -12,27 +12,19 @@ pub(crate) const REACH: usize = 64;
 /// Two cuts that turn by less than this have no corner, radians.
 const STRAIGHT: f64 = 1e-4;
 
-/// What was looked at behind the last line that ran.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Looked {
-    /// How many lines.
-    pub(crate) lines: usize,
-    /// What they do depends on where the wire stands before them.
-    pub(crate) is_fixed: bool,
-}
-
 /// Makes the corner at the end of a move, towards the first one that `behind` makes: the move up to where the corner
 /// begins, and the corner; the whole move where there is none to make. The machine, which has made the move, stands at
-/// the sharp corner as its coordinates say, and begins the next move where the corner ends.
+/// the sharp corner as its coordinates say, and begins the next move where the corner ends. `fixed` becomes true where what
+/// `behind` does depends on where the wire stands before it.
 pub(crate) fn turned<'a>(
     made: Move,
     machine: &mut Machine,
     behind: impl Iterator<Item = &'a [u8]>,
     reading: &Reading,
-    looked: &mut Looked,
+    fixed: &mut bool,
 ) -> (Move, Option<Move>) {
     let cut = made.corner.and_then(|corner| {
-        let next = next_move(*machine, behind, reading, looked)?;
+        let next = next_move(*machine, behind, reading, fixed)?;
         let size = reading.length(corner.size, machine.inch);
         cut_off(&made, &next, &corner, size, reading)
     });
@@ -48,10 +40,9 @@ fn next_move<'a>(
     mut machine: Machine,
     behind: impl Iterator<Item = &'a [u8]>,
     reading: &Reading,
-    looked: &mut Looked,
+    fixed: &mut bool,
 ) -> Option<Move> {
-    for (nth, line) in behind.take(REACH).enumerate() {
-        looked.lines = looked.lines.max(nth + 1);
+    for line in behind.take(REACH) {
         let block = read_under(&mut machine.variables, line, 1, |_| {});
         if block.sets_position || block.call.is_some() || block.returns || block.stop.is_some() {
             return None;
@@ -60,7 +51,7 @@ fn next_move<'a>(
             continue;
         }
         if let Some(made) = machine.run(&block, reading) {
-            looked.is_fixed |= !made.incremental || machine.center.is_some();
+            *fixed |= !made.incremental || machine.center.is_some();
             return Some(made).filter(Move::is_cut);
         }
         if machine.lost != [false, false] {

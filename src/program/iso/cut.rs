@@ -108,8 +108,6 @@ pub(crate) struct Cut {
     pub(crate) ended: bool,
     /// It holds coordinates under G90, or an absolute centre, or G92: its effect depends on where the wire stands before it.
     pub(crate) fixed: bool,
-    /// How many lines after its own decide how its last ones run.
-    pub(crate) ahead: u32,
     /// Lines that may have an N word.
     pub(crate) blocks: u32,
     /// The numbers of N words, with the byte at which their lines begin; none for the `O` of another program, which has its

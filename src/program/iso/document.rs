@@ -1,12 +1,12 @@
 //! ISO text as an open document: its lines, their effects, and what an edit leaves unchanged.
 
-use super::block::{Block, Register};
+use super::block::Block;
 use super::control::{Control, way_of};
 use super::cut::{Cut, Entry, Heard};
 use super::evidence::{Evidence, UsualDecimals};
 use super::layout::{LOOKED_AT, is_parted};
 use super::leader::leader;
-use super::limits::{Limits, Table, correction_in, stated_in};
+use super::limits::{Limits, Table};
 use super::machine::{Machine, Ran};
 use super::moves::Reading;
 use super::order::{Order, Sequence, labels, order};
@@ -35,17 +35,9 @@ const HEAD: usize = 3_000;
 pub struct Document {
     text: SourceText,
     pub(super) cuts: Cuts<Cut, Entry>,
-    reading: Reading,
-    /// The first lines, which no control reads.
-    leader: usize,
+    pub(crate) control: Control,
     evidence: Evidence,
-    /// The order of the lines, where it is not that of the text.
-    order: Option<Order>,
     pub(super) contours: Contours,
-    /// The settings that faults depend on.
-    pub(crate) limits: Box<Limits>,
-    /// The values that the program puts into the control's table.
-    pub(crate) table: Box<Table>,
     /// The slips that may explain the findings, once somebody has asked for them.
     pub(super) repairs: OnceLock<Arc<Repairs>>,
     pub(super) searches: Searches<Vec<slip::Repair<Meant>>>,
@@ -64,15 +56,17 @@ impl Document {
     pub(crate) fn read_with(bytes: Vec<u8>, settings: &Effective) -> Document {
         let limits = Limits::of(settings);
         let mut document = Document {
-            leader: 0,
             text: SourceText::new(bytes),
             cuts: Cuts::before(Entry::of(Machine::default(), None)),
-            reading: Evidence::default().reading(&limits),
+            control: Control {
+                reading: Evidence::default().reading(&limits),
+                limits: Arc::new(limits),
+                table: Table::default(),
+                leader: 0,
+                order: None,
+            },
             evidence: Evidence::default(),
-            order: None,
             contours: Contours::default(),
-            limits: Box::new(limits),
-            table: Box::default(),
             repairs: OnceLock::new(),
             searches: Searches::default(),
             is_parted: OnceLock::new(),
@@ -93,7 +87,7 @@ impl Document {
 
     /// The meaning found for the program's numbers.
     pub fn reading(&self) -> &Reading {
-        &self.reading
+        &self.control.reading
     }
 
     pub(crate) fn evidence(&self) -> &Evidence {
@@ -101,27 +95,16 @@ impl Document {
     }
 
     pub(in crate::program) fn order(&self) -> Option<&Order> {
-        self.order.as_ref()
+        self.control.order.as_ref()
     }
 
     /// Checks again under other settings.
     pub(crate) fn set_settings(&mut self, settings: &Effective) {
-        let limits = Limits::of(settings);
-        if limits != *self.limits {
-            *self.limits = limits;
+        if *settings != self.control.limits.settings {
+            self.control.limits = Arc::new(Limits::of(settings));
             self.repairs = OnceLock::new();
             self.read_all();
         }
-    }
-
-    /// The correction in a place of the control's table, µm: from the program's own table, else the settings.
-    pub(super) fn correction(&self, offset: Option<Register>) -> f64 {
-        correction_in(&self.table, &self.limits, offset)
-    }
-
-    /// The same where the program itself states it.
-    pub(super) fn stated_correction(&self, offset: Option<Register>) -> Option<f64> {
-        stated_in(&self.table, offset)
     }
 
     /// Whether its words stand apart.
@@ -136,11 +119,7 @@ impl Document {
 
     /// Its lines in the order in which they run.
     pub(super) fn sequence(&self) -> Sequence<'_> {
-        Sequence {
-            text: &self.text,
-            leader: self.leader,
-            order: self.order.as_ref(),
-        }
+        self.control.sequence(&self.text)
     }
 
     /// A line's bytes, without its end; none of a line before the first `%`.
@@ -150,7 +129,7 @@ impl Document {
 
     /// The first lines, which no control reads: those before its first `%`.
     pub(crate) fn leader(&self) -> usize {
-        self.leader
+        self.control.leader
     }
 
     /// From the first to the last byte of a line that is not a space.
@@ -184,7 +163,7 @@ impl Document {
     /// Runs the lines of a cut again, up to one of them, and hands out what each does.
     pub(super) fn run_again(&self, cut: usize, end: usize, each: impl FnMut(&Ran<'_>)) -> Run<'_> {
         let before = self.cuts.state_before(cut).machine();
-        let mut run = Run::new(self.sequence(), before, self.reading);
+        let mut run = Run::new(self.sequence(), before, self.control.reading);
         run.lines(self.cuts.lines(cut).start..end, self.cuts.byte(cut), each);
         run
     }
@@ -203,13 +182,16 @@ impl Document {
     }
 
     pub(super) fn way_in(&self, cut: usize) -> Way {
-        way_of(self.placed(cut).iter().map(|(made, _)| made), &self.reading)
+        way_of(
+            self.placed(cut).iter().map(|(made, _)| made),
+            &self.control.reading,
+        )
     }
 
     /// The state before a line, with the wire's position, or behind it; and the cut in which it first runs, up to there. `None`
     /// for a line that does not run.
     pub(super) fn run_up_to(&self, line: usize, behind: bool) -> Option<(usize, Run<'_>)> {
-        let nth = match &self.order {
+        let nth = match &self.control.order {
             None => line,
             Some(order) => order.of_line(line).next()?,
         };
@@ -229,23 +211,16 @@ impl Document {
         if self.text.line_of(first) < LOOKED_AT {
             self.is_parted = OnceLock::new();
         }
-        if self.order.is_some() {
+        if self.control.order.is_some() {
             let end = range.end.min(self.text.len());
             self.text.replace(range.start.min(end)..end, replacement);
             self.read_all();
             return;
         }
-        let control = Control {
-            reading: self.reading,
-            limits: &self.limits,
-            table: &self.table,
-            leader: self.leader,
-            order: None,
-        };
         let edit = (range, replacement);
-        self.cuts.edit(&control, &mut self.text, edit);
+        self.cuts.edit(&self.control, &mut self.text, edit);
         self.evidence = self.evidence_of_cuts();
-        match leader(&self.text) == self.leader && !self.must_run_again() {
+        match leader(&self.text) == self.control.leader && !self.must_run_again() {
             true => self.look(),
             false => self.read_all(),
         }
@@ -253,38 +228,31 @@ impl Document {
 
     /// Whether the program as a whole shows that its lines are to be read otherwise than they were.
     fn must_run_again(&self) -> bool {
-        let calls = self.order.is_none() && self.cuts.iter().any(|cut| cut.calls);
+        let calls = self.control.order.is_none() && self.cuts.iter().any(|cut| cut.calls);
         calls
-            || self.evidence.reading(&self.limits) != self.reading
-            || self.stated_table() != *self.table
+            || self.evidence.reading(&self.control.limits) != self.control.reading
+            || self.stated_table() != self.control.table
     }
 
     /// The control before the first line.
     pub(super) fn first_machine(&self) -> Machine {
         Machine {
-            inch: self.limits.inch,
+            inch: self.control.limits.inch(),
             ..Machine::default()
         }
     }
 
     /// Runs all lines.
     fn run(&mut self) {
-        let control = Control {
-            reading: self.reading,
-            limits: &self.limits,
-            table: &self.table,
-            leader: self.leader,
-            order: self.order.as_ref(),
-        };
         let begin = Entry::of(self.first_machine(), None);
-        self.cuts = Cuts::read(&control, &self.text, begin);
+        self.cuts = Cuts::read(&self.control, &self.text, begin);
         self.evidence = self.evidence_of_cuts();
     }
 
     /// What nothing but the settings says of how numbers are meant.
     fn first_evidence(&self) -> Evidence {
         Evidence {
-            inches: u32::from(self.limits.inch),
+            inches: u32::from(self.control.limits.inch()),
             ..Evidence::default()
         }
     }
@@ -298,13 +266,13 @@ impl Document {
 
     /// Reads all of the text.
     fn read_all(&mut self) {
-        self.leader = leader(&self.text);
-        self.order = None;
-        self.table.clear();
+        self.control.leader = leader(&self.text);
+        self.control.order = None;
+        self.control.table.clear();
         self.guess_reading();
         self.run();
         if self.cuts.iter().any(|cut| cut.calls) {
-            self.order = Some(order(&self.text));
+            self.control.order = Some(order(&self.text));
             self.run();
         }
         // The evidence of an arc depends on the unit and the step, but not the other way round: after two runs the evidence
@@ -313,8 +281,8 @@ impl Document {
             if !self.must_run_again() {
                 break;
             }
-            self.reading = self.evidence.reading(&self.limits);
-            *self.table = self.stated_table();
+            self.control.reading = self.evidence.reading(&self.control.limits);
+            self.control.table = self.stated_table();
             self.run();
         }
         self.contours = Contours::default();
@@ -323,17 +291,17 @@ impl Document {
 
     /// A first guess of the meaning of numbers, from the beginning of the text: it saves running everything twice.
     fn guess_reading(&mut self) {
-        self.reading = Evidence::default().reading(&self.limits);
+        self.control.reading = Evidence::default().reading(&self.control.limits);
         for _ in 0..2 {
             let (mut machine, mut evidence) = (self.first_machine(), self.first_evidence());
             let (mut line, end) = (0, HEAD.min(self.text.line_count()));
             while line < end {
-                let mut run = Run::new(self.sequence(), machine, self.reading);
+                let mut run = Run::new(self.sequence(), machine, self.control.reading);
                 line = run.lines(line..end, 0, |_| {});
                 evidence.add(&run.evidence);
                 machine = run.after;
             }
-            self.reading = evidence.reading(&self.limits);
+            self.control.reading = evidence.reading(&self.control.limits);
         }
     }
 

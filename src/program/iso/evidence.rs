@@ -328,11 +328,11 @@ impl Evidence {
 
     /// How the program is to be read. The settings say what its arcs and its whole numbers leave open.
     pub(crate) fn reading(&self, limits: &Limits) -> Reading {
-        let preferred = limits.center;
-        let whole_numbers_are_fine = match limits.whole {
+        let preferred = limits.center();
+        let whole_numbers_are_fine = match limits.settings.whole_numbers {
             Some(unit) => unit == NumberUnit::Um,
             None => {
-                let is_open = limits.writes_micrometres && self.may_be_whole_units();
+                let is_open = limits.writes_micrometres() && self.may_be_whole_units();
                 is_open || self.whole_numbers_are_fine()
             }
         };

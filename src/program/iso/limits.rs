@@ -5,67 +5,53 @@ use super::moves::CenterRule;
 use crate::settings::{Effective, NumberUnit, Profile, UnitSetting, shipped_profiles};
 use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
-use std::sync::{Arc, LazyLock};
+use std::sync::LazyLock;
 
-/// The settings that decide what is a fault.
-#[derive(Clone, Debug, PartialEq)]
+/// The settings that decide what is a fault, and what follows from them.
+#[derive(Clone, Debug)]
 pub(crate) struct Limits {
-    /// mm, where the program's own table has none.
-    pub(crate) correction: f64,
-    /// Height of the workpiece, mm.
-    pub(crate) thickness: Option<f64>,
-    pub(crate) side: crate::settings::SideSetting,
-    pub(crate) compensation: crate::settings::Compensation,
+    pub(crate) settings: Effective,
     /// The word that ends a program of the settings' profile.
     pub(crate) end: String,
     /// Words that profiles write: a user with a profile for a machine knows their meaning there.
     pub(crate) known: BTreeSet<Code>,
-    /// A program without a stated unit is in inches.
-    pub(crate) inch: bool,
-    /// The user has set the unit of programs.
-    pub(crate) has_unit: bool,
-    /// What whole numbers are, where the settings say it.
-    pub(crate) whole: Option<NumberUnit>,
-    /// The profile of the settings writes whole micrometres.
-    pub(crate) writes_micrometres: bool,
-    /// The meaning of I and J where full circles alone leave it open.
-    pub(crate) center: CenterRule,
-    pub(crate) profile: Option<Arc<Profile>>,
 }
 
 impl Limits {
     pub(crate) fn of(settings: &Effective) -> Limits {
         Limits {
-            correction: settings.correction,
-            thickness: settings.job.thickness,
-            side: settings.side,
-            compensation: settings.compensation,
+            settings: settings.clone(),
             end: end_word(settings),
             known: known_words(settings),
-            inch: settings.program_units == Some(UnitSetting::Inch),
-            has_unit: settings.program_units.is_some(),
-            whole: settings.whole_numbers,
-            writes_micrometres: settings
-                .profile
-                .as_ref()
-                .is_ok_and(|profile| profile.unit == NumberUnit::Um),
-            center: settings
-                .profile
-                .as_ref()
-                .map_or(CenterRule::StartToCenter, |profile| profile.center),
-            profile: settings
-                .profile
-                .as_ref()
-                .ok()
-                .map(|profile| Arc::new(profile.clone())),
         }
+    }
+
+    pub(crate) fn profile(&self) -> Option<&Profile> {
+        self.settings.profile.as_ref().ok()
+    }
+
+    /// A program without a stated unit is in inches.
+    pub(crate) fn inch(&self) -> bool {
+        self.settings.program_units == Some(UnitSetting::Inch)
+    }
+
+    /// The profile of the settings writes whole micrometres.
+    pub(crate) fn writes_micrometres(&self) -> bool {
+        let unit = self.profile().map(|profile| profile.unit);
+        unit == Some(NumberUnit::Um)
+    }
+
+    /// The meaning of I and J where full circles alone leave it open.
+    pub(crate) fn center(&self) -> CenterRule {
+        let center = self.profile().map(|profile| profile.center);
+        center.unwrap_or(CenterRule::StartToCenter)
     }
 
     /// The lines of the settings' profile, except those that move the wire.
     pub(crate) fn lines(&self) -> impl Iterator<Item = &str> {
-        self.profile
-            .iter()
-            .flat_map(|profile| lines_of(profile))
+        self.profile()
+            .into_iter()
+            .flat_map(lines_of)
             .map(String::as_str)
     }
 }
@@ -124,14 +110,3 @@ fn end_word(settings: &Effective) -> String {
 
 /// The last value of each place of the control's table, nm.
 pub(crate) type Table = FxHashMap<Register, i64>;
-
-/// The correction in a place of a table, µm: from there, else from the settings.
-pub(super) fn correction_in(table: &Table, limits: &Limits, offset: Option<Register>) -> f64 {
-    stated_in(table, offset).unwrap_or(limits.correction * 1e3)
-}
-
-/// The same where the table states it.
-pub(super) fn stated_in(table: &Table, offset: Option<Register>) -> Option<f64> {
-    let stated = table.get(&offset?)?;
-    Some((*stated as f64 / 1e3).abs())
-}

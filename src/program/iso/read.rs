@@ -3,7 +3,7 @@
 #![warn(clippy::indexing_slicing)]
 
 use super::block::{Block, Note, Stop, read_under};
-use super::corner::{Looked, turned};
+use super::corner::turned;
 use super::cut::{Cut, Definition, Foreign, Moves, Rare};
 use super::evidence::Evidence;
 use super::machine::{Behind, Machine, Ran, mark_of};
@@ -35,7 +35,6 @@ pub(crate) struct Run<'a> {
     /// Their moves that cut, from there.
     pub(crate) way: Vec<Placed>,
     sum: Option<Summary>,
-    looked: Looked,
 }
 
 impl<'a> Run<'a> {
@@ -51,7 +50,6 @@ impl<'a> Run<'a> {
             evidence: Evidence::default(),
             way: Vec::new(),
             sum: None,
-            looked: Looked::default(),
         }
     }
 
@@ -65,7 +63,6 @@ impl<'a> Run<'a> {
     ) -> usize {
         self.nth = lines.start;
         while self.nth < lines.end && !self.is_over() {
-            self.looked.lines = self.looked.lines.saturating_sub(1);
             let known = self.rare.faults.len();
             self.line(self.sequence.line(self.nth), base, &mut each);
             self.nth += 1;
@@ -100,16 +97,13 @@ impl<'a> Run<'a> {
             after,
             sum,
             way,
-            looked,
             evidence,
             ..
         } = self;
         cut.keep(rare);
         cut.evidence = evidence;
-        cut.fixed |= looked.is_fixed;
         cut.cuts = sum.is_some();
         cut.places = places;
-        cut.ahead = looked.lines as u32;
         cut.ended = after.ended;
         cut.moves = sum.map(|sum| {
             Box::new(Moves {
@@ -333,7 +327,7 @@ impl<'a> Run<'a> {
             &mut self.after,
             behind,
             &self.reading,
-            &mut self.looked,
+            &mut self.cut.fixed,
         );
         if corner.is_none() {
             let sentence = say!(the_word_for_a_corner_finds_none_here);

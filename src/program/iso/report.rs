@@ -7,10 +7,10 @@ mod told;
 
 use super::block::Code;
 use super::contours::Contour;
+use super::control::Control;
 use super::cut::Cut;
 use super::document::Document;
-use super::limits::{Limits, Table};
-use super::moves::{Place as Spot, Reading, added, apart, meet, micrometres};
+use super::moves::{Place as Spot, added, apart, meet, micrometres};
 use super::repair::cut_within;
 use super::summary::{Spur, Summary, WireSide};
 use crate::finding::{Detail, Fault, Finding, Place, Rule, Severity, Side};
@@ -92,7 +92,7 @@ impl Document {
             && report.steps > 0
             && report.is_whole()
         {
-            let word = self.limits.end.clone();
+            let word = self.control.limits.end.clone();
             report.add(words, Fault::MissingEnd { word });
         }
         if self.evidence().leaves_centers_open()
@@ -152,11 +152,9 @@ fn sort(findings: &mut [Finding]) {
 pub(super) struct Report<'a> {
     document: &'a Document,
     text: &'a SourceText,
-    reading: &'a Reading,
-    limits: &'a Limits,
+    control: &'a Control,
     findings: Vec<Finding>,
     foreign: FxHashMap<Code, (Range<usize>, usize)>,
-    definitions: &'a Table,
     steps: u32,
 }
 
@@ -165,11 +163,9 @@ impl<'a> Report<'a> {
         Report {
             document,
             text: document.text(),
-            reading: document.reading(),
-            limits: &document.limits,
+            control: &document.control,
             findings: Vec::new(),
             foreign: FxHashMap::default(),
-            definitions: &document.table,
             steps: 0,
         }
     }
@@ -314,7 +310,7 @@ impl<'a> Report<'a> {
         };
         if let Some(side) = side {
             let is_inside = |area: f64| (side == Side::Left) == (area > 0.0);
-            let is_wrong = |inside: bool| match self.limits.side {
+            let is_wrong = |inside: bool| match self.control.limits.settings.side {
                 SideSetting::Opening => !inside,
                 SideSetting::Punch => inside,
                 _ => false,
@@ -396,9 +392,12 @@ impl<'a> Report<'a> {
         let last = sum.last.iter().rev().find(|step| near(step.to))?;
         let ahead = sum.first[1]
             .at_origin()
-            .segment(self.reading)
+            .segment(&self.control.reading)
             .start_tangent();
-        let behind = last.at_origin().segment(self.reading).end_tangent();
+        let behind = last
+            .at_origin()
+            .segment(&self.control.reading)
+            .end_tangent();
         let way = micrometres(apart(lead.from, lead.to)).coords;
         // A way in along the contour tells nothing.
         let clear = way.norm() * 0.02;

@@ -46,7 +46,7 @@ impl Document {
 
     /// The correction in nm that the program itself puts into a place of the control's table.
     pub(crate) fn table_value(&self, offset: Register) -> Option<i64> {
-        self.table.get(&offset).copied()
+        self.control.table.get(&offset).copied()
     }
 
     /// The places of the control's table that the program fills, with their values in nm, and those that its first lines use.
@@ -57,6 +57,7 @@ impl Document {
             .map(|its| (its.index, None))
             .collect();
         for (offset, &value) in self
+            .control
             .table
             .iter()
             .filter(|(offset, _)| offset.letter == letter)
@@ -69,6 +70,7 @@ impl Document {
     /// The corrections that the program itself puts into the control's table: their names, and mm.
     pub(crate) fn stated_corrections(&self) -> Vec<(String, f64)> {
         let mut places: Vec<_> = self
+            .control
             .table
             .iter()
             .map(|(offset, &value)| (*offset, value))
@@ -96,6 +98,7 @@ impl Document {
     /// The place of the table that a program names, where it names but one.
     pub(crate) fn only_offset(&self) -> Option<Register> {
         let mut all = self
+            .control
             .table
             .keys()
             .copied()

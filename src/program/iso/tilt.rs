@@ -121,7 +121,7 @@ impl Document {
         if !foreign.any(|word| word.code.tilts()) {
             return None;
         }
-        let mut reader = Reader::new(*self.reading(), self.limits.thickness);
+        let mut reader = Reader::new(*self.reading(), self.control.limits.settings.job.thickness);
         let mut moves: Vec<Leaning> = Vec::new();
         for cut in 0..self.cuts.len() {
             self.run_lines(cut, &mut |ran| {

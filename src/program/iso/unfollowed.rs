@@ -37,7 +37,12 @@ pub(super) fn unfollowed(document: &Document) -> Vec<UnfollowedWord> {
             let is_new = seen.insert(line);
             let moves = ran.moves().next().is_some();
             let bytes = document.line_bytes(line);
-            let own = Line::of(bytes, ran.block, ran.variables, &document.limits.known);
+            let own = Line::of(
+                bytes,
+                ran.block,
+                ran.variables,
+                &document.control.limits.known,
+            );
             let zero = zeros.take(&own, moves);
             let others = own.words.iter().filter(|_| is_new);
             let is_missing = missing.contains(&line);

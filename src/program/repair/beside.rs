@@ -1,6 +1,7 @@
 //! The other cuts of a program as evidence: a move that another pass has, too, is hardly wrong.
 
 use super::cut::{Changed, FEWEST_WITH_LEADS, Piece, Pieces};
+use crate::geometry::{Point, Vector};
 use std::collections::BTreeMap;
 
 /// From its start to its end and its middle, µm.
@@ -14,16 +15,17 @@ pub(super) struct Beside {
     holds_own: bool,
 }
 
-fn shape(piece: &Piece) -> Option<Shape> {
+/// The shape of a piece, and that of the way back along it.
+fn shapes(piece: &Piece) -> Option<[Shape; 2]> {
     let curve = piece.curve.filter(|curve| curve.length() > 0.0)?;
-    let middle = curve.point_at(0.5) - curve.start();
-    Some([piece.by.x, piece.by.y, middle.x, middle.y].map(|um| um.round() as i64))
-}
-
-fn backwards(piece: &Piece) -> Option<Shape> {
-    let curve = piece.curve.filter(|curve| curve.length() > 0.0)?;
-    let middle = curve.point_at(0.5) - curve.end();
-    Some([-piece.by.x, -piece.by.y, middle.x, middle.y].map(|um| um.round() as i64))
+    let shape = |by: Vector, start: Point| {
+        let middle = curve.point_at(0.5) - start;
+        [by.x, by.y, middle.x, middle.y].map(|um| um.round() as i64)
+    };
+    Some([
+        shape(piece.by, curve.start()),
+        shape(-piece.by, curve.end()),
+    ])
 }
 
 /// Which way a piece begins, and how it turns: a pass that lies aside of another one is like it in these.
@@ -49,10 +51,7 @@ impl Beside {
         let is_pass = |other: &&Vec<Piece>| !holds_own && other.len().abs_diff(own.len()) <= 1;
         let passes = pieces.others.iter().filter(is_pass).flatten();
         let moves = passes.chain(own.iter().filter(|_| holds_own));
-        for shape in moves
-            .flat_map(|piece| [shape(piece), backwards(piece)])
-            .flatten()
-        {
+        for shape in moves.filter_map(shapes).flatten() {
             *beside.counts.entry(shape).or_default() += 1;
         }
         // Nearly all of it is as in another pass.
@@ -67,8 +66,8 @@ impl Beside {
     fn unlike(&self, pieces: &[Piece], stands: bool) -> usize {
         let least = usize::from(self.holds_own && stands);
         let has = |shape: &Shape| self.counts.get(shape).is_some_and(|count| *count > least);
-        let shapes = pieces.iter().filter_map(shape);
-        shapes.filter(|shape| !has(shape)).count()
+        let shapes = pieces.iter().filter_map(shapes);
+        shapes.filter(|[shape, _]| !has(shape)).count()
     }
 
     /// How much of some pieces other passes have, more than of those in whose place they stand.

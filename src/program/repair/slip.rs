@@ -138,7 +138,41 @@ impl Ends {
     }
 }
 
+/// The characters of a block that somebody has typed, or left out.
+pub(in crate::program) const BLOCK_KEYS: i32 = 20;
+
 impl<M> Slip<M> {
+    /// The removal of a block, which leaves some of the pieces that it changes; of a copy of the block before where it `is_twin`.
+    pub(crate) fn deletion(
+        index: usize,
+        is_twin: bool,
+        (count, pieces): (usize, Vec<Piece>),
+    ) -> Slip<M> {
+        let (sort, keys) = match is_twin {
+            true => (Sort::Twin, 1),
+            false => (Sort::Deletion, BLOCK_KEYS),
+        };
+        Slip {
+            change: Change::Delete { index },
+            count,
+            pieces,
+            sort,
+            keys,
+        }
+    }
+
+    /// The exchange of a block and the next one.
+    pub(crate) fn exchange(index: usize, (count, pieces): (usize, Vec<Piece>)) -> Slip<M> {
+        let (change, sort) = (Change::Exchange { index }, Sort::Exchange);
+        Slip {
+            change,
+            count,
+            pieces,
+            sort,
+            keys: 1,
+        }
+    }
+
     /// Whether it explains the text.
     pub(super) fn is_text(&self) -> bool {
         !matches!(

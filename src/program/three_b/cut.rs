@@ -9,10 +9,11 @@ use super::entry::{BlockEntry, Entry, Move, NO_NUMBER, What, travel_of};
 use super::fault::{Flaw, SyntaxFault};
 use super::parse::{Item, read_line};
 use super::rules::position_mismatch::Positions;
-use super::rules::{self, Counts, Limits, Observation, Spot};
+use super::rules::{self, Counts, Observation, Spot};
 use super::words::{Word, Words};
 use crate::geometry::{Bounds, Point, Segment};
 use crate::program::path::{Found, Jointed, Node, Verdict, Way, Writing, odd_joints};
+use crate::settings::Effective;
 use crate::text::SourceText;
 use std::borrow::Cow;
 use std::ops::{Deref, Range};
@@ -92,19 +93,18 @@ pub(super) struct Rare {
 pub(super) fn read(
     text: &SourceText,
     first: usize,
-    words: &Words<'_>,
-    limits: &Limits,
+    settings: &Effective,
 ) -> (Vec<(Range<usize>, Cut)>, usize) {
-    let base = text.line_start(first);
+    let (base, words) = (text.line_start(first), Words::of(settings));
     let (mut all, mut cut) = (Vec::new(), Cut::default());
     let (mut from, mut line) = (first, first);
     while line < text.line_count() && cut.stop.is_none() {
-        read_line(text.line(line), text.line_start(line), words, |item| {
+        read_line(text.line(line), text.line_start(line), &words, |item| {
             if cut.stop.is_some() && goes_on(&item) {
                 all.push((from..line + 1, std::mem::take(&mut cut)));
                 from = line;
             }
-            cut.take(item, (line - first) as u32, base, limits);
+            cut.take(item, (line - first) as u32, base, settings);
         });
         line += 1;
     }
@@ -164,7 +164,7 @@ impl Cut {
     }
 
     /// What takes time, and depends on its blocks alone.
-    pub(crate) fn finished(mut self, limits: &Limits) -> Cut {
+    pub(crate) fn finished(mut self, settings: &Effective) -> Cut {
         self.entries.shrink_to_fit();
         let (way, travel) = way_of(self.blocks().map(BlockEntry::block));
         let verdict = Verdict::of(&way);
@@ -185,7 +185,7 @@ impl Cut {
         rare.open = is_open.then_some(verdict);
         rare.faults.shrink_to_fit();
         if rare.errors == 0 {
-            let offset = limits.control_offset(self.blocks(), self.twice_area);
+            let offset = rules::control_offset(settings, self.blocks(), self.twice_area);
             rare.found = Found::of(&way, offset);
         }
         self.rare = (rare != Rare::default()).then(|| Box::new(rare));
@@ -238,7 +238,7 @@ impl Cut {
         self.rare_mut().faults.push(Local { range, observation });
     }
 
-    fn take(&mut self, item: Item, line: u32, base: usize, limits: &Limits) {
+    fn take(&mut self, item: Item, line: u32, base: usize, settings: &Effective) {
         let local = |range: Range<usize>| range.start - base..range.end - base;
         match item {
             Item::Block {
@@ -250,7 +250,7 @@ impl Cut {
             } => {
                 let entry = BlockEntry::new(block, part, stated_end);
                 let range = local(range);
-                for observation in rules::check(&block, part, limits) {
+                for observation in rules::check(&block, part, settings) {
                     // An unusual block, or one too tight, leads where it says.
                     let leads_astray = observation.counts == Counts::Always
                         && observation.rule != crate::finding::Rule::SmallRadius;

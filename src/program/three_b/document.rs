@@ -14,7 +14,6 @@ mod walk;
 
 use super::cut::{self, Cut};
 use super::entry::Entry;
-use super::rules::Limits;
 use super::words::Words;
 use crate::finding::Finding;
 use crate::geometry::{Point, Vector};
@@ -33,32 +32,9 @@ use told::Found;
 #[derive(Clone, Debug)]
 pub struct Document {
     text: SourceText,
-    words: OwnWords,
-    limits: Limits,
+    settings: Arc<Effective>,
     cuts: Cuts<Cut, ()>,
     view: Box<View>,
-}
-
-#[derive(Clone, Debug, PartialEq)]
-struct OwnWords {
-    pause: String,
-    end: String,
-}
-
-impl OwnWords {
-    fn of(settings: &Effective) -> OwnWords {
-        OwnWords {
-            pause: settings.pause.trim().into(),
-            end: settings.end.trim().into(),
-        }
-    }
-
-    fn words(&self) -> Words<'_> {
-        Words {
-            pause: &self.pause,
-            end: &self.end,
-        }
-    }
 }
 
 /// An entry by its cut and its index in there.
@@ -98,16 +74,10 @@ impl Document {
     /// Reads program text. Never fails: damage is in [`Document::findings`].
     pub fn read_with(bytes: Vec<u8>, settings: &Effective) -> Document {
         let text = SourceText::new(bytes);
-        let (words, limits) = (OwnWords::of(settings), Limits::of(settings));
-        let reader = Lines {
-            words: words.words(),
-            limits: &limits,
-        };
-        let cuts = Cuts::read(&reader, &text, ());
+        let cuts = Cuts::read(&Lines { settings }, &text, ());
         let mut document = Document {
             text,
-            words,
-            limits,
+            settings: Arc::new(settings.clone()),
             cuts,
             view: Box::default(),
         };
@@ -117,21 +87,21 @@ impl Document {
 
     /// The words between blocks.
     pub(crate) fn words(&self) -> Words<'_> {
-        self.words.words()
+        Words::of(&self.settings)
     }
 
     /// The largest number that the controller takes, µm.
     pub(crate) fn largest(&self) -> i64 {
-        self.limits.largest()
+        self.settings.largest_number()
     }
 
     pub fn text(&self) -> &SourceText {
         &self.text
     }
 
-    /// Rereads where the settings change the meaning of the text or its faults.
+    /// Rereads under other settings.
     pub(crate) fn set_settings(&mut self, settings: &Effective) {
-        if self.words != OwnWords::of(settings) || self.limits != Limits::of(settings) {
+        if *self.settings != *settings {
             *self = Document::read_with(std::mem::take(&mut self.text).into_bytes(), settings);
         }
     }
@@ -139,8 +109,7 @@ impl Document {
     /// Replaces a range of bytes and rereads what it touched.
     pub fn edit(&mut self, range: Range<usize>, replacement: &str) {
         let reader = Lines {
-            words: self.words.words(),
-            limits: &self.limits,
+            settings: &self.settings,
         };
         let edit = (range, replacement);
         self.cuts.edit(&reader, &mut self.text, edit);
@@ -185,8 +154,7 @@ impl Document {
 
 /// How 3B text is read: lines are independent.
 struct Lines<'a> {
-    words: Words<'a>,
-    limits: &'a Limits,
+    settings: &'a Effective,
 }
 
 impl Reader for Lines<'_> {
@@ -203,12 +171,12 @@ impl Reader for Lines<'_> {
     }
 
     fn run(&self, text: &SourceText, first: usize, (): &()) -> (Self::Begun, usize, ()) {
-        let (cuts, behind) = cut::read(text, first, &self.words, self.limits);
+        let (cuts, behind) = cut::read(text, first, self.settings);
         (cuts, behind, ())
     }
 
     fn finish(&self, _: &SourceText, begun: Self::Begun) -> Vec<(Range<usize>, Cut)> {
-        let finished = |(lines, cut): (Range<usize>, Cut)| (lines, cut.finished(self.limits));
+        let finished = |(lines, cut): (Range<usize>, Cut)| (lines, cut.finished(self.settings));
         begun.into_iter().map(finished).collect()
     }
 }

@@ -5,9 +5,10 @@
 
 mod line;
 
-use self::line::{Line, What, Writer};
+use self::line::{Line, Writer};
 use crate::program::edits::{self, AT_ONCE, LineEdits};
 use crate::program::three_b::layout::layout_in;
+use crate::program::three_b::parse::{Item, read_line};
 use crate::program::three_b::words::{Word, Words};
 use crate::settings::Layout;
 use crate::text::{SourceText, TextEdit};
@@ -32,11 +33,8 @@ pub(crate) fn format(
     let read = read.map(|line| Line::read(line, text.line(line), words));
     let mut all: Vec<Line> = read.collect();
     // Nothing after the end word is formatted.
-    let is_end = |line: &Line| {
-        line.parts
-            .iter()
-            .any(|part| part.what == What::Word(Word::End))
-    };
+    let ends = |item: &Item| matches!(item, Item::Word { word, .. } if *word == Word::End);
+    let is_end = |line: &Line| line.items.iter().any(ends);
     if let Some(last) = all.iter().position(is_end) {
         all.truncate(last + 1);
     }
@@ -61,13 +59,14 @@ fn layout_of(text: &SourceText, words: &Words<'_>) -> Layout {
     let (mut compact, mut aligned) = (0, 0);
     for line in 0..text.line_count() {
         let bytes = text.line(line);
-        for part in Line::read(line, bytes, words).parts {
-            match layout_in(bytes.get(part.range).unwrap_or_default()) {
-                _ if !matches!(part.what, What::Block(..)) => {}
-                Layout::Compact => compact += 1,
-                Layout::Aligned | Layout::Checking => aligned += 1,
+        read_line(bytes, 0, words, |item| {
+            if let Item::Block { range, .. } = item {
+                match layout_in(bytes.get(range).unwrap_or_default()) {
+                    Layout::Compact => compact += 1,
+                    Layout::Aligned | Layout::Checking => aligned += 1,
+                }
             }
-        }
+        });
         if compact + aligned >= LOOKED_AT {
             break;
         }

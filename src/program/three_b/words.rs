@@ -2,7 +2,7 @@
 
 #![warn(clippy::indexing_slicing)]
 
-use crate::settings::{ENDS, PAUSES};
+use crate::settings::{ENDS, Effective, PAUSES};
 
 /// The effect of a word between the blocks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,6 +29,13 @@ impl Default for Words<'_> {
 }
 
 impl Words<'_> {
+    pub(super) fn of(settings: &Effective) -> Words<'_> {
+        Words {
+            pause: settings.pause.trim(),
+            end: settings.end.trim(),
+        }
+    }
+
     /// The effect of a word; `None` for one unknown in programs. Letter case does not matter.
     pub(super) fn meaning(&self, word: &[u8]) -> Option<Word> {
         let is = |known: &str| !word.is_empty() && word.eq_ignore_ascii_case(known.as_bytes());

@@ -288,10 +288,7 @@ impl<'a> Blocks<'a> {
             room: room(paths, sources.is_some()),
             sources,
             settings,
-            words: Words {
-                pause: settings.pause.trim(),
-                end: settings.end.trim(),
-            },
+            words: Words::of(settings),
             out: Vec::new(),
             made: ProvedProgram::default(),
             proof: Proof::from(Node { x: 0, y: 0 }),

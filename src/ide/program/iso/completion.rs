@@ -150,7 +150,7 @@ impl Offer<'_> {
                 self.push(format!("{}{:02}", letter as char, number.mantissa), about);
             }
         }
-        for line in self.document.limits.lines() {
+        for line in self.document.control.limits.lines() {
             let line = line.replace(['{', '}'], " ");
             words_in(line.as_bytes(), |token, range| {
                 if let Token::Word { letter: its, .. } = token
@@ -291,10 +291,13 @@ impl Offer<'_> {
         }
         self.subprograms("M98 ");
         self.push("M00", say!(stop_to_thread_the_wire));
-        self.push(self.document.limits.end.clone(), say!(end_of_the_program));
-        let profile = self.document.limits.profile.as_deref();
+        self.push(
+            self.document.control.limits.end.clone(),
+            say!(end_of_the_program),
+        );
+        let profile = self.document.control.limits.profile();
         let register = profile.map_or("", |profile| &profile.register);
-        for line in self.document.limits.lines() {
+        for line in self.document.control.limits.lines() {
             let line = line.replace("{x}", &zero).replace("{y}", &zero);
             let line = line.replace("{register}", register);
             let sides: &[&str] = match line.contains("{side}") {

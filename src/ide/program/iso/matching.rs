@@ -12,7 +12,10 @@ use std::ops::Range;
 ///
 /// For G41 and G42, the G40 that ends it; for G40, the word that it ends; for a call, the line that it calls; for M99,
 /// the start of its subprogram; for `%`, the other one.
-pub(super) fn partner(document: &Document, offset: usize) -> Option<(Range<usize>, Range<usize>)> {
+pub(in crate::ide::program) fn partner(
+    document: &Document,
+    offset: usize,
+) -> Option<(Range<usize>, Range<usize>)> {
     let text = document.text();
     let line = text.line_of(offset);
     let (bytes, start) = (text.line(line), text.line_start(line));

@@ -197,7 +197,8 @@ impl About<'_> {
                 mm(value)
             ),
             None => {
-                let correction = (self.document.limits.correction * 1e6).round() as i64;
+                let correction =
+                    (self.document.control.limits.settings.correction * 1e6).round() as i64;
                 say!(
                     place_of_the_table_of_the_machine,
                     self.shown,

@@ -12,84 +12,56 @@ mod signature;
 mod tests;
 mod vocabulary;
 
-use super::{Completion, Language, LinePart, Signature, WordKind};
-use crate::ide::occurrence::{Occurrence, Stop, Stopped};
+pub(super) use completion::completions;
+pub(super) use matching::partner;
+pub(super) use meaning::meaning;
+pub(super) use names::{name_at, places};
+pub(super) use signature::signature;
+
+use super::words::{LinePart, WordKind};
 use crate::program::iso::plain::word_in;
 use crate::program::iso::{Document, Token, words};
 use std::ops::Range;
 
-impl Language for Document {
-    fn completions(&self, offset: usize) -> Vec<Completion> {
-        completion::completions(self, offset)
+/// The pieces of a line that begins at a byte; damaged lines are cut as far as possible.
+pub(super) fn line_parts(document: &Document, line: &[u8], offset: usize) -> Vec<LinePart> {
+    let mut parts = Vec::new();
+    if document.text().line_of(offset) < document.leader() {
+        let range = offset..offset + line.len();
+        let kind = WordKind::Comment;
+        return Vec::from_iter((!line.is_empty()).then_some(LinePart { kind, range }));
     }
-
-    fn signature(&self, offset: usize) -> Option<Signature> {
-        signature::signature(self, offset)
-    }
-
-    fn meaning(&self, word: Range<usize>) -> Option<String> {
-        meaning::meaning(self, word)
-    }
-
-    fn words(&self, line: &[u8], offset: usize) -> Vec<LinePart> {
-        let mut parts = Vec::new();
-        if self.text().line_of(offset) < self.leader() {
-            let range = offset..offset + line.len();
-            let kind = WordKind::Comment;
-            return Vec::from_iter((!line.is_empty()).then_some(LinePart { kind, range }));
+    words(line, 0, |token, range| {
+        // A part of a word that is read nevertheless.
+        if let Token::Fault(_) = token
+            && parts
+                .last()
+                .is_some_and(|last: &LinePart| offset + range.start < last.range.end)
+        {
+            return;
         }
-        words(line, 0, |token, range| {
-            // A part of a word that is read nevertheless.
-            if let Token::Fault(_) = token
-                && parts
-                    .last()
-                    .is_some_and(|last: &LinePart| offset + range.start < last.range.end)
-            {
-                return;
-            }
-            let kind = match token {
-                Token::Word { letter, .. } => match letter {
-                    b'N' | b'O' => WordKind::Number,
-                    b'G' => WordKind::Motion,
-                    b'M' | b'T' => WordKind::Stop,
-                    b'X' | b'Y' | b'I' | b'J' | b'R' | b'U' | b'V' => WordKind::Length,
-                    _ => WordKind::Setting,
-                },
-                Token::Corner { .. } => WordKind::Length,
-                Token::Definition { .. } | Token::Sum { .. } | Token::Foreign => WordKind::Setting,
-                Token::Comment => WordKind::Comment,
-                Token::Tape | Token::Skip => WordKind::Lead,
-                Token::Fault(_) => WordKind::Strange,
-            };
-            if !range.is_empty() {
-                parts.push(LinePart {
-                    kind,
-                    range: offset + range.start..offset + range.end,
-                });
-            }
-        });
-        parts
-    }
-
-    fn partner(&self, offset: usize) -> Option<(Range<usize>, Range<usize>)> {
-        matching::partner(self, offset)
-    }
-
-    fn named(
-        &self,
-        offset: usize,
-        limit: usize,
-        stop: Stop<'_>,
-    ) -> Result<Vec<Occurrence>, Stopped> {
-        let Some(name) = names::name_at(self, offset) else {
-            return Ok(Vec::new());
+        let kind = match token {
+            Token::Word { letter, .. } => match letter {
+                b'N' | b'O' => WordKind::Number,
+                b'G' => WordKind::Motion,
+                b'M' | b'T' => WordKind::Stop,
+                b'X' | b'Y' | b'I' | b'J' | b'R' | b'U' | b'V' => WordKind::Length,
+                _ => WordKind::Setting,
+            },
+            Token::Corner { .. } => WordKind::Length,
+            Token::Definition { .. } | Token::Sum { .. } | Token::Foreign => WordKind::Setting,
+            Token::Comment => WordKind::Comment,
+            Token::Tape | Token::Skip => WordKind::Lead,
+            Token::Fault(_) => WordKind::Strange,
         };
-        names::places(self, name, limit, stop).ok_or(Stopped)
-    }
-
-    fn letters_of_numbers(&self) -> &'static [char] {
-        &['N', 'n', 'O', 'o']
-    }
+        if !range.is_empty() {
+            parts.push(LinePart {
+                kind,
+                range: offset + range.start..offset + range.end,
+            });
+        }
+    });
+    parts
 }
 
 /// Of things in some ranges, in their order, that at a byte; between two that touch, the second one.

@@ -15,7 +15,7 @@ const HEAD: usize = 10_000;
 
 /// A name that something in a program has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Name {
+pub(in crate::ide::program) enum Name {
     /// A line, `N12` or `O12`, which `M98 P12` calls.
     Line(u32),
     /// A row of a table: `H1 = .0085`, `C001 = ON 8 …`, `E1 = …`; `H1`, `C001` and `E1` choose it.
@@ -38,7 +38,7 @@ impl Name {
 }
 
 /// The name at a byte.
-pub(super) fn name_at(document: &Document, offset: usize) -> Option<Name> {
+pub(in crate::ide::program) fn name_at(document: &Document, offset: usize) -> Option<Name> {
     let text = document.text();
     let line = text.line_of(offset);
     let mut names = Vec::new();
@@ -50,7 +50,7 @@ pub(super) fn name_at(document: &Document, offset: usize) -> Option<Name> {
 
 /// Every place of a name, in the order of the text, at most `limit`; `None` when the answer is no
 /// longer wanted.
-pub(super) fn places(
+pub(in crate::ide::program) fn places(
     document: &Document,
     wanted: Name,
     limit: usize,

@@ -55,21 +55,8 @@ impl Cursor<'_> {
             self.leave_space(start);
             return Token::Foreign;
         }
-        // `RA90.` turns what follows.
-        if letters == 2 && name.eq_ignore_ascii_case(b"RA") {
-            self.at = start + 2;
-            if matches!(self.number(letter), Ok(Some(_))) {
-                return Token::Foreign;
-            }
-            self.at = start + 1;
-        }
-        // `TP0.0`: a name of two letters that no word of the path begins with.
-        if letters == 2
-            && matches!(
-                letter,
-                b'A' | b'B' | b'C' | b'E' | b'Q' | b'S' | b'T' | b'U' | b'V' | b'W' | b'Z'
-            )
-        {
+        // `RA90.` turns what follows. `TP0.0`: a name of two letters that no word of the path begins with.
+        if letters == 2 && (name.eq_ignore_ascii_case(b"RA") || b"ABCEQSTUVWZ".contains(&letter)) {
             self.at = start + 2;
             if matches!(self.number(letter), Ok(Some(_))) {
                 return Token::Foreign;

@@ -14,9 +14,6 @@ use crate::program::repair::cut::{Against, Piece, Pieces};
 use crate::program::repair::slip::{self, Cut, Ends, Sort};
 use std::borrow::Cow;
 
-/// Characters of a block.
-const BLOCK_KEYS: i32 = 20;
-
 /// Of longer cuts that nothing contradicts it costs too long to find out which change they would be sounder by.
 const LONGEST_TANGLED: usize = 160;
 
@@ -191,14 +188,7 @@ impl Cut for Suspect<'_> {
         };
         let before = index.checked_sub(1).map(|before| self.way.at[before]);
         let is_twin = before.is_some_and(|before| before + 1 == row && said(before) == said(row));
-        let (count, pieces) = self.way.with(row, 1, &[]);
-        Some(Slip {
-            change: Change::Delete { index },
-            count,
-            pieces,
-            sort: if is_twin { Sort::Twin } else { Sort::Deletion },
-            keys: if is_twin { 1 } else { BLOCK_KEYS },
-        })
+        Some(Slip::deletion(index, is_twin, self.way.with(row, 1, &[])))
     }
 
     fn exchanged(&self, index: usize) -> Option<Slip> {
@@ -214,14 +204,8 @@ impl Cut for Suspect<'_> {
         let lines: Vec<Line> = lines.iter().map(|line| self.read(line)).collect();
         let is_other =
             words_of(&self.way.rows[row].line.block) != words_of(&self.way.rows[next].line.block);
-        let (count, pieces) = self.way.with(row, 2, &lines);
-        (next == row + 1 && is_other).then_some(Slip {
-            change: Change::Exchange { index },
-            count,
-            pieces,
-            sort: Sort::Exchange,
-            keys: 1,
-        })
+        let made = self.way.with(row, 2, &lines);
+        (next == row + 1 && is_other).then(|| Slip::exchange(index, made))
     }
 
     fn inserted(&self, index: usize, way: &Segment) -> Option<Slip> {

@@ -46,7 +46,7 @@ impl Report<'_> {
                 is_inside,
                 ..
             } = *arc;
-            let correction = self.document.correction(arc.offset);
+            let correction = self.control.correction(arc.offset);
             let least = arc.least(correction);
             // That it is below the correction has its own finding.
             if !is_tight(radius, least) || is_inside && is_tight(radius, correction) {

@@ -173,7 +173,7 @@ impl Report<'_> {
 
     fn contour_of(&mut self, passes: &[Pass]) {
         if passes.len() > 1 {
-            if self.limits.side.role().is_none() {
+            if self.control.limits.settings.side.role().is_none() {
                 self.sides_of(passes);
             }
             self.against_each_other(passes);
@@ -182,7 +182,7 @@ impl Report<'_> {
 
     /// Passes of one contour run on one side of it: that of the settings, else that of most of them, and of the first.
     fn sides_of(&mut self, passes: &[Pass]) {
-        let stated = match self.limits.side {
+        let stated = match self.control.limits.settings.side {
             SideSetting::Opening => Some(true),
             SideSetting::Punch => Some(false),
             _ => None,
@@ -233,7 +233,7 @@ impl Report<'_> {
                         is_on = true;
                         passes.push(Pass {
                             side,
-                            correction: self.document.stated_correction(own.offset),
+                            correction: self.control.stated_correction(own.offset),
                             nodes: vec![own.to],
                             twice_area: 0.0,
                             from: line.start,
@@ -245,7 +245,7 @@ impl Report<'_> {
                         pass.off = Some((own, line));
                     }
                     (_, Some(_), Some(pass)) if is_on => {
-                        let seen = own.seen_from(pass.begins()).segment(self.reading);
+                        let seen = own.seen_from(pass.begins()).segment(&self.control.reading);
                         pass.twice_area += seen.twice_area(Point::origin());
                         pass.nodes.push(own.to);
                     }
@@ -268,7 +268,7 @@ impl Report<'_> {
         };
         Some(Pass {
             side: first.side.filter(|_| is_one)?,
-            correction: self.document.stated_correction(first.offset),
+            correction: self.control.stated_correction(first.offset),
             nodes: [vec![first.to, second.to], ends].concat(),
             twice_area: cut.verdict.twice_area,
             from: cut.sum.range.0 as usize,

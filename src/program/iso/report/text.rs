@@ -35,7 +35,7 @@ impl Report<'_> {
         let mills = self.document.mills();
         words.retain(|code, _| {
             let is_explained = is_followed && code.is_of_taper() || mills && code.is_height();
-            !is_explained && !self.limits.known.contains(code)
+            !is_explained && !self.control.limits.known.contains(code)
         });
         let mut words: Vec<_> = words.into_values().collect();
         words.sort_by_key(|(range, _)| range.start);
@@ -140,7 +140,7 @@ impl Report<'_> {
                 letter == b'M' && matches!(number.whole(), Some(2 | 30))
             })
         });
-        word.map_or_else(|| self.limits.end.clone(), |word| self.shown(&word))
+        word.map_or_else(|| self.control.limits.end.clone(), |word| self.shown(&word))
     }
 
     /// Values for the table that depend on places which the program does not fill, or are beyond any machine.
@@ -291,11 +291,12 @@ impl Report<'_> {
 
     /// What whole numbers are taken for, where neither the text nor the settings say it; the program is so large, mm.
     fn whole_numbers(&mut self, size: f64) {
-        let is_said = self.limits.whole.is_some() || self.limits.writes_micrometres;
+        let is_said = self.control.limits.settings.whole_numbers.is_some()
+            || self.control.limits.writes_micrometres();
         if is_said || !self.document.evidence().may_be_whole_units() {
             return;
         }
-        let sentence = match self.reading.whole_numbers_are_fine {
+        let sentence = match self.control.reading.whole_numbers_are_fine {
             true => say!(whole_numbers_are_read_as_micrometres, size, size * 1e3),
             false => say!(whole_numbers_are_read_as_millimetres, size, size / 1e3),
         };
@@ -310,13 +311,14 @@ impl Report<'_> {
         let evidence = self.document.evidence();
         // Millimetres are written to the thousandth; in inches that would be 25 µm.
         let has_micrometres = evidence.places[3] == evidence.with_point;
-        let is_said = evidence.units > 0 || self.limits.has_unit;
+        let is_said = evidence.units > 0 || self.control.limits.settings.program_units.is_some();
         if is_said || evidence.with_point == 0 || has_micrometres {
             return false;
         }
         // The corrections in the program are too small for any wire, or its numbers are as fine as those in inches.
         let has_thin_wire = self
-            .definitions
+            .control
+            .table
             .values()
             .any(|value| (1..THINNEST).contains(&value.abs()));
         let has_fine_numbers = evidence.fine * 4 >= evidence.with_point;

@@ -16,7 +16,7 @@ const MOST_DECIMALS: [u8; 2] = [6, 5];
 impl Style {
     /// The style of a program, for numbers in inches or millimetres.
     pub(crate) fn of(document: &Document, inch: bool) -> Style {
-        let profile = document.limits.profile.as_ref();
+        let profile = document.control.limits.profile();
         // Where the program has no lengths yet, the profile decides.
         let fine = match document.evidence().numbers {
             0 => profile.is_some_and(|profile| profile.unit == NumberUnit::Um),

@@ -2,6 +2,7 @@
 
 use super::super::cut::Cut;
 use super::super::entry::{BlockEntry, Entry, What};
+use super::super::rules::control_offset;
 use super::super::words::Word;
 use super::{At, Document};
 use crate::geometry::{Vector, cross};
@@ -50,7 +51,7 @@ impl Divided for Document {
 
     fn control_offset(&self, cuts: &Range<usize>) -> Option<ControlOffset> {
         let blocks = self.cuts[cuts.clone()].iter().flat_map(Cut::blocks);
-        self.limits.control_offset(blocks, self.twice_area(cuts))
+        control_offset(&self.settings, blocks, self.twice_area(cuts))
     }
 }
 

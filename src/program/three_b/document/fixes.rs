@@ -165,7 +165,7 @@ impl Document {
             line: self.text.whole_line(line),
             fields,
             block: entry.block(),
-            largest: self.limits.largest(),
+            largest: self.largest(),
             closes_with: &|blocks| self.closes_with(at, blocks),
         };
         Some(rules::fixes(&site, fault))
@@ -214,7 +214,7 @@ impl Document {
             return None;
         };
         let [x, y] = [-x, -y].map(|um| um.round() as i64);
-        let largest = self.limits.largest();
+        let largest = self.largest();
         if x.abs().max(y.abs()) > largest || (x, y) == (0, 0) {
             return None;
         }

@@ -68,7 +68,7 @@ impl Document {
         let Some(end) = self.view.end else {
             let blocks: u32 = self.cuts.iter().map(|cut| cut.blocks).sum();
             let fault = Fault::MissingEnd {
-                word: self.words.end.clone(),
+                word: self.words().end.to_owned(),
             };
             let severity = if blocks == 1 {
                 Severity::Information

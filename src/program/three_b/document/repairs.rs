@@ -6,13 +6,17 @@ use super::super::fields::fields_of;
 use super::super::layout::{
     layout_in, number_edit, push_end_point, push_fields, push_to_comment_column,
 };
-use super::super::repair::{BLOCKS, Change, Loose, Path, Repair, Slip, Written, loose, repairs};
+use super::super::repair::{
+    BLOCKS, Change, Loose, Repair, Slip, Suspect, Written, loose, piece_of, stated,
+};
 use super::super::rules::{TextFix, kind_of};
 use super::contours::OneContour;
 use super::{At, Document};
 use crate::finding::{Finding, FixKind, Rule, Severity};
 use crate::program::grid::Node;
+use crate::program::repair::cut::{Piece, Pieces};
 use crate::program::repair::offered;
+use crate::program::repair::rule::search;
 use crate::program::three_b::block::Block;
 use crate::text::TextEdit;
 use std::ops::Range;
@@ -65,35 +69,25 @@ impl Document {
 
     /// The repairs of a cut.
     pub(super) fn repairs(&self, cut: &OneContour) -> Vec<Repair> {
-        let Some((places, pieces)) = self.pieces_of(cut) else {
+        let Some((places, blocks)) = self.pieces_of(cut) else {
             return Vec::new();
         };
-        let is_closed = self.closes(cut) && self.unread(cut) == 0;
-        repairs(&self.path_of(cut, &places, &pieces, is_closed))
-    }
-
-    fn path_of<'a>(
-        &'a self,
-        cut: &OneContour,
-        places: &[At],
-        pieces: &'a [Written],
-        is_closed: bool,
-    ) -> Path<'a> {
         let first = places.first().copied();
-        Path {
-            blocks: pieces,
-            start: first.and_then(|first| self.stated_begin(first)),
+        let around = Pieces {
+            start: first.and_then(|first| self.stated_begin(first)).map(stated),
             number: first.and_then(|first| self.number_before(first)),
             step: self.view.numbers.step,
-            limits: &self.limits,
-            is_jump: self.is_jump(cut.start),
-            is_closed,
-            beside: self.beside(places),
-        }
+            closes: !self.is_jump(cut.start),
+            others: self.beside(&places),
+            ..Pieces::default()
+        };
+        let is_closed = self.closes(cut) && self.unread(cut) == 0;
+        search(&Suspect::of(&blocks, around, is_closed, &self.settings))
     }
 
-    /// The blocks of the cuts before and after some blocks: those that they follow, and those beyond a way between two contours.
-    fn beside(&self, places: &[At]) -> Vec<Vec<Block>> {
+    /// The pieces of the cuts before and after some blocks, perhaps their other passes: those that they follow, and those
+    /// beyond a way between two contours.
+    fn beside(&self, places: &[At]) -> Vec<Vec<Piece>> {
         let (Some(first), Some(last)) = (places.first(), places.last()) else {
             return Vec::new();
         };
@@ -312,8 +306,8 @@ impl Document {
 const WORDS_BESIDE: usize = 3;
 
 /// The blocks between the next word and the one after it, and so on; none of a cut where a block cannot be read.
-fn cuts_of<'a>(entries: impl Iterator<Item = (At, &'a Entry)>) -> Vec<Vec<Block>> {
-    let mut cuts: Vec<Option<Vec<Block>>> = Vec::new();
+fn cuts_of<'a>(entries: impl Iterator<Item = (At, &'a Entry)>) -> Vec<Vec<Piece>> {
+    let mut cuts: Vec<Option<Vec<Piece>>> = Vec::new();
     for (_, entry) in entries {
         if let What::Word { .. } = entry.what {
             if cuts.len() == WORDS_BESIDE {
@@ -327,7 +321,7 @@ fn cuts_of<'a>(entries: impl Iterator<Item = (At, &'a Entry)>) -> Vec<Vec<Block>
         };
         match (&entry.what, &mut *cut) {
             (What::Block(block), Some(blocks)) if blocks.len() < *BLOCKS.end() => {
-                blocks.push(block.block());
+                blocks.push(piece_of(&block.block()));
             }
             (What::Block(_) | What::Unread, _) => *cut = None,
             _ => {}

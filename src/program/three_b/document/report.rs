@@ -136,7 +136,7 @@ impl Document {
             Counts::IfOpen => !is_in_program || self.is_jump(cut) || !self.closes_at(cut),
             Counts::IfInside { turns_left } => {
                 let runs_left = || self.twice_area(&self.view.contours.cuts_of(cut)) > 0.0;
-                let wire_is_inside = self.limits.side == SideSetting::Opening;
+                let wire_is_inside = self.settings.side == SideSetting::Opening;
                 is_in_program && (runs_left() == wire_is_inside) == turns_left
             }
         }

@@ -2,42 +2,25 @@
 
 use crate::program::edits::LineEdits;
 use crate::program::lookalikes::with_plain_marks;
-use crate::program::three_b::around::{StatedPoint, before_comment};
-use crate::program::three_b::block::{Block, PartArc};
+use crate::program::three_b::around::before_comment;
 use crate::program::three_b::layout::{push_block_number, push_fields, push_to_comment_column};
 use crate::program::three_b::line::BYTE_ORDER_MARK;
 use crate::program::three_b::parse::{Item, read_line};
 use crate::program::three_b::pieces::{Field, Piece, pieces};
-use crate::program::three_b::words::{Word, Words};
+use crate::program::three_b::words::Words;
 use crate::settings::Layout;
 use crate::text::{SourceText, TextEdit};
-use std::ops::Range;
 
 /// A line as the reader finds it.
 pub(super) struct Line {
     /// From 0.
     number: usize,
-    pub(crate) parts: Vec<Part>,
+    /// Blocks, words and the header with the start.
+    pub(crate) items: Vec<Item>,
     /// It holds nothing that cannot be read.
     is_sound: bool,
     /// A comment holds a block.
     holds_comment: bool,
-}
-
-/// A block, a word or the header with the start.
-pub(super) struct Part {
-    pub(crate) what: What,
-    pub(crate) range: Range<usize>,
-    number: Option<u32>,
-    stated_end: Option<StatedPoint>,
-}
-
-#[derive(PartialEq)]
-pub(super) enum What {
-    Block(Block, Option<PartArc>),
-    Word(Word),
-    /// mm.
-    StartPoint([f64; 2]),
 }
 
 impl Line {
@@ -46,46 +29,39 @@ impl Line {
         let code = before_comment(bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes));
         let mut line = Line {
             number,
-            parts: Vec::with_capacity(1),
+            items: Vec::with_capacity(1),
             is_sound: code.is_ascii() || with_plain_marks(code).is_none(),
             holds_comment: false,
         };
-        read_line(bytes, 0, words, |item| {
-            let (what, range, number, stated_end) = match item {
-                Item::Block {
-                    block,
-                    range,
-                    number,
-                    stated_end,
-                    part,
-                } => (What::Block(block, part), range, number, stated_end),
-                Item::Word {
-                    word,
-                    range,
-                    number,
-                    ..
-                } => (What::Word(word), range, number, None),
-                Item::StartPoint { at, range } => (What::StartPoint(at), range, None, None),
-                Item::CommentedBlock { .. } => return line.holds_comment = true,
-                Item::Fault(_) | Item::Text { .. } => return line.is_sound = false,
-            };
-            line.parts.push(Part {
-                what,
-                range,
-                number,
-                stated_end,
-            });
+        read_line(bytes, 0, words, |item| match item {
+            Item::CommentedBlock { .. } => line.holds_comment = true,
+            Item::Fault(_) | Item::Text { .. } => line.is_sound = false,
+            item => line.items.push(item),
         });
         line
     }
 }
 
-impl Part {
-    /// The same block or word, with its number and end point.
-    fn reads_as(&self, new: &Part) -> bool {
-        let beside = |part: &Part| (part.number, part.stated_end);
-        self.what == new.what && beside(self) == beside(new)
+/// Where an item ends, and its number.
+fn end_and_number(item: &Item) -> (usize, Option<u32>) {
+    match item {
+        Item::Block { range, number, .. } | Item::Word { range, number, .. } => {
+            (range.end, *number)
+        }
+        _ => (0, None),
     }
+}
+
+/// The same block or word, with its number and end point.
+fn reads_as(old: &Item, new: &Item) -> bool {
+    let [old, new] = [old, new].map(|item| {
+        let mut item = item.clone();
+        if let Item::Block { range, .. } | Item::Word { range, .. } = &mut item {
+            *range = 0..0;
+        }
+        item
+    });
+    old == new
 }
 
 /// Writes lines again.
@@ -141,20 +117,19 @@ impl Writer<'_> {
         let old = text.line(line.number);
         let mut head = Vec::with_capacity(64);
         let mut aligned = None;
-        for (index, part) in line.parts.iter().enumerate() {
+        for (index, item) in line.items.iter().enumerate() {
             if index > 0 {
                 head.extend_from_slice(text.line_end(line.number).as_bytes());
             }
-            if let Some(number) = part.number {
+            let (item_end, number) = end_and_number(item);
+            if let Some(number) = number {
                 self.push_number(&mut head, number)?;
             }
             aligned = None;
-            match &part.what {
-                What::Block(block, arc) => {
-                    push_fields(&mut head, self.layout, block, arc.as_ref());
-                    let mut behind = pieces.iter();
-                    let next = behind.find(|piece| piece.range.start >= part.range.end);
-                    match next.filter(|piece| piece.field == Field::Coordinates) {
+            match item {
+                Item::Block { block, part, .. } => {
+                    push_fields(&mut head, self.layout, block, part.as_ref());
+                    match coordinates_behind(pieces, item_end) {
                         Some(end) => {
                             let end = old.get(end.range.clone())?;
                             push_to_comment_column(&mut head, block);
@@ -167,8 +142,10 @@ impl Writer<'_> {
                         None => aligned = Some(block),
                     }
                 }
-                What::Word(_) => head.extend(old.get(part.range.clone())?.to_ascii_uppercase()),
-                What::StartPoint(_) => return None,
+                Item::Word { range, .. } => {
+                    head.extend(old.get(range.clone())?.to_ascii_uppercase());
+                }
+                _ => return None,
             }
         }
         let comment = pieces.last().filter(|last| last.field == Field::Comment);
@@ -199,12 +176,12 @@ impl Writer<'_> {
     fn reads_the_same(&self, line: &Line, new: &[u8]) -> bool {
         let lines = new.split(|byte| matches!(byte, b'\n' | b'\r'));
         let lines: Vec<Line> = lines.map(|new| Line::read(0, new, self.words)).collect();
-        let again = || lines.iter().flat_map(|line| &line.parts);
+        let again = || lines.iter().flat_map(|line| &line.items);
         let is_sound = |line: &Line| line.is_sound && !line.holds_comment;
-        let mut pairs = line.parts.iter().zip(again());
+        let mut pairs = line.items.iter().zip(again());
         lines.iter().all(is_sound)
-            && again().count() == line.parts.len()
-            && pairs.all(|(old, new)| old.reads_as(new))
+            && again().count() == line.items.len()
+            && pairs.all(|(old, new)| reads_as(old, new))
     }
 }
 
@@ -212,18 +189,23 @@ impl Line {
     /// It has blocks or words, and nothing that would be lost: a header stands alone, a number without a block stays.
     fn is_plain(&self, pieces: &[Piece]) -> bool {
         let count = |field: Field| pieces.iter().filter(|piece| piece.field == field).count();
-        let numbers = self.parts.iter().filter(|part| part.number.is_some());
+        let items = self.items.iter();
+        let numbers = items.filter(|item| end_and_number(item).1.is_some());
         // Coordinates behind a word are no end of a block.
-        let ends = self.parts.iter().filter(|part| {
-            let mut behind = pieces.iter();
-            let next = behind.find(|piece| piece.range.start >= part.range.end);
-            matches!(part.what, What::Block(..))
-                && next.is_some_and(|next| next.field == Field::Coordinates)
+        let ends = self.items.iter().filter(|item| {
+            let end = coordinates_behind(pieces, end_and_number(item).0);
+            matches!(item, Item::Block { .. }) && end.is_some()
         });
         let is_other = count(Field::StartPoint) + count(Field::Strange) > 0;
-        !self.parts.is_empty()
+        !self.items.is_empty()
             && !is_other
             && count(Field::Number) == numbers.count()
             && count(Field::Coordinates) == ends.count()
     }
+}
+
+/// The coordinates next behind a place of a line.
+fn coordinates_behind(pieces: &[Piece], at: usize) -> Option<&Piece> {
+    let next = pieces.iter().find(|piece| piece.range.start >= at);
+    next.filter(|piece| piece.field == Field::Coordinates)
 }

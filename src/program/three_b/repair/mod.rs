@@ -14,12 +14,11 @@ use super::block::{Block, PartArc};
 use super::decode::meant as decode;
 use super::encode::encode;
 use super::entry::travel_of;
-use super::rules::Limits;
 use crate::geometry::{Point, Segment, Vector};
 use crate::program::grid::Node;
 use crate::program::repair::cut::{Piece, Pieces, Stated};
-use crate::program::repair::rule::search;
-use crate::program::repair::slip::{self, Cut, Ends, Sort};
+use crate::program::repair::slip::{self, BLOCK_KEYS, Cut, Ends, Sort};
+use crate::settings::Effective;
 
 pub(super) type Change = slip::Change<(Block, Slip)>;
 pub(super) type Repair = slip::Repair<(Block, Slip)>;
@@ -29,9 +28,6 @@ pub(super) const BLOCKS: std::ops::RangeInclusive<usize> = 1..=1000;
 
 /// Contours of fewer blocks could be closed by too many changes.
 pub(super) const FEWEST_BLAMED: usize = 4;
-
-/// Characters of a block.
-const BLOCK_KEYS: i32 = 20;
 
 /// A block of a contour as it stands in the text.
 #[derive(Clone, Debug, Default)]
@@ -49,7 +45,7 @@ pub(super) struct Written {
 }
 
 impl Written {
-    fn piece(&self, limits: &Limits) -> Piece {
+    fn piece(&self, settings: &Effective) -> Piece {
         let own = self.block.as_ref().map(piece_of).unwrap_or_default();
         Piece {
             stated: self.stated.map(stated),
@@ -57,14 +53,14 @@ impl Written {
             is_unread: self.block.is_none(),
             is_unsound: self
                 .block
-                .is_some_and(|block| !is_sound(&block, self.part, limits)),
+                .is_some_and(|block| !is_sound(&block, self.part, settings)),
             ..own
         }
     }
 }
 
 /// A block as the search sees it.
-fn piece_of(block: &Block) -> Piece {
+pub(super) fn piece_of(block: &Block) -> Piece {
     let travel = travel_of(block);
     let [x, y] = travel.meant_um();
     Piece {
@@ -75,7 +71,7 @@ fn piece_of(block: &Block) -> Piece {
     }
 }
 
-fn stated(point: StatedPoint) -> Stated {
+pub(super) fn stated(point: StatedPoint) -> Stated {
     let [x, y] = point.at.map(|mm| mm * 1000.0);
     Stated {
         at: Point::new(x, y),
@@ -84,30 +80,14 @@ fn stated(point: StatedPoint) -> Stated {
 }
 
 /// A faulty contour.
-pub(super) struct Path<'a> {
-    pub(crate) blocks: &'a [Written],
-    /// The place stated before its first block, and the last number there.
-    pub(crate) start: Option<StatedPoint>,
-    pub(crate) number: Option<u32>,
-    /// The usual step of the program's numbers, where its blocks have numbers.
-    pub(crate) step: Option<u32>,
-    pub(crate) limits: &'a Limits,
-    /// It leads from one contour to the next.
-    pub(crate) is_jump: bool,
-    /// It is not reported as open: it closes, if only together with others.
-    pub(crate) is_closed: bool,
-    /// The blocks of the cuts before and after it: perhaps its other passes.
-    pub(crate) beside: Vec<Vec<Block>>,
-}
-
-/// The repairs of a contour, the most likely one first.
-pub(super) fn repairs(path: &Path<'_>) -> Vec<Repair> {
-    search(&Suspect::of(path))
-}
-
-struct Suspect<'a> {
-    path: &'a Path<'a>,
+pub(super) struct Suspect<'a> {
+    blocks: &'a [Written],
     pieces: Pieces,
+    settings: &'a Effective,
+    /// It leads from one contour to the next.
+    is_jump: bool,
+    /// The usual step of the program's numbers, where its blocks have numbers.
+    step: Option<u32>,
     /// Nothing contradicts it.
     is_sound: bool,
     is_open: bool,
@@ -124,7 +104,7 @@ impl Cut for Suspect<'_> {
     }
 
     fn slips(&self, index: usize, ends: &Ends) -> Vec<slip::Slip<(Block, Slip)>> {
-        let Some(own) = self.path.blocks.get(index) else {
+        let Some(own) = self.blocks.get(index) else {
             return Vec::new();
         };
         match (&own.block, &own.loose) {
@@ -135,47 +115,36 @@ impl Cut for Suspect<'_> {
     }
 
     fn deleted(&self, index: usize) -> Option<slip::Slip<(Block, Slip)>> {
-        let (own, before) = (self.path.blocks.get(index)?, index.checked_sub(1)?);
-        let before = self.path.blocks.get(before)?;
+        let (own, before) = (self.blocks.get(index)?, index.checked_sub(1)?);
+        let before = self.blocks.get(before)?;
         let is_equal = own.block.is_some() && own.block == before.block;
         let is_stated_again = match (own.stated, before.stated) {
             (Some(own), Some(before)) => own.at == before.at,
             (own, before) => own.is_none() && before.is_none(),
         };
         let is_twin = is_equal && own.number == before.number && is_stated_again;
-        Some(slip::Slip {
-            change: Change::Delete { index },
-            count: 1,
-            pieces: Vec::new(),
-            sort: if is_twin { Sort::Twin } else { Sort::Deletion },
-            keys: if is_twin { 1 } else { BLOCK_KEYS },
-        })
+        Some(slip::Slip::deletion(index, is_twin, (1, Vec::new())))
     }
 
     fn exchanged(&self, index: usize) -> Option<slip::Slip<(Block, Slip)>> {
-        let blocks = self.path.blocks;
+        let blocks = self.blocks;
         let (own, next) = (blocks.get(index)?, blocks.get(index + 1)?);
         let is_out_of_turn = own.number.zip(next.number).is_some_and(|(a, b)| a > b);
         let is_plain = own.number.is_none() && own.stated.is_none();
         let may_be = is_out_of_turn || self.pieces.is_off(index) || (self.is_sound && is_plain);
         let is_read = own.block.is_some() && next.block.is_some();
         let pieces = self.pieces.all.get(index..index + 2)?;
-        (may_be && is_read && own.block != next.block).then(|| slip::Slip {
-            change: Change::Exchange { index },
-            count: 2,
-            pieces: vec![pieces[1], pieces[0]],
-            sort: Sort::Exchange,
-            keys: 1,
-        })
+        (may_be && is_read && own.block != next.block)
+            .then(|| slip::Slip::exchange(index, (2, vec![pieces[1], pieces[0]])))
     }
 
     fn inserted(&self, index: usize, way: &Segment) -> Option<slip::Slip<(Block, Slip)>> {
-        let first = self.path.blocks.first()?;
+        let first = self.blocks.first()?;
         // Counting begins with the first block.
-        let may_be_first = self.path.number.is_some()
+        let may_be_first = self.pieces.number.is_some()
             || first
                 .number
-                .zip(self.path.step)
+                .zip(self.step)
                 .is_none_or(|(first, step)| first > step);
         if index == 0 && !may_be_first {
             return None;
@@ -189,7 +158,7 @@ impl Cut for Suspect<'_> {
             None => slips::straight([end.x, end.y])?,
             Some(_) => {
                 let mut blocks = Vec::new();
-                let largest = self.path.limits.largest();
+                let largest = self.settings.largest_number();
                 encode(way, Node { x: 0, y: 0 }, node, largest, &mut blocks)?;
                 match &blocks[..] {
                     [one] => one.block,
@@ -202,10 +171,10 @@ impl Cut for Suspect<'_> {
         }
         let mut piece = piece_of(&block);
         let number = match index.checked_sub(1) {
-            Some(before) => self.path.blocks.get(before)?.number,
-            None => self.path.number,
+            Some(before) => self.blocks.get(before)?.number,
+            None => self.pieces.number,
         };
-        let numbers = number.zip(self.path.step);
+        let numbers = number.zip(self.step);
         piece.number = numbers.map(|(number, step)| number.saturating_add(step));
         let from = self.pieces.stated_before(index);
         piece.stated = from.map(|from| Stated {
@@ -231,20 +200,18 @@ impl Cut for Suspect<'_> {
 }
 
 impl<'a> Suspect<'a> {
-    fn of(path: &'a Path<'a>) -> Suspect<'a> {
-        let blocks = path.blocks.iter();
+    /// `around` is what is known of it from around its blocks; where it is `closed`, it is not reported as open: it closes, if
+    /// only together with others.
+    pub(crate) fn of(
+        blocks: &'a [Written],
+        around: Pieces,
+        closed: bool,
+        settings: &'a Effective,
+    ) -> Suspect<'a> {
+        let (is_jump, step) = (!around.closes, around.step);
         let mut pieces = Pieces {
-            all: blocks.map(|own| own.piece(path.limits)).collect(),
-            start: path.start.map(stated),
-            number: path.number,
-            step: path.step,
-            closes: !path.is_jump,
-            others: path
-                .beside
-                .iter()
-                .map(|blocks| blocks.iter().map(piece_of).collect())
-                .collect(),
-            ..Pieces::default()
+            all: blocks.iter().map(|own| own.piece(settings)).collect(),
+            ..around
         };
         let mut against = pieces.against();
         let count = pieces.all.len();
@@ -252,21 +219,23 @@ impl<'a> Suspect<'a> {
         if count > 1 && 2 * against.out_of_turn > count {
             pieces.step = None;
         }
-        if against.is_open && path.is_closed {
+        if against.is_open && closed {
             pieces.closes = false;
         } else if against.is_open {
-            let blocks = path.blocks.iter().map(|own| own.block);
-            for (piece, block) in pieces.all.iter_mut().zip(blocks) {
-                piece.is_unsound |= block.is_some_and(|block| is_odd_ratio(&block));
+            for (piece, own) in pieces.all.iter_mut().zip(blocks) {
+                piece.is_unsound |= own.block.is_some_and(|block| is_odd_ratio(&block));
             }
         }
         against = pieces.against();
         Suspect {
-            path,
+            blocks,
+            settings,
+            is_jump,
+            step,
             is_sound: against.count() == 0,
             is_open: against.is_open,
-            is_four_b: path.blocks.iter().any(|own| own.part.is_some()),
-            widths: slips::widths(path.blocks),
+            is_four_b: blocks.iter().any(|own| own.part.is_some()),
+            widths: slips::widths(blocks),
             pieces,
         }
     }

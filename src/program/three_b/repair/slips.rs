@@ -3,15 +3,17 @@
 use super::super::block::{Block, Motion, PartArc, Quadrant};
 use super::super::decode::{decode, meant};
 use super::super::encode::{counted, line_block};
-use super::super::rules::{self, Counts, Limits};
+use super::super::rules::{self, Counts};
 use super::loose::{Loose, Number};
-use super::{BLOCK_KEYS, Suspect, Written};
+use super::{Suspect, Written};
 use crate::finding::Rule;
 use crate::geometry::{Arc, Point, Segment, Vector};
 use crate::program::grid::Node;
 use crate::program::path::tolerance;
 use crate::program::repair::keys;
+use crate::program::repair::slip::BLOCK_KEYS;
 use crate::program::repair::slip::{self, Ends, Sort};
+use crate::settings::Effective;
 
 /// The largest distance of coordinates with three decimals from a block's end, µm.
 const STATED: f64 = 4.0;
@@ -64,7 +66,6 @@ impl Suspect<'_> {
         ends: &Ends,
     ) -> Vec<Made> {
         let mut found = Vec::new();
-        let limits = self.path.limits;
         let old = self.pieces.all[index].by;
         let may_lead = |changed: &Block| {
             // What cannot be run is wrong by itself.
@@ -74,7 +75,7 @@ impl Suspect<'_> {
             })
         };
         // Of a way that closes nothing no number is told by anything.
-        let is_loose = self.path.is_jump && self.pieces.stated_before(index).is_none();
+        let is_loose = self.is_jump && self.pieces.stated_before(index).is_none();
         let mut take = |changed: Block, slip: Slip, sort: Sort, keys: i32| {
             let is_along = (block.x == 0) != (block.y == 0);
             let sort = match slip {
@@ -85,7 +86,7 @@ impl Suspect<'_> {
             if changed != *block
                 && !is_odd_ratio(&changed)
                 && may_lead(&changed)
-                && is_sound(&changed, own.part, limits)
+                && is_sound(&changed, own.part, self.settings)
                 && !self.lacks_a_part(&changed, own.part)
             {
                 // J of a line is its larger number, though the control takes a little less.
@@ -237,7 +238,7 @@ impl Suspect<'_> {
         let mut found = Vec::new();
         let mut take = |block: Block, keys: usize| {
             let is_usual = is_usual(&block);
-            if is_sound(&block, None, self.path.limits) && !self.lacks_a_part(&block, None) {
+            if is_sound(&block, None, self.settings) && !self.lacks_a_part(&block, None) {
                 // One written like a line is no arc, and a line is seldom a ratio.
                 let is_like_a_line =
                     block.j == block.x.max(block.y) || (block.x, block.y) == (0, 0);
@@ -304,13 +305,17 @@ fn different(one: &str, other: &str) -> i32 {
 }
 
 /// True for a block in which no rule finds a fault.
-pub(in super::super) fn is_sound(block: &Block, part: Option<PartArc>, limits: &Limits) -> bool {
+pub(in super::super) fn is_sound(
+    block: &Block,
+    part: Option<PartArc>,
+    settings: &Effective,
+) -> bool {
     let is_fault = |observation: &rules::Observation| {
         observation.rule != Rule::SmallRadius
             && !matches!(observation.counts, Counts::IfInside { .. })
     };
     part.is_none_or(|part| part.fits(block))
-        && !rules::check(block, None, limits).iter().any(is_fault)
+        && !rules::check(block, None, settings).iter().any(is_fault)
 }
 
 /// True where the quadrant is the customary one for a start or a direction on an axis.

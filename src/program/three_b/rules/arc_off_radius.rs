@@ -2,17 +2,11 @@
 //!
 //! One of the three numbers is wrong, so nothing is reported about J and G of that block: they may be right.
 
-use super::{BlockRule, Observation, Outlook, Site, Spot, TextFix};
-use crate::finding::{Fault, FixKind, Rule};
+use super::{Observation, Outlook, Site, Spot, TextFix};
+use crate::finding::{Fault, FixKind};
 use crate::program::repair::keys::is_slip;
 
-pub(super) const RULE: BlockRule = BlockRule {
-    rule: Rule::ArcOffRadius,
-    check,
-    fixes,
-};
-
-fn check(outlook: &Outlook) -> Option<Observation> {
+pub(super) fn check(outlook: &Outlook) -> Option<Observation> {
     let part = outlook.part.filter(|_| !outlook.is_line())?;
     (!part.fits(outlook.block)).then(|| {
         Observation::at(
@@ -26,7 +20,7 @@ fn check(outlook: &Outlook) -> Option<Observation> {
 }
 
 /// R is the wrong one where the way is right without it and one key makes it so.
-fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
+pub(super) fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
     let (Fault::RadiusOff { meant, .. }, Some(place)) = (fault, &site.fields.radius) else {
         return Vec::new();
     };

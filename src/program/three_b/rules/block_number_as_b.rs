@@ -1,16 +1,10 @@
 //! `block-number-as-b`: `B25` before a block where the number `N25` was meant. The reader finds it; this is its repair.
 
-use super::{BlockRule, Site, TextFix};
-use crate::finding::{Fault, FixKind, Rule};
+use super::{Site, TextFix};
+use crate::finding::FixKind;
 use crate::text::TextEdit;
 
-pub(super) const RULE: BlockRule = BlockRule {
-    rule: Rule::BlockNumberAsB,
-    check: |_| None,
-    fixes,
-};
-
-fn fixes(site: &Site, _: &Fault) -> Vec<TextFix> {
+pub(super) fn fixes(site: &Site) -> Vec<TextFix> {
     let Some(&b) = site.text.get(site.range.start) else {
         return Vec::new();
     };

@@ -1,17 +1,11 @@
 //! `length-in-j`: J holds the length of the line, where the controller counts its projection.
 
 use super::projection::{Length, length};
-use super::{BlockRule, Observation, Outlook, Site, Spot, TextFix};
-use crate::finding::{Axis, Fault, Rule};
+use super::{Observation, Outlook, Site, Spot, TextFix};
+use crate::finding::{Axis, Fault};
 use crate::program::three_b::block::Block;
 
-pub(super) const RULE: BlockRule = BlockRule {
-    rule: Rule::LengthInJ,
-    check,
-    fixes,
-};
-
-fn check(outlook: &Outlook) -> Option<Observation> {
+pub(super) fn check(outlook: &Outlook) -> Option<Observation> {
     if !outlook.is_line() || length(outlook) != Length::Euclid {
         return None;
     }
@@ -34,7 +28,7 @@ fn larger_axis(outlook: &Outlook) -> Axis {
     }
 }
 
-fn fixes(site: &Site, _: &Fault) -> Vec<TextFix> {
+pub(super) fn fixes(site: &Site) -> Vec<TextFix> {
     let j = site.block.x.max(site.block.y);
     vec![site.fix(&Block { j, ..site.block }, true)]
 }

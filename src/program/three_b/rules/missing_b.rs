@@ -1,17 +1,11 @@
 //! `missing-b`: one of a block's three `B` is not there. The reader finds it; this is its repair.
 
-use super::{BlockRule, Site, TextFix};
-use crate::finding::{Fault, FixKind, Rule};
+use super::{Site, TextFix};
+use crate::finding::FixKind;
 use crate::text::TextEdit;
 use std::ops::Range;
 
-pub(super) const RULE: BlockRule = BlockRule {
-    rule: Rule::MissingB,
-    check: |_| None,
-    fixes,
-};
-
-fn fixes(site: &Site, _: &Fault) -> Vec<TextFix> {
+pub(super) fn fixes(site: &Site) -> Vec<TextFix> {
     let fields = &site.fields;
     let numbers = [&fields.x, &fields.y, &fields.j];
     let befores = [fields.first, fields.x.end, fields.y.end].into_iter();

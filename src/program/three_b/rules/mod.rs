@@ -30,7 +30,7 @@ use super::fields::Fields;
 use crate::drawing::wire_side;
 use crate::finding::{Axis, Detail, Fault, Fix, FixKind, Rule};
 use crate::program::path::{ControlOffset, MOST_BLOCKS, UM_IN_MM};
-use crate::settings::{Compensation, Effective, SideSetting};
+use crate::settings::{Compensation, Effective};
 use crate::text::TextEdit;
 use std::ops::Range;
 
@@ -40,59 +40,30 @@ pub(super) const TIE: i64 = 1;
 /// The same for the end of an arc: the end moves with the rounding of J, twice where both coordinates change.
 pub(super) const ARC_TIE: f64 = 2.0 * J_TOLERANCE;
 
-/// The settings for the rules.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Limits {
-    /// Digits of the controller's numbers.
-    pub(crate) digits: u32,
-    /// The largest number with these digits, µm.
-    largest: i64,
-    /// mm.
-    pub(crate) correction: f64,
-    /// The program holds the part's contour, not the wire's path.
-    pub(crate) holds_part: bool,
-    pub(crate) side: SideSetting,
-    pub(crate) pass: Option<usize>,
+/// The program holds the part's contour, not the wire's path.
+fn holds_part(settings: &Effective) -> bool {
+    let asked = settings.compensation;
+    matches!(asked, Compensation::None | Compensation::Controller)
 }
 
-impl Limits {
-    pub(crate) fn of(settings: &Effective) -> Limits {
-        Limits {
-            digits: settings.digits,
-            largest: settings.largest_number(),
-            correction: settings.correction,
-            holds_part: matches!(
-                settings.compensation,
-                Compensation::None | Compensation::Controller
-            ),
-            side: settings.side,
-            pass: settings.pass,
-        }
-    }
-
-    pub(crate) fn largest(&self) -> i64 {
-        self.largest
-    }
-
-    /// The offset that the control makes of some blocks: in 4B their first arc says on which side the wire runs, in 3B that
-    /// holds the part's contour the settings do.
-    pub(crate) fn control_offset<'a>(
-        &self,
-        blocks: impl Iterator<Item = &'a BlockEntry>,
-        twice_area: f64,
-    ) -> Option<ControlOffset> {
-        let mut sides = blocks
-            .take(MOST_BLOCKS)
-            .filter_map(BlockEntry::side_of_wire);
-        let by_settings = || {
-            let role = self.side.role().filter(|_| self.holds_part)?;
-            wire_side(role, true, twice_area)
-        };
-        Some(ControlOffset {
-            side: sides.next().or_else(by_settings)?,
-            correction: self.correction * UM_IN_MM,
-        })
-    }
+/// The offset that the control makes of some blocks: in 4B their first arc says on which side the wire runs, in 3B that
+/// holds the part's contour the settings do.
+pub(super) fn control_offset<'a>(
+    settings: &Effective,
+    blocks: impl Iterator<Item = &'a BlockEntry>,
+    twice_area: f64,
+) -> Option<ControlOffset> {
+    let mut sides = blocks
+        .take(MOST_BLOCKS)
+        .filter_map(BlockEntry::side_of_wire);
+    let by_settings = || {
+        let role = settings.side.role().filter(|_| holds_part(settings))?;
+        wire_side(role, true, twice_area)
+    };
+    Some(ControlOffset {
+        side: sides.next().or_else(by_settings)?,
+        correction: settings.correction * UM_IN_MM,
+    })
 }
 
 /// The part of a block that a fault lies in.
@@ -179,7 +150,7 @@ impl Observation {
 pub(super) struct Outlook<'a> {
     pub(crate) block: &'a Block,
     pub(crate) part: Option<PartArc>,
-    pub(crate) limits: &'a Limits,
+    pub(crate) settings: &'a Effective,
 }
 
 impl Outlook<'_> {
@@ -192,46 +163,40 @@ impl Outlook<'_> {
     }
 }
 
-/// A rule on single blocks.
-struct BlockRule {
-    rule: Rule,
-    check: fn(&Outlook) -> Option<Observation>,
-    /// The preferred one first.
-    fixes: fn(&Site, &Fault) -> Vec<TextFix>,
-}
+type Check = fn(&Outlook) -> Option<Observation>;
 
-/// They run in this order. A finding of the first [`ALONE`] of them ends the search in a block.
-const RULES: [BlockRule; 13] = [
-    zero_block::RULE,
-    arc_without_radius::RULE,
-    arc_off_radius::RULE,
-    length_in_j::RULE,
-    wrong_j::RULE,
-    j_over_turn::RULE,
-    wrong_counting_axis::RULE,
-    wrong_quadrant::RULE,
-    too_many_digits::RULE,
-    small_radius::RULE,
-    missing_b::RULE,
-    block_number_as_b::RULE,
-    reversed_arc::RULE,
+/// What leaves nothing else to be said of a block.
+const ALONE: [Check; 3] = [
+    zero_block::check,
+    arc_without_radius::check,
+    arc_off_radius::check,
 ];
-const ALONE: usize = 3;
+
+const CHECKS: [Check; 7] = [
+    length_in_j::check,
+    wrong_j::check,
+    j_over_turn::check,
+    wrong_counting_axis::check,
+    wrong_quadrant::check,
+    too_many_digits::check,
+    small_radius::check,
+];
 
 /// The faults of a block by itself.
-pub(super) fn check(block: &Block, part: Option<PartArc>, limits: &Limits) -> Vec<Observation> {
+pub(super) fn check(
+    block: &Block,
+    part: Option<PartArc>,
+    settings: &Effective,
+) -> Vec<Observation> {
     let outlook = Outlook {
         block,
         part,
-        limits,
+        settings,
     };
-    let (first, others) = RULES.split_at(ALONE);
-    match first.iter().find_map(|rule| (rule.check)(&outlook)) {
+    let seen = |check: &Check| check(&outlook);
+    match ALONE.iter().find_map(seen) {
         Some(observation) => vec![observation],
-        None => others
-            .iter()
-            .filter_map(|rule| (rule.check)(&outlook))
-            .collect(),
+        None => CHECKS.iter().filter_map(seen).collect(),
     }
 }
 
@@ -336,6 +301,19 @@ pub(super) fn kind_of(old: &Block, new: &Block) -> FixKind {
 
 /// The fixes of a fault in a block, the preferred one first.
 pub(super) fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
-    let own = RULES.iter().find(|own| own.rule == fault.rule());
-    own.map_or_else(Vec::new, |own| (own.fixes)(site, fault))
+    match fault.rule() {
+        Rule::ZeroBlock => zero_block::fixes(site),
+        Rule::ArcWithoutRadius => arc_without_radius::fixes(site),
+        Rule::ArcOffRadius => arc_off_radius::fixes(site, fault),
+        Rule::LengthInJ => length_in_j::fixes(site),
+        Rule::WrongJ => wrong_j::fixes(site),
+        Rule::JOverTurn => j_over_turn::fixes(site),
+        Rule::WrongCountingAxis => wrong_counting_axis::fixes(site),
+        Rule::WrongQuadrant => wrong_quadrant::fixes(site, fault),
+        Rule::TooManyDigits => too_many_digits::fixes(site),
+        Rule::MissingB => missing_b::fixes(site),
+        Rule::BlockNumberAsB => block_number_as_b::fixes(site),
+        Rule::ReversedArc => reversed_arc::fixes(site),
+        _ => Vec::new(),
+    }
 }

@@ -1,21 +1,14 @@
 //! `reversed-arc`: the fixes for an arc that runs the wrong way round. Its joints reveal it ([`crate::program::path`]).
 
-use super::{BlockRule, Site, TextFix};
-use crate::finding::{Fault, Rule};
+use super::{Site, TextFix};
 use crate::geometry::{Arc, Point, Segment};
 use crate::program::three_b::block::{Block, Motion};
 use crate::program::three_b::decode::meant;
 use crate::program::three_b::encode::counted;
 use std::f64::consts::TAU;
 
-pub(super) const RULE: BlockRule = BlockRule {
-    rule: Rule::ReversedArc,
-    check: |_| None,
-    fixes,
-};
-
 /// The arc about the same centre between the same ends, the other way round.
-fn fixes(site: &Site, _: &Fault) -> Vec<TextFix> {
+pub(super) fn fixes(site: &Site) -> Vec<TextFix> {
     site.one_of(exchanged(&site.block))
 }
 

@@ -3,7 +3,7 @@
 //! A 4B block gives the wire's side of the arc (`DD` inside). A 3B program holds the part's contour only where the
 //! settings say so (`compensation = "controller"` or `"none"`); the wire's own path may have arcs down to nothing.
 
-use super::{BlockRule, Counts, Observation, Outlook, Spot};
+use super::{Counts, Observation, Outlook, Spot, holds_part};
 use crate::finding::{Detail, Rule, SmallRadius};
 use crate::geometry::{Point, Segment};
 use crate::program::path::{UM_IN_MM, is_tight, is_tight_in_four_b};
@@ -11,13 +11,7 @@ use crate::program::three_b::block::Motion;
 use crate::program::three_b::decode::decode;
 use crate::settings::SideSetting;
 
-pub(super) const RULE: BlockRule = BlockRule {
-    rule: Rule::SmallRadius,
-    check,
-    fixes: |_, _| Vec::new(),
-};
-
-fn check(outlook: &Outlook) -> Option<Observation> {
+pub(super) fn check(outlook: &Outlook) -> Option<Observation> {
     let turns_left = match outlook.block.motion {
         Motion::Line(_) => return None,
         Motion::Clockwise(_) => false,
@@ -26,9 +20,9 @@ fn check(outlook: &Outlook) -> Option<Observation> {
     let counts = match outlook.part {
         Some(part) if part.concave => Counts::Always,
         Some(_) => return None,
-        None if !outlook.limits.holds_part => return None,
+        None if !holds_part(outlook.settings) => return None,
         None if matches!(
-            outlook.limits.side,
+            outlook.settings.side,
             SideSetting::Opening | SideSetting::Punch
         ) =>
         {
@@ -42,7 +36,7 @@ fn check(outlook: &Outlook) -> Option<Observation> {
     } else {
         outlook.radius()
     };
-    let required = outlook.limits.correction * 1000.0;
+    let required = outlook.settings.correction * 1000.0;
     let is_tight = match outlook.part {
         Some(_) => is_tight_in_four_b(radius.round(), required),
         None => is_tight(radius, required),
@@ -54,7 +48,7 @@ fn check(outlook: &Outlook) -> Option<Observation> {
         return None;
     }
     let detail = SmallRadius {
-        pass: outlook.limits.pass,
+        pass: outlook.settings.pass,
         ..SmallRadius::of(&arc, radius, required, UM_IN_MM)
     };
     Some(Observation {

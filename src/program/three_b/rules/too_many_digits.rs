@@ -1,21 +1,15 @@
 //! `too-many-digits`: a number with more digits than the controller has.
 
 use super::projection::is_misfit;
-use super::{BlockRule, Observation, Outlook, Site, Spot, TextFix};
-use crate::finding::{Fault, FixKind, Rule};
+use super::{Observation, Outlook, Site, Spot, TextFix};
+use crate::finding::{Fault, FixKind};
 use crate::geometry::Point;
 use crate::program::three_b::block::Node;
 use crate::program::three_b::decode::{DecodeFault, decode, meant};
 use crate::program::three_b::encode::{encode, snap};
 use crate::program::three_b::layout::{layout_in, push_fields};
 
-pub(super) const RULE: BlockRule = BlockRule {
-    rule: Rule::TooManyDigits,
-    check,
-    fixes,
-};
-
-fn check(outlook: &Outlook) -> Option<Observation> {
+pub(super) fn check(outlook: &Outlook) -> Option<Observation> {
     let block = outlook.block;
     let numbers = [
         (Spot::J, "J", block.j),
@@ -24,13 +18,13 @@ fn check(outlook: &Outlook) -> Option<Observation> {
     ];
     let (spot, field, value) = numbers
         .into_iter()
-        .find(|(_, _, value)| *value > outlook.limits.largest())?;
+        .find(|(_, _, value)| *value > outlook.settings.largest_number())?;
     Some(Observation::at(
         spot,
         Fault::TooManyDigits {
             field,
             value,
-            digits: outlook.limits.digits,
+            digits: outlook.settings.digits,
         },
     ))
 }
@@ -38,7 +32,7 @@ fn check(outlook: &Outlook) -> Option<Observation> {
 /// The way in pieces that fit. Beyond this many the number is wrong, not just large.
 const MOST_PIECES: usize = 64;
 
-fn fixes(site: &Site, _: &Fault) -> Vec<TextFix> {
+pub(super) fn fixes(site: &Site) -> Vec<TextFix> {
     // Where J contradicts X and Y a digit is wrong, not the block too long.
     if decode(&site.block, Point::origin()) == Err(DecodeFault::WrongLength)
         || is_misfit(&site.block)

@@ -4,20 +4,14 @@
 //! nearer to the Y axis of its centre, Y where it lies nearer to the X axis. On the other axis, one µm of J is many µm
 //! of the way.
 
-use super::{ARC_TIE, BlockRule, Observation, Outlook, Site, Spot, TIE, TextFix};
+use super::{ARC_TIE, Observation, Outlook, Site, Spot, TIE, TextFix};
 use crate::finding::{Fault, Rule};
 use crate::geometry::{Point, Segment};
 use crate::program::three_b::block::{Block, Quadrant};
 use crate::program::three_b::decode::decode;
 use crate::program::three_b::encode::counted;
 
-pub(super) const RULE: BlockRule = BlockRule {
-    rule: Rule::WrongCountingAxis,
-    check,
-    fixes,
-};
-
-fn check(outlook: &Outlook) -> Option<Observation> {
+pub(super) fn check(outlook: &Outlook) -> Option<Observation> {
     let axis = outlook.block.axis;
     if outlook.is_line() {
         let Block { x, y, j, .. } = *outlook.block;
@@ -54,7 +48,7 @@ fn check(outlook: &Outlook) -> Option<Observation> {
     (along > across + ARC_TIE).then(|| Observation::at(Spot::Axis, fault()))
 }
 
-fn fixes(site: &Site, _: &Fault) -> Vec<TextFix> {
+pub(super) fn fixes(site: &Site) -> Vec<TextFix> {
     let axis = site.block.axis.other();
     let flipped = Block { axis, ..site.block };
     let with_j = |j: i64| Block { j, ..flipped };

@@ -4,17 +4,11 @@
 //! contour close decides.
 
 use super::projection::{Length, length};
-use super::{BlockRule, Counts, Observation, Outlook, Site, Spot, TextFix};
-use crate::finding::{Axis, Fault, Rule};
+use super::{Counts, Observation, Outlook, Site, Spot, TextFix};
+use crate::finding::{Axis, Fault};
 use crate::program::three_b::block::Block;
 
-pub(super) const RULE: BlockRule = BlockRule {
-    rule: Rule::WrongJ,
-    check,
-    fixes,
-};
-
-fn check(outlook: &Outlook) -> Option<Observation> {
+pub(super) fn check(outlook: &Outlook) -> Option<Observation> {
     let Block { x, y, j, .. } = *outlook.block;
     if !outlook.is_line() {
         return None;
@@ -41,7 +35,7 @@ fn check(outlook: &Outlook) -> Option<Observation> {
     })
 }
 
-fn fixes(site: &Site, _: &Fault) -> Vec<TextFix> {
+pub(super) fn fixes(site: &Site) -> Vec<TextFix> {
     let Block { x, y, j, .. } = site.block;
     let projection = x.max(y);
     let by_j = Block {

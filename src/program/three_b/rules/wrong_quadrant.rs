@@ -3,17 +3,11 @@
 //! +X is `L1`, +Y `L2`, −X `L3`, −Y `L4`. Since a zero has no sign, the other quadrant at the same half axis leads to
 //! the same place; it is an error only where Z alone gives the direction, or where the contour does not close.
 
-use super::{BlockRule, Counts, Observation, Outlook, Site, Spot, TextFix};
-use crate::finding::{Axis, Fault, Rule};
+use super::{Counts, Observation, Outlook, Site, Spot, TextFix};
+use crate::finding::{Axis, Fault};
 use crate::program::three_b::block::{Block, Motion, Quadrant};
 
-pub(super) const RULE: BlockRule = BlockRule {
-    rule: Rule::WrongQuadrant,
-    check,
-    fixes,
-};
-
-fn check(outlook: &Outlook) -> Option<Observation> {
+pub(super) fn check(outlook: &Outlook) -> Option<Observation> {
     let Motion::Line(quadrant) = outlook.block.motion else {
         return None;
     };
@@ -55,7 +49,7 @@ fn check(outlook: &Outlook) -> Option<Observation> {
     })
 }
 
-fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
+pub(super) fn fixes(site: &Site, fault: &Fault) -> Vec<TextFix> {
     let (Fault::AxisQuadrant { expected, .. } | Fault::UnusualQuadrant { expected, .. }) = fault
     else {
         return Vec::new();
