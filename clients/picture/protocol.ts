@@ -138,6 +138,10 @@ export type CorrectionSource = "default" | "client" | "file";
  * A level of settings, or what else says a value.
  */
 export type Origin = "default" | "client" | "file" | "config" | "option" | "drawing";
+/**
+ * Material between the faces that were measured, as of a punch, or room, as in an opening.
+ */
+export type FeatureKind = "outer" | "inner";
 
 /**
  * Params and result of each request.
@@ -198,6 +202,10 @@ export interface Methods {
   "wedm/generate": {
     params: Generate;
     result: Program;
+  };
+  "wedm/calibrate": {
+    params: Calibrate;
+    result: Calibrated;
   };
 }
 /**
@@ -1888,4 +1896,75 @@ export interface Program {
    */
   minutes?: number;
   warnings: Diagnostic[];
+}
+/**
+ * Params of `wedm/calibrate`; mm.
+ */
+export interface Calibrate {
+  measurements: Measured[];
+  /**
+   * With which the piece was cut, of each pass.
+   */
+  corrections: number[];
+  /**
+   * Without it no gap follows.
+   */
+  wireDiameter?: number;
+  /**
+   * Of a single measurement, 0.002 unless stated: 95 of 100 are nearer to the truth.
+   */
+  uncertainty?: number;
+}
+/**
+ * A size that was measured.
+ */
+export interface Measured {
+  /**
+   * Measurements of the same name are of the same feature; without one each is of its own.
+   */
+  feature?: string;
+  kind: FeatureKind;
+  /**
+   * After which it was measured, from 1; without it the last one.
+   */
+  pass?: number;
+  nominal: number;
+  measured: number;
+}
+/**
+ * Result of `wedm/calibrate`.
+ */
+export interface Calibrated {
+  /**
+   * The passes that were measured.
+   */
+  passes: CalibratedPass[];
+}
+/**
+ * Half of the kerf of a pass; mm.
+ */
+export interface CalibratedPass {
+  pass: number;
+  /**
+   * With which it was cut.
+   */
+  correction: number;
+  halfKerf: number;
+  /**
+   * At 95 % confidence.
+   */
+  uncertainty: number;
+  gap?: number;
+  /**
+   * The count of measured features.
+   */
+  features: number;
+  /**
+   * By the outer features alone.
+   */
+  outer?: number;
+  /**
+   * By the inner features alone.
+   */
+  inner?: number;
 }
