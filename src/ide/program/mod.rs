@@ -8,6 +8,7 @@ mod folding;
 mod hints;
 mod hover;
 mod iso;
+mod line_part;
 mod navigation;
 mod numbers;
 mod selection;

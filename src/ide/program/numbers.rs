@@ -1,6 +1,7 @@
 //! Block numbers: found, renamed.
 
-use super::words::{WordKind, words_of};
+use super::line_part::WordKind;
+use super::words::words_of;
 use crate::program::Document;
 use crate::text::TextEdit;
 use std::ops::Range;

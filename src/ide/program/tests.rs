@@ -1,4 +1,5 @@
-use super::words::{WordKind, words_of};
+use super::line_part::WordKind;
+use super::words::words_of;
 use super::*;
 use crate::ide::{CompletionKind, FoldKind, Symbol};
 use crate::program::{Document, Language, refactorings};
