@@ -48,12 +48,10 @@ pub(crate) fn named(
     limit: usize,
     stop: Stop<'_>,
 ) -> Result<Vec<Occurrence>, Stopped> {
-    if let Document::Iso(program) = document
-        && let Some(name) = iso::name_at(program, offset)
-    {
-        return iso::places(program, name, limit, stop).ok_or(Stopped);
+    match document {
+        Document::ThreeB(_) => Ok(Vec::new()),
+        Document::Iso(program) => iso::named(program, offset, limit, stop),
     }
-    Ok(Vec::new())
 }
 
 /// The form of the block that is written at a byte; `None` where there is none.

@@ -78,28 +78,15 @@ pub(crate) struct Arcs {
     stated: [u32; 3],
 }
 
-/// What speaks against each rule, in numbers of arcs.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-struct AgainstRules {
-    /// They do not fit.
-    off: [u32; 3],
-    /// Of a few micrometres, with a centre so far away that they would be lines: both ends of such an arc fit nearly any
-    /// centre.
-    far: [u32; 3],
-    /// They turn by more than a half: between rules that fit the ends equally well, the intended one turns less.
-    wide: [u32; 3],
-}
+/// What speaks against each rule, in numbers of arcs: they do not fit; they are of a few micrometres, with a centre so far
+/// away that they would be lines, as both ends of such an arc fit nearly any centre; they turn by more than a half, as
+/// between rules that fit the ends equally well, the intended one turns less.
+type AgainstRules = [[u32; 3]; 3];
 
-impl AgainstRules {
-    fn add(&mut self, other: &AgainstRules) {
-        let own = self
-            .off
-            .iter_mut()
-            .chain(&mut self.far)
-            .chain(&mut self.wide);
-        let its = other.off.iter().chain(&other.far).chain(&other.wide);
-        own.zip(its).for_each(|(count, more)| *count += more);
-    }
+fn add(own: &mut [u32], its: &[u32]) {
+    own.iter_mut()
+        .zip(its)
+        .for_each(|(count, more)| *count += more);
 }
 
 /// How many decimals the numbers with a point have.
@@ -144,33 +131,30 @@ impl Arcs {
         self.all += other.all;
         self.closed += other.closed;
         self.beside += other.beside;
-        let own = self.unclear.iter_mut().chain(&mut self.stated);
-        let its = other.unclear.iter().chain(&other.stated);
-        own.zip(its).for_each(|(count, more)| *count += more);
-        self.of_all.add(&other.of_all);
-        self.of_beside.add(&other.of_beside);
+        add(&mut self.unclear, &other.unclear);
+        add(&mut self.stated, &other.stated);
+        add(self.of_all.as_flattened_mut(), other.of_all.as_flattened());
+        add(
+            self.of_beside.as_flattened_mut(),
+            other.of_beside.as_flattened(),
+        );
     }
 
     /// What speaks against a rule: misfits, centres far away, wide turns. Among full circles, which fit under any rule,
     /// one or two that do not quite come back are slips, and tell nothing either.
-    fn against(&self, rule: usize) -> (u32, u32, u32) {
+    fn against(&self, rule: usize) -> [u32; 3] {
         let are_slips =
             self.beside <= SLIPS.min(self.closed) && self.closed + self.beside == self.all;
-        let (all, slips) = (&self.of_all, &self.of_beside);
-        let told = |all: u32, slips: u32| match are_slips {
-            true => all.saturating_sub(slips),
-            false => all,
+        let told = |kind: usize| match (self.of_all[kind][rule], self.of_beside[kind][rule]) {
+            (all, slips) if are_slips => all.saturating_sub(slips),
+            (all, _) => all,
         };
-        (
-            told(all.off[rule], slips.off[rule]),
-            told(all.far[rule], slips.far[rule]),
-            told(all.wide[rule], slips.wide[rule]),
-        )
+        std::array::from_fn(told)
     }
 
-    fn fit(&self, rule: usize) -> (u32, u32) {
-        let (off, far, _) = self.against(rule);
-        (off, far)
+    fn fit(&self, rule: usize) -> [u32; 2] {
+        let [off, far, _] = self.against(rule);
+        [off, far]
     }
 
     /// True where two rules fit equally many arcs, more than any other, and give different centres.
@@ -230,9 +214,8 @@ impl Evidence {
         self.fine += other.fine;
         self.inches += other.inches;
         self.units += other.units;
-        let own = self.places.iter_mut().chain(&mut self.ending_in_zero);
-        let its = other.places.iter().chain(&other.ending_in_zero);
-        own.zip(its).for_each(|(count, more)| *count += more);
+        add(&mut self.places, &other.places);
+        add(&mut self.ending_in_zero, &other.ending_in_zero);
         for (own, its) in self.arcs.iter_mut().zip(&other.arcs) {
             if let Some(its) = its {
                 own.get_or_insert_default().add(its);
@@ -305,20 +288,15 @@ impl Evidence {
         let about = |is: fn(&Move, Place) -> bool| {
             centers.map(|center| center.is_some_and(|center| is(arc, center)))
         };
-        let [misfits, far, wide] = [off, about(lies_far), about(turns_widely)]
+        let own: AgainstRules = [off, about(lies_far), about(turns_widely)]
             .map(|are| std::array::from_fn(|rule| u32::from(rule < compared && are[rule])));
-        let own = AgainstRules {
-            off: misfits,
-            far,
-            wide,
-        };
-        arcs.of_all.add(&own);
+        add(arcs.of_all.as_flattened_mut(), own.as_flattened());
         let mut compared_centers = centers[..compared].iter().flatten();
         if arc.from == arc.to {
             arcs.closed += 1;
         } else if compared_centers.all(|center| ends_beside(arc, *center)) {
             arcs.beside += 1;
-            arcs.of_beside.add(&own);
+            add(arcs.of_beside.as_flattened_mut(), own.as_flattened());
         }
         for (count, (a, b)) in arcs.unclear.iter_mut().zip(PAIRS) {
             *count += u32::from(b < compared && !off[a] && !off[b] && centers[a] != centers[b]);

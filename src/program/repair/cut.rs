@@ -86,25 +86,16 @@ impl Against {
         self.unread + self.unsound + self.off + self.out_of_turn + usize::from(self.is_open)
     }
 
-    fn less(self, other: Against) -> Against {
-        let less = usize::wrapping_sub;
+    /// With what contradicts some pieces in the place of what had contradicted others; nothing of its closing.
+    fn changed(self, had: Against, is: Against) -> Against {
+        let now =
+            |of: fn(&Against) -> usize| of(&self).wrapping_sub(of(&had)).wrapping_add(of(&is));
         Against {
-            unread: less(self.unread, other.unread),
-            unsound: less(self.unsound, other.unsound),
-            off: less(self.off, other.off),
-            out_of_turn: less(self.out_of_turn, other.out_of_turn),
+            unread: now(|own| own.unread),
+            unsound: now(|own| own.unsound),
+            off: now(|own| own.off),
+            out_of_turn: now(|own| own.out_of_turn),
             is_open: false,
-        }
-    }
-
-    fn plus(self, other: Against) -> Against {
-        let plus = usize::wrapping_add;
-        Against {
-            unread: plus(self.unread, other.unread),
-            unsound: plus(self.unsound, other.unsound),
-            off: plus(self.off, other.off),
-            out_of_turn: plus(self.out_of_turn, other.out_of_turn),
-            is_open: self.is_open || other.is_open,
         }
     }
 }
@@ -205,7 +196,7 @@ impl Pieces {
         let new = self.part_with(first..last, index, count, pieces);
         let is = self.against_within(first, &new);
         let had = self.against_within(first, own);
-        was.less(had).plus(is)
+        was.changed(had, is)
     }
 
     /// What contradicts some pieces, the first of which stands at `index`.

@@ -15,7 +15,7 @@ mod vocabulary;
 pub(super) use completion::completions;
 pub(super) use matching::partner;
 pub(super) use meaning::meaning;
-pub(super) use names::{name_at, places};
+pub(super) use names::named;
 pub(super) use signature::signature;
 
 use super::line_part::{LinePart, WordKind};

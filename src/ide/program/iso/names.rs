@@ -2,7 +2,7 @@
 //! is used.
 
 use super::at_byte;
-use crate::ide::occurrence::{Occurrence, Role};
+use crate::ide::occurrence::{Occurrence, Role, Stop, Stopped};
 use crate::program::iso::block::read_line;
 use crate::program::iso::document::Document;
 use crate::program::iso::plain::words;
@@ -15,7 +15,7 @@ const HEAD: usize = 10_000;
 
 /// A name that something in a program has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::ide::program) enum Name {
+enum Name {
     /// A line, `N12` or `O12`, which `M98 P12` calls.
     Line(u32),
     /// A row of a table: `H1 = .0085`, `C001 = ON 8 …`, `E1 = …`; `H1`, `C001` and `E1` choose it.
@@ -38,7 +38,7 @@ impl Name {
 }
 
 /// The name at a byte.
-pub(in crate::ide::program) fn name_at(document: &Document, offset: usize) -> Option<Name> {
+fn name_at(document: &Document, offset: usize) -> Option<Name> {
     let text = document.text();
     let line = text.line_of(offset);
     let mut names = Vec::new();
@@ -48,19 +48,21 @@ pub(in crate::ide::program) fn name_at(document: &Document, offset: usize) -> Op
     Some(at_byte(names, offset)?.0)
 }
 
-/// Every place of a name, in the order of the text, at most `limit`; `None` when the answer is no
-/// longer wanted.
-pub(in crate::ide::program) fn places(
+/// Every place of the name at a byte, in the order of the text, at most `limit`.
+pub(in crate::ide::program) fn named(
     document: &Document,
-    wanted: Name,
+    offset: usize,
     limit: usize,
-    stop: &dyn Fn() -> bool,
-) -> Option<Vec<Occurrence>> {
+    stop: Stop<'_>,
+) -> Result<Vec<Occurrence>, Stopped> {
+    let Some(wanted) = name_at(document, offset) else {
+        return Ok(Vec::new());
+    };
     let text = document.text();
     let mut found = Vec::new();
     for line in 0..text.line_count() {
         if line % 4096 == 0 && stop() {
-            return None;
+            return Err(Stopped);
         }
         let bytes = text.line(line);
         if wanted.is_in(bytes) {
@@ -71,7 +73,7 @@ pub(in crate::ide::program) fn places(
             });
         }
     }
-    Some(found)
+    Ok(found)
 }
 
 /// The line that defines a row of a table, from 0.

@@ -23,8 +23,8 @@ fn every_word_says_what_it_means() {
     fn check(text: &str, expected: &str) {
         let start = text.find('|').unwrap();
         let document = Document::read(text.replacen('|', "", 1).into_bytes());
-        let said = document.meaning(start..text.len() - 1).unwrap_or_default();
-        let word = document.meaning(start..start + 1).unwrap_or(said);
+        let said = meaning(&document, start..text.len() - 1).unwrap_or_default();
+        let word = meaning(&document, start..start + 1).unwrap_or(said);
         assert!(word.contains(expected), "{text}: {word}");
     }
     check("|G01 X1.5", "cuts along a straight line");
@@ -69,13 +69,13 @@ fn every_word_says_what_it_means() {
     check("|#1=5", "depends on the machine");
     check("|%\n", "on tape");
     let document = Document::read(b"(only a comment)".to_vec());
-    assert_eq!(document.meaning(0..16), None);
+    assert_eq!(meaning(&document, 0..16), None);
 }
 
 #[track_caller]
 fn offers(text: &str, settings: &Effective, expected: &[(&str, &str)]) -> Vec<String> {
     let (document, offset) = at_cursor(text, settings);
-    let found = document.completions(offset);
+    let found = completions(&document, offset);
     for (label, about) in expected {
         assert!(
             found
@@ -229,7 +229,7 @@ fn the_form_of_a_block_shows_where_the_cursor_is() {
     #[track_caller]
     fn check(text: &str, expected: Option<(&str, &str, &str)>) {
         let (document, offset) = at_cursor(text, &Effective::default());
-        let found = document.signature(offset);
+        let found = signature(&document, offset);
         let found = found.map(|found| {
             (
                 found.label,
@@ -271,7 +271,7 @@ fn words_that_belong_together_are_found_from_both_ends() {
     #[track_caller]
     fn check(text: &str, expected: Option<&str>) {
         let (document, offset) = at_cursor(text, &Effective::default());
-        let found = document.partner(offset).map(|(_, other)| {
+        let found = partner(&document, offset).map(|(_, other)| {
             let line = document.text().line_of(other.start);
             format!(
                 "{}:{}",
@@ -296,7 +296,7 @@ fn what_a_program_names_is_found_wherever_it_stands() {
     #[track_caller]
     fn check(text: &str, expected: &str) {
         let (document, offset) = at_cursor(text, &Effective::default());
-        let found = document.named(offset, 100, &|| false).unwrap();
+        let found = named(&document, offset, 100, &|| false).unwrap();
         let told = found.into_iter().map(|place| {
             let (source, role) = (document.text(), place.role);
             let line = source.line_of(place.range.start) + 1;
@@ -322,16 +322,18 @@ fn what_a_program_names_is_found_wherever_it_stands() {
     check("G01 |X5.\n", "");
     check("|(N5)\n", "");
     let (document, offset) = at_cursor("|N1 G01 X5.\n", &Effective::default());
-    assert!(document.named(offset, 100, &|| true).is_err(), "stopped");
+    assert!(named(&document, offset, 100, &|| true).is_err(), "stopped");
 }
 
 #[test]
 fn a_row_of_a_table_is_shown_where_it_is_chosen() {
     let document = Document::read(b"C001 = ON 8 OFF 12\nG01 X1.\nC001\nC002\n".to_vec());
     let said = |line| {
-        document
-            .meaning(document.text().line_start(line)..document.text().line_start(line) + 4)
-            .unwrap()
+        meaning(
+            &document,
+            document.text().line_start(line)..document.text().line_start(line) + 4,
+        )
+        .unwrap()
     };
     assert!(
         said(2).contains("line 1") && said(2).contains("`C001 = ON 8 OFF 12`"),
