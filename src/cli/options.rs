@@ -24,6 +24,7 @@ const GROUPS: [(&str, &str, &[&str]); 9] = [
             "start-hole",
             "tab",
             "order",
+            "common-line",
             "layout",
             "compensation",
             "digits",
@@ -203,6 +204,7 @@ impl<const GROUP: usize> Args for Keys<GROUP> {
                 "numbers" => "MM,MM",
                 "point_setting" => "X,Y",
                 "whole" => "N",
+                "truth" => "true|false",
                 "word" => "WORD",
                 "label" => "TEXT",
                 _ => "NAME",
@@ -354,7 +356,7 @@ mod tests {
     #[test]
     fn every_option_is_a_key_of_the_settings() {
         let all = (0..GROUPS.len()).flat_map(options);
-        assert_eq!(all.filter(|(_, row)| row.words.is_empty()).count(), 33);
+        assert_eq!(all.filter(|(_, row)| row.words.is_empty()).count(), 34);
         assert_eq!(row("program.corner").words, ["arc", "intersection"]);
     }
 }
