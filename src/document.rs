@@ -286,7 +286,12 @@ impl Document {
                 let pieces = outline.contour.pieces.iter();
                 pieces.map(move |piece| (piece.entity, number))
             });
-            pieces.collect()
+            let mut numbers = FxHashMap::default();
+            // A common line has its edge from a part that is in the contour before it.
+            pieces.for_each(|(entity, number)| {
+                numbers.entry(entity).or_insert(number);
+            });
+            numbers
         });
         numbers.get(&entity).copied()
     }

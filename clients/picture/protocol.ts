@@ -670,6 +670,10 @@ export interface ProgramSettings {
    */
   order?: Order;
   /**
+   * Whether parts that share an edge are cut apart by one cut on that edge, where each then is smaller by half the kerf: parts that share an edge. Else such an edge is an error.
+   */
+  commonLine?: boolean;
+  /**
    * What comes between the contours of one program.
    */
   jumps?: Jumps;

@@ -1,6 +1,7 @@
 //! The contours of a drawing in machining order, with their roles.
 
 use super::Analysis;
+use super::common_line::CommonLines;
 use super::suppressed::own_role;
 use crate::drawing::{
     Contour, ContourKey, Drawing, EntityId, Outline, Role, is_drafting_layer, is_drafting_linetype,
@@ -13,9 +14,28 @@ use rustc_hash::FxHashMap;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+/// The contours of a drawing as they are cut.
+#[derive(Clone, Debug)]
+pub(super) struct Outlined {
+    outlines: Arc<Vec<Outline>>,
+    common_lines: Arc<CommonLines>,
+}
+
 impl Analysis {
     /// Contours with their roles, in machining order. Cheap to keep as a snapshot.
     pub fn outlines(&self, drawing: &Drawing) -> &Arc<Vec<Outline>> {
+        &self.outlined(drawing).outlines
+    }
+
+    /// What is said of edges that parts share.
+    pub(super) fn common_lines(&self, drawing: &Drawing) -> Arc<CommonLines> {
+        match self.settings.common_line {
+            true => self.outlined(drawing).common_lines.clone(),
+            false => Arc::default(),
+        }
+    }
+
+    fn outlined(&self, drawing: &Drawing) -> &Outlined {
         self.outlines.get_or_init(|| {
             let ordered = self.in_machining_order(drawing);
             let roles = self.roles(drawing, ordered);
@@ -35,7 +55,11 @@ impl Analysis {
             let outlines = ordered.iter().copied().zip(roles).filter_map(outline);
             let mut outlines: Vec<Outline> = outlines.collect();
             self.mark_doubles(drawing, &mut outlines);
-            Arc::new(outlines)
+            let (outlines, common_lines) = self.with_common_lines(drawing, outlines);
+            Outlined {
+                outlines: Arc::new(outlines),
+                common_lines: Arc::new(common_lines),
+            }
         })
     }
 

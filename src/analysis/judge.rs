@@ -1,5 +1,6 @@
 //! All findings of a drawing, put together from the observations for each report.
 
+use super::common_line::CommonLines;
 use super::notable::{Counted, Kind, Notability, Sums, TightArc};
 use super::report::{Report, Tally};
 use super::{Analysis, electrode, together};
@@ -101,12 +102,14 @@ impl Analysis {
         };
         let side_of =
             |analysis: &Analysis, key: ContourKey| analysis.wire_side(key, role_of(analysis, key));
-        self.report_notable(drawing, &side_of, &mut report);
+        let common_lines = self.common_lines(drawing);
+        self.report_notable(drawing, &side_of, &common_lines, &mut report);
         self.report_size(drawing, &mut report);
         self.pairs.report(
             drawing,
             &|key| self.outlook(drawing, key),
             &|key| side_of(self, key),
+            &common_lines,
             &mut report,
         );
         self.report_fits(drawing, &mut report);
@@ -133,7 +136,9 @@ impl Analysis {
         if report.shows_findings() {
             of_job.extend(electrode::faults(drawing, self.segments, &self.settings));
         }
-        let has_lines = self.stated > 0 && self.known.values().any(|known| known.is_on_line());
+        of_job.extend(common_lines.findings.iter().cloned());
+        let is_stated = self.stated > 0 && self.known.values().any(|known| known.is_on_line());
+        let has_lines = is_stated || !common_lines.is_empty();
         let is_small = self.segments <= toolpath::MOST_SEGMENTS_OF_MISFITS;
         if has_lines && is_small && report.shows_findings() {
             let outlines = self.outlines(drawing).clone();
@@ -157,6 +162,7 @@ impl Analysis {
         &mut self,
         drawing: &Drawing,
         side_of: &dyn Fn(&Analysis, ContourKey) -> Option<Side>,
+        common_lines: &CommonLines,
         report: &mut Report,
     ) {
         let mut notable = std::mem::take(&mut self.notable);
@@ -166,7 +172,7 @@ impl Analysis {
         let mut sums = Sums::default();
         let mut told: Vec<(ContourKey, EntityId, &Counted)> = Vec::new();
         for (&key, notable) in &mut notable {
-            if Some(key) == suspended {
+            if Some(key) == suspended || common_lines.divides(notable.first) {
                 continue;
             }
             let side = side_of(self, key);

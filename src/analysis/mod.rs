@@ -2,6 +2,7 @@
 
 mod again;
 mod arcs;
+mod common_line;
 mod compare;
 mod contours;
 mod dead_ends;
@@ -44,15 +45,13 @@ pub(crate) use contours::is_cut;
 pub use largest_wire::{largest_wire, work};
 pub use radius_prices::{RadiusPrices, ShopWire, TightPlace, price_of_segment, radius_prices};
 
-use crate::drawing::{
-    Chains, Contour, ContourKey, Delta, Drawing, EntityId, Outline, RUN, Touched,
-};
+use crate::drawing::{Chains, Contour, ContourKey, Delta, Drawing, EntityId, RUN, Touched};
 use crate::finding::{Finding, NoFix};
 use crate::geometry::Bounds;
 use crate::rules::{Limits, Outlook};
 use crate::settings::Effective;
 use crate::toolpath::Walls;
-use contours::set_aside;
+use contours::{Outlined, set_aside};
 use drafting::{AsideEntities, LoneLines};
 use fitting::Fitting;
 use known::Known;
@@ -106,7 +105,7 @@ pub struct Analysis {
     /// Which contours run beside each other, each time the smaller one first.
     beside: FxHashSet<[ContourKey; 2]>,
     order: OnceLock<Vec<ContourKey>>,
-    outlines: OnceLock<Arc<Vec<Outline>>>,
+    outlines: OnceLock<Outlined>,
     /// All findings, once they have been asked for.
     tally: OnceLock<Tally>,
     /// How well pairs fit, once that has been asked for.

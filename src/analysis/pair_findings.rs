@@ -1,5 +1,6 @@
 //! The observations between segments, as findings and for rules that derive findings from them.
 
+use super::common_line::CommonLines;
 use super::compare::{Observed, Outlooks, SegmentId};
 use super::pairs::Pairs;
 use super::report::Report;
@@ -11,7 +12,7 @@ use super::twice::Twice;
 use crate::drawing::{ContourKey, Drawing, EntityId};
 use crate::finding::{Detail, NotJudged, Place, Rule, Severity, Side};
 use crate::geometry::Point;
-use crate::rules::{PAIR_RULES, Wall};
+use crate::rules::{Outlook, PAIR_RULES, Wall};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Two segments of a contour that form a slot, and the disc between them.
@@ -94,9 +95,10 @@ impl Pairs {
         drawing: &Drawing,
         outlook: Outlooks,
         wire_side: &dyn Fn(ContourKey) -> Option<Side>,
+        common_lines: &CommonLines,
         report: &mut Report,
     ) {
-        let told = self.tell(drawing, outlook, wire_side, report);
+        let told = self.tell(drawing, outlook, wire_side, common_lines, report);
         if !self.uncompared.is_empty()
             && report.counts(Rule::NotJudged, None)
             && let Some(place) = self.first_uncompared(drawing, outlook)
@@ -167,6 +169,7 @@ impl Pairs {
         drawing: &Drawing,
         outlook: Outlooks,
         wire_side: &dyn Fn(ContourKey) -> Option<Side>,
+        common_lines: &CommonLines,
         report: &Report,
     ) -> PairFindings {
         let mut sides = FxHashMap::default();
@@ -181,6 +184,7 @@ impl Pairs {
             open_is_an_error: report.open_is_an_error(),
         };
         let mut seen = telling.seen(self.seen.told());
+        seen.retain(|it| !telling.is_of_common_line(it, common_lines));
         let twice = Twice::among(drawing, outlook, seen.iter().map(|it| it.each));
         seen.retain(|it| !twice.are_one(it.each.one.0, it.each.other.0));
         let rank = |(entity, segment): (EntityId, usize)| (drawing.rank(entity), segment);
@@ -340,6 +344,46 @@ impl Telling<'_, '_> {
             }
         }
         seen
+    }
+
+    /// What is said by a common line: that parts share an edge, touch at its ends, and that a line between them ends on the outline.
+    fn is_of_common_line(&self, it: &Seen, common_lines: &CommonLines) -> bool {
+        let keys = [it.each.one.0, it.each.other.0];
+        let entities = [it.one.0, it.other.0];
+        if keys[0] == keys[1] || !common_lines.are_of_one_block(entities[0], entities[1]) {
+            return false;
+        }
+        if entities.iter().any(|entity| common_lines.divides(*entity)) {
+            return matches!(
+                it.rule(),
+                Rule::NarrowSlot | Rule::Overlap | Rule::SelfIntersection
+            );
+        }
+        match it.rule() {
+            Rule::NarrowSlot => is_without_room(it.each),
+            Rule::Overlap => true,
+            Rule::SelfIntersection => {
+                let [own, theirs] = keys.map(self.outlook);
+                let walls = own.as_ref().zip(theirs.as_ref()).and_then(|(own, theirs)| {
+                    let one = Wall::new(own, it.each.one.1)?;
+                    Some((one, Wall::new(theirs, it.each.other.1)?))
+                });
+                let detail = |(one, other): (Wall, Wall)| {
+                    (PAIR_RULES[it.each.rule].detail)(&one, &other, false)
+                };
+                let near = |own: &Outlook| 2.0 * own.limits.tolerances.same_place;
+                match (walls.and_then(detail), own.as_ref().map(near)) {
+                    (
+                        Some(Detail::SelfIntersection {
+                            touches: true, at, ..
+                        }),
+                        Some(near),
+                    ) => common_lines.ends_at(at, near),
+                    _ => false,
+                }
+            }
+            _ => false,
+        }
     }
 
     /// Which of the two contours are reported as open: those without a side that are not drawn twice as a whole.

@@ -4,7 +4,7 @@
 use super::Analysis;
 use super::known::Known;
 use super::report::Report;
-use crate::drawing::{Contour, ContourKey, Drawing, are_twins, twins, winding};
+use crate::drawing::{Contour, ContourKey, Drawing, are_twins, lies_within, twins};
 use crate::finding::{Detail, Place, Rule, Severity, Side};
 use crate::settings::SideSetting;
 
@@ -39,15 +39,16 @@ impl Analysis {
         let closed: Vec<(&Contour, &Known, bool)> = closed.collect();
         let same_place = self.limits.tolerances.same_place;
         let within = |&(inner, known, is_punch): &(&Contour, &Known, bool)| {
-            let first = inner.segment(drawing, 0).filter(|_| is_punch)?;
-            let point = first.geometry.point_at(0.5);
+            if !is_punch {
+                return None;
+            }
             let own = known.index.bounds();
             let holds = |(outer, other, _): &&(&Contour, &Known, bool)| {
                 let bounds = other.index.bounds();
                 other.part == known.part
                     && bounds != own
                     && bounds.merged(&own) == bounds
-                    && winding(drawing, outer, point) != 0
+                    && lies_within(drawing, inner, outer)
                     && !are_twins(drawing, (outer, &bounds), (inner, &own), same_place)
             };
             let area = |(_, known, _): &&(&Contour, &Known, bool)| known.index.twice_area().abs();

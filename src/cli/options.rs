@@ -37,6 +37,7 @@ const GROUPS: [(&str, &str, &[&str]); 8] = [
             "start-hole",
             "tab",
             "order",
+            "common-line",
             "layout",
             "compensation",
             "digits",
@@ -197,6 +198,7 @@ impl<const GROUP: usize> Args for Keys<GROUP> {
                 "numbers" => "MM,MM",
                 "point_setting" => "X,Y",
                 "whole" => "N",
+                "truth" => "true|false",
                 "word" => "WORD",
                 "label" => "TEXT",
                 _ => "NAME",
@@ -348,7 +350,7 @@ mod tests {
     #[test]
     fn every_option_is_a_key_of_the_settings() {
         let all = (0..GROUPS.len()).flat_map(options);
-        assert_eq!(all.filter(|(_, row)| row.words.is_empty()).count(), 35);
+        assert_eq!(all.filter(|(_, row)| row.words.is_empty()).count(), 36);
         assert_eq!(row("program.corner").words, ["arc", "intersection"]);
     }
 }

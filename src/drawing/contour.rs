@@ -4,6 +4,7 @@ use super::crumbs::{LeftOut, left_out};
 use super::{Drawing, EntityId, Geometry};
 use crate::geometry::{Bounds, Point, Segment};
 use std::ops::Range;
+use std::sync::Arc;
 
 /// One entity of a contour, in its direction of travel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,6 +51,8 @@ pub struct Contour {
     pub(crate) double_of: Option<EntityId>,
     /// Segments of the entities that are no part of it, in the order of the pieces.
     left_out: Vec<LeftOut>,
+    /// Its segments, where it is composed of parts of other contours: its pieces then only name the entities.
+    parts: Option<Arc<[ContourSegment]>>,
 }
 
 /// A segment of a contour and where it comes from.
@@ -61,6 +64,17 @@ pub struct ContourSegment {
     pub(crate) reversed: bool,
     /// In the contour's direction of travel.
     pub geometry: Segment,
+}
+
+impl ContourSegment {
+    /// The same in the other direction of travel.
+    pub(crate) fn turned(&self) -> ContourSegment {
+        ContourSegment {
+            reversed: !self.reversed,
+            geometry: self.geometry.reversed(),
+            ..*self
+        }
+    }
 }
 
 impl Contour {
@@ -112,6 +126,31 @@ impl Contour {
         contour
     }
 
+    /// A contour of parts of others, which hold these entities.
+    pub(crate) fn composed(
+        entities: impl IntoIterator<Item = EntityId>,
+        parts: Vec<ContourSegment>,
+        closed: bool,
+    ) -> Contour {
+        let piece = |entity| Piece {
+            entity,
+            reversed: false,
+            first: 0,
+            count: 0,
+        };
+        Contour {
+            pieces: entities.into_iter().map(piece).collect(),
+            closed,
+            parts: Some(parts.into()),
+            ..Contour::default()
+        }
+    }
+
+    /// Whether it is composed of parts of others.
+    pub(crate) fn is_composed(&self) -> bool {
+        self.parts.is_some()
+    }
+
     /// Whether segments of its entities are no part of it.
     pub(crate) fn leaves_out(&self) -> bool {
         !self.left_out.is_empty()
@@ -137,11 +176,17 @@ impl Contour {
 
     /// Number of segments.
     pub(crate) fn len(&self) -> usize {
-        self.pieces.last().map_or(0, |piece| piece.range().end)
+        match &self.parts {
+            Some(parts) => parts.len(),
+            None => self.pieces.last().map_or(0, |piece| piece.range().end),
+        }
     }
 
     /// Segment `index` in the direction of travel, `None` past the end.
     pub(crate) fn segment(&self, drawing: &Drawing, index: usize) -> Option<ContourSegment> {
+        if let Some(parts) = &self.parts {
+            return parts.get(index).copied();
+        }
         let (place, piece) = self.piece_of(index)?;
         segment_of(
             (piece, self.left_out_of(place)),
@@ -164,6 +209,10 @@ impl Contour {
         index: usize,
         geometry: Segment,
     ) -> Option<ContourSegment> {
+        if let Some(parts) = &self.parts {
+            let part = *parts.get(index)?;
+            return Some(ContourSegment { geometry, ..part });
+        }
         let (entity, segment) = self.segment_id(drawing, index)?;
         Some(ContourSegment {
             entity,
@@ -181,6 +230,9 @@ impl Contour {
 
     /// The entity of segment `index`, and the segment in there: without its geometry.
     pub(crate) fn segment_id(&self, drawing: &Drawing, index: usize) -> Option<(EntityId, usize)> {
+        if let Some(parts) = &self.parts {
+            return parts.get(index).map(|part| (part.entity, part.segment));
+        }
         let (place, piece) = self.piece_of(index)?;
         let nth = piece.turned(index - piece.first())?;
         let segment = LeftOut::segment(self.left_out_of(place), nth);
@@ -202,20 +254,22 @@ impl Contour {
         drawing: &'a Drawing,
         range: Range<usize>,
     ) -> impl Iterator<Item = ContourSegment> + 'a {
-        let first = self
-            .pieces
-            .partition_point(|piece| piece.range().end <= range.start);
+        let parts = self.parts.as_deref();
+        let of_parts = parts.map(|parts| parts.get(range.clone()).unwrap_or_default());
+        let pieces = parts.map_or(&self.pieces[..], |_| &[]);
+        let first = pieces.partition_point(|piece| piece.range().end <= range.start);
         let flat = drawing.flat();
         let pieces = (first..)
-            .zip(self.pieces.get(first..).unwrap_or_default())
+            .zip(pieces.get(first..).unwrap_or_default())
             .take_while(move |(_, piece)| piece.first() < range.end);
-        pieces.flat_map(move |(place, piece)| {
+        let of_pieces = pieces.flat_map(move |(place, piece)| {
             let left_out = self.left_out_of(place);
             let geometry = drawing.get(piece.entity).map(|entity| &entity.geometry);
             let along = range.start.saturating_sub(piece.first())
                 ..range.end.min(piece.range().end) - piece.first();
             along.filter_map(move |along| segment_of((piece, left_out), geometry?, along, flat))
-        })
+        });
+        of_parts.into_iter().flatten().copied().chain(of_pieces)
     }
 
     /// Twice the signed area, arcs included, positive counter-clockwise; meaningful for a closed contour.
@@ -251,11 +305,13 @@ impl Contour {
         let last = self.pieces.len().saturating_sub(1);
         let mut left_out: Vec<LeftOut> = self.left_out.iter().map(|it| it.turned(last)).collect();
         left_out.sort_unstable_by_key(LeftOut::place);
+        let parts = self.parts.as_deref();
         Contour {
             pieces: pieces.collect(),
             closed: self.closed,
             double_of: self.double_of,
             left_out,
+            parts: parts.map(|parts| parts.iter().rev().map(ContourSegment::turned).collect()),
         }
     }
 }

@@ -43,7 +43,7 @@ pub(crate) use handle::Handle;
 pub(crate) use index::ContourIndex;
 pub(crate) use index::RUN;
 pub use kind::Kind;
-pub(crate) use nesting::{nesting_depths, turns_about, winding, winding_of};
+pub(crate) use nesting::{lies_within, nesting_depths, turns_about, winding, winding_of};
 pub use outline::Outline;
 pub(crate) use outline::wire_side;
 pub(crate) use twins::{are_twins, twins};

@@ -2,16 +2,18 @@
 
 use super::twins::{firsts, twins};
 use super::{Contour, Drawing};
-use crate::geometry::{Bounds, Grid, Point, Segment, cross, turn};
-use std::f64::consts::TAU;
+use crate::geometry::{Bounds, Grid, Point, Segment, turn};
+use std::f64::consts::{PI, TAU};
+
+/// A point from which a line looks nearly as long as a half turn, radians, lies on it: which side it is on, rounding decides.
+const ON_A_WALL: f64 = 1e-3;
 
 /// For each closed contour, the number of others that hold it: 0 for the outermost. Open contours have depth 0 and hold
 /// nothing. Each contour is given with its box.
 ///
 /// One that lies within `tolerance` of another everywhere is the same outline drawn again: the two count once, and have
-/// one depth. A contour lies within another when its first point does; where the two touch in just that point, either
-/// answer is possible. Costs the number of boxes about each first point, and of the segments of their
-/// contours.
+/// one depth. A contour lies within another when the middle of its first segment does, or of the next one that does not lie on a straight
+/// wall of the other. Costs the number of boxes about each first point, and of the segments of their contours.
 pub(crate) fn nesting_depths(
     drawing: &Drawing,
     contours: &[(&Contour, Bounds)],
@@ -42,13 +44,34 @@ pub(crate) fn nesting_depths(
             let holds_box = theirs.merged(own) == *theirs && theirs != own;
             let is_drawn_again = firsts[outer] != outer || outer == firsts[inner];
             depth += usize::from(
-                holds_box && !is_drawn_again && winding(drawing, contours[outer].0, point) != 0,
+                holds_box && !is_drawn_again && lies_within(drawing, contour, contours[outer].0),
             );
         });
         depth
     };
     let depths: Vec<usize> = (0..contours.len()).map(depth).collect();
     firsts.into_iter().map(|first| depths[first]).collect()
+}
+
+/// Whether a contour lies within a closed one that it does not cross.
+pub(crate) fn lies_within(drawing: &Drawing, inner: &Contour, outer: &Contour) -> bool {
+    let is_on_wall = |point: &Point| {
+        let mut walls = outer.segments(drawing).map(|wall| wall.geometry);
+        walls.any(|wall| match wall {
+            Segment::Line(wall) => {
+                turn(wall.start - point, wall.end - point).abs() > PI - ON_A_WALL
+            }
+            Segment::Arc(_) => false,
+        })
+    };
+    let mut middles = inner.segments(drawing).map(|it| it.geometry.point_at(0.5));
+    let Some(first) = middles.next() else {
+        return false;
+    };
+    let clear = std::iter::once(first)
+        .chain(middles)
+        .find(|it| !is_on_wall(it));
+    winding(drawing, outer, clear.unwrap_or(first)) != 0
 }
 
 /// The winding number of a closed contour about `point`, positive counter-clockwise; undefined on the contour itself.
@@ -71,14 +94,12 @@ pub(crate) fn turns_about(segments: impl Iterator<Item = Segment>, point: Point)
     let mut caps = 0;
     for segment in segments {
         let (start, end) = (segment.start(), segment.end());
-        angle += turn(start - point, end - point);
+        let turned = turn(start - point, end - point);
+        angle += turned;
         if let Segment::Arc(arc) = segment {
-            // Between chord and arc the arc goes round the point and the chord does not.
-            let beyond_chord = if start == end {
-                true
-            } else {
-                cross(end - start, point - start) * arc.sweep < 0.0
-            };
+            // Between chord and arc the arc goes round the point and the chord does not. A point on the chord lies on the side to which it
+            // has been turned.
+            let beyond_chord = start == end || turned * arc.sweep < 0.0;
             if beyond_chord && (point - arc.center).norm() < arc.radius {
                 caps += arc.sweep.signum() as i64;
             }

@@ -35,16 +35,25 @@ pub(crate) fn facing(a: &Segment, b: &Segment) -> Facing {
 }
 
 /// The length over which two segments of one kind coincide within `tolerance`, measured along `a`.
-///
-/// The stretch lies between the feet of the ends; all of it must lie within the tolerance.
 pub(crate) fn shared_length(a: &Segment, b: &Segment, tolerance: f64) -> f64 {
+    let length = a.length();
+    let shared = shared_stretches(a, b, tolerance);
+    shared
+        .into_iter()
+        .map(|[from, to]| (to - from) * length)
+        .sum()
+}
+
+/// The stretches over which two segments of one kind coincide within `tolerance`, as shares of `a`.
+///
+/// Each lies between the feet of the ends; all of it must lie within the tolerance.
+pub(crate) fn shared_stretches(a: &Segment, b: &Segment, tolerance: f64) -> Few<[f64; 2], 3> {
     if std::mem::discriminant(a) != std::mem::discriminant(b) {
-        return 0.0;
+        return Few::default();
     }
     let foot = |point: Point| a.share_of(point).clamp(0.0, 1.0);
     let mut cuts = [0.0, foot(b.start()), foot(b.end()), 1.0];
     cuts.sort_by(f64::total_cmp);
-    let length = a.length();
     let lies_on = |share: f64| b.distance_to(a.point_at(share)) <= tolerance;
     let stretches = cuts.windows(2).filter(|cut| cut[1] > cut[0]);
     let shared = stretches.filter(|cut| {
@@ -52,7 +61,7 @@ pub(crate) fn shared_length(a: &Segment, b: &Segment, tolerance: f64) -> f64 {
             .iter()
             .all(|t| lies_on(cut[0] + (cut[1] - cut[0]) * t))
     });
-    shared.map(|cut| (cut[1] - cut[0]) * length).sum()
+    shared.map(|cut| [cut[0], cut[1]]).collect()
 }
 
 /// Curvature of a segment at a point of it: positive where its centre lies in the direction `toward`.

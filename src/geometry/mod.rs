@@ -22,7 +22,9 @@ mod spline;
 mod tolerances;
 mod xy;
 
-pub(crate) use approach::{curvature, facing, foot_inside, meetings, reached, shared_length};
+pub(crate) use approach::{
+    curvature, facing, foot_inside, meetings, reached, shared_length, shared_stretches,
+};
 pub use arc::Arc;
 pub(crate) use arc::equally_far;
 pub(crate) use biarc::{Chain, Curve, Unfit, fit};

@@ -79,6 +79,7 @@ const MEANINGS: &[(&str, &str)] = &[
     ("program.order = inside-first", "按画出或选取的次序；做不到时，逐个处理最外面的轮廓，其中最里面的先切。"),
     ("program.order = nearest", "从每个轮廓到穿丝孔最近的下一个。"),
     ("program.order = as-picked", "按句柄给出的次序，它也说明各轮廓从哪里开始切，以及没有设置 `direction` 时的方向。"),
+    ("program.common-line", "零件共用一条边时，是否在这条边上切一次把它们分开，两边各小半个切缝：[共用一条边的零件](programs.md#parts-that-share-an-edge)。否则这样的边是错误。"),
     ("program.jumps", "一个程序中轮廓之间放什么。"),
     ("program.jumps = blocks", "暂停代码，跳步到下一穿丝孔的程序段，再一个暂停代码。"),
     ("program.jumps = none", "只有暂停代码。"),

@@ -86,7 +86,8 @@ impl<'a> Subject<'a> {
             ..
         } = *view;
         let unit_mm = settings.unit_of(drawing).mm;
-        let last = paths.iter().map(|path| path.correction);
+        let beside = paths.iter().filter(|path| !path.on_line);
+        let last = beside.map(|path| path.correction);
         let last = last.fold(f64::INFINITY, f64::min);
         let half_kerf = |path: &WirePath| {
             let known = settings.half_kerf(path.pass.saturating_sub(1));
@@ -97,7 +98,10 @@ impl<'a> Subject<'a> {
         let own = |title, paths: &'a [WirePath], settings: &Effective| {
             let correction = |path: &WirePath| path.offset(settings, unit_mm) / unit_mm;
             let each: Vec<f64> = paths.iter().map(correction).collect();
+            // What is cut on the line has none, unless there is nothing else.
+            let is_any = paths.iter().any(|path| !path.on_line);
             let passes = paths.iter().zip(&each);
+            let passes = passes.filter(|(path, _)| !is_any || !path.on_line);
             let passes: BTreeMap<usize, f64> =
                 passes.map(|(path, own)| (path.pass, *own)).rev().collect();
             let corrections = passes.into_values().collect();

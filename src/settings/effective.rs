@@ -92,6 +92,8 @@ pub struct Effective {
     /// Only this workpiece is cut.
     pub only: Option<u16>,
     pub order: Order,
+    /// Parts that share an edge are cut apart on it.
+    pub common_line: bool,
     pub jumps: Jumps,
     /// The wire stays threaded between contours, so that the way there cuts, too. Set for a format whose programs do
     /// not stop.
@@ -230,6 +232,7 @@ impl Effective {
             comes_across: false,
             only: None,
             order: program.order(),
+            common_line: program.common_line(),
             jumps: program.jumps(),
             stays_threaded: false,
             compensation: program.compensation(),

@@ -20,6 +20,7 @@ impl Settings {
                 let item = |text| node(number(text));
                 Value::List(text.split(',').map(item).collect())
             }
+            "truth" => text.parse().map_or(Value::Text(text.into()), Value::Truth),
             _ => Value::Text(text.into()),
         };
         let nest =

@@ -199,6 +199,9 @@ tables! {
         closing_overlap: f64 = 0.0 => number in Range::FROM_ZERO;
         /// Order of the contours; what lies within one always comes before it.
         order: Order = Order::Nearest => name;
+        /// Whether parts that share an edge are cut apart by one cut on that edge, where each then is smaller by half the kerf:
+        /// [parts that share an edge](programs.md#parts-that-share-an-edge). Else such an edge is an error.
+        common_line: bool = false => truth;
         /// What comes between the contours of one program.
         jumps: Jumps = Jumps::Blocks => name;
         /// Where the correction is applied.

@@ -8,6 +8,9 @@ use rustc_hash::FxHashMap;
 /// The place that each outline is given among all, by its index, where it is given one.
 pub(super) type Places = FxHashMap<usize, u32>;
 
+/// The share of its width by which rounding moves a box.
+const ROUNDING: f64 = 1e-9;
+
 /// Which of some contours lie within which.
 pub(crate) struct Nesting {
     /// By place: the places of the contours round it, the outermost first.
@@ -41,8 +44,13 @@ impl Nesting {
             let holders: &mut Vec<usize> = &mut around[inner];
             grid.near(&Bounds::of_points(&[point]), |outer, _| holders.push(outer));
             holders.retain(|&outer| {
+                // A line may end on what it lies in, and reach beyond its box by rounding.
+                let about = match is_on_line(&inner) {
+                    true => boxes[outer].grown(ROUNDING * boxes[outer].width()),
+                    false => boxes[outer],
+                };
                 boxes[outer] != boxes[inner]
-                    && boxes[outer].merged(&boxes[inner]) == boxes[outer]
+                    && about.merged(&boxes[inner]) == about
                     && winding(drawing, &outlines[chosen[outer]].contour, point) != 0
             });
             // From left to right, so that the first holder is the outermost.

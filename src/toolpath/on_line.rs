@@ -5,13 +5,13 @@
 //! inside of which the wire runs: what it drops leaves room to thread the wire for the slits that begin there.
 
 use super::contours::Contours;
-use super::job::Job;
+use super::job::{Job, ROUNDING};
 use super::leads::{fault, finding};
 use super::path::{PathSegment, Source, WirePath};
 use super::requested::Requested;
 use crate::drawing::{Drawing, Outline, winding};
 use crate::finding::{Finding, Rule, Severity};
-use crate::geometry::{Arc, Point, Segment, Vector, direction, meetings};
+use crate::geometry::{Arc, Point, Segment, Vector, direction, left_normal, meetings};
 use crate::settings::{Compensation, Effective};
 use rustc_hash::FxHashMap;
 
@@ -55,6 +55,19 @@ impl Job<'_> {
     pub(super) fn line_fault(&self, path: &WirePath, contours: &Contours) -> Option<Finding> {
         if self.settings.mills {
             return None;
+        }
+        let is_common = self.outlines[path.outline].contour.is_composed();
+        let mut sources = path.segments.iter().map(|piece| piece.source);
+        let first = sources.find(|source| source.place().is_some());
+        // Else it would be threaded in the parts.
+        if is_common
+            && !path
+                .segments
+                .iter()
+                .any(|piece| piece.source == Source::LeadIn)
+        {
+            let sentence = say!(no_room_to_thread_for_a_common_line, self.name(path.outline));
+            return Some(fault(self.severity(), first, sentence, None));
         }
         let (piece, wall) = match self.settings.compensation {
             // Others may well be crossed by what is drawn, which is the wire's own path, but not by the way to it.
@@ -186,11 +199,19 @@ impl Job<'_> {
             return wanted;
         }
         let ends = self.ends_of_line(index).into_iter();
-        let thread = ends
-            .filter_map(|(end, outward)| self.room_at(end, outward, contours))
-            .map(|(at, _)| at)
-            .next();
-        Requested { thread, ..wanted }
+        let mut threaded = ends.filter_map(|(end, outward)| {
+            let (thread, _) = self.room_at(index, (end, outward), contours)?;
+            Some((thread, end))
+        });
+        match threaded.next() {
+            // The other end may be nearer to that place.
+            Some((thread, end)) => Requested {
+                thread: Some(thread),
+                entry: Some(end),
+                ..wanted
+            },
+            None => wanted,
+        }
     }
 
     /// The ends of an open line, each with the direction in which it would go on.
@@ -207,8 +228,24 @@ impl Job<'_> {
         }
     }
 
+    /// The direction in which a wire leaves a contour at a point on it.
+    fn way_out(&self, outline: usize, at: Point) -> Option<Vector> {
+        let own = &self.outlines[outline];
+        let near = self.units(self.settings.tolerances.join);
+        let side = own.wire_side()?.sign();
+        let met = own.contour.segments(self.drawing).map(|it| it.geometry);
+        let met = met.filter(|it| it.distance_to(at) <= near);
+        let ways = met.map(|it| left_normal(it.tangent_at(it.share_of(at).clamp(0.0, 1.0))));
+        (ways.sum::<Vector>() * side).try_normalize(0.0)
+    }
+
     /// Where a line is threaded at an end that lies in an opening or on a contour, and the outline of that.
-    fn room_at(&self, end: Point, outward: Vector, contours: &Contours) -> Option<(Point, usize)> {
+    fn room_at(
+        &self,
+        line: usize,
+        (end, outward): (Point, Vector),
+        contours: &Contours,
+    ) -> Option<(Point, usize)> {
         let join = self.units(self.settings.tolerances.join);
         let least = self.clearance(self.units(self.settings.correction));
         for outline in contours.about_point(end, join) {
@@ -216,10 +253,17 @@ impl Job<'_> {
             let lies_on = (contour.segments(self.drawing))
                 .any(|segment| segment.geometry.distance_to(end) <= join);
             if lies_on {
+                // A common line ends where two parts do: the way between both is the one that takes least of them.
+                let way = match self.outlines[line].contour.is_composed() {
+                    true => self.way_out(outline, end)?,
+                    false => outward,
+                };
                 let mut lead = self.units(self.settings.lead_in);
                 while lead > least {
-                    let at = end + outward * lead;
-                    let is_clear = contours.walls().nearer(at, least).is_none();
+                    let at = end + way * lead;
+                    let way_there = Segment::line(at, end);
+                    let is_clear = contours.walls().nearer(at, least).is_none()
+                        && self.crossed(&way_there, contours, Some(outline)).is_none();
                     if is_clear && self.is_on_wire_side(outline, at) {
                         return Some((at, outline));
                     }
@@ -239,6 +283,22 @@ impl Job<'_> {
         own.wire_side().is_some() && is_inside == self.has_waste_inside(outline)
     }
 
+    /// The common lines within some outlines, which part what lies in these.
+    pub(super) fn common_lines_within(&self, chosen: &[usize]) -> Vec<usize> {
+        let is_common = |index: &usize| {
+            let outline = &self.outlines[*index];
+            outline.is_on_line() && outline.contour.is_composed()
+        };
+        let lies_in = |line: &usize| {
+            let mut around = chosen
+                .iter()
+                .filter(|at| self.outlines[**at].contour.closed);
+            around.any(|outer| self.lies_within(*line, *outer))
+        };
+        let lines = (0..self.outlines.len()).filter(is_common);
+        lines.filter(lies_in).collect()
+    }
+
     /// Of some outlines the lines that begin in openings among them without lying in these as a whole, each with its opening: an opening is
     /// cut before them.
     pub(super) fn openings_of_lines(&self, chosen: &[usize]) -> Vec<(usize, usize)> {
@@ -249,14 +309,11 @@ impl Job<'_> {
         let contours = Contours::about(self, chosen);
         let mut found = Vec::new();
         for &line in lines() {
-            let begins = self
-                .ends_of_line(line)
-                .into_iter()
-                .filter_map(|(end, way)| {
-                    let (_, outline) = self.room_at(end, way, &contours)?;
-                    let is_opening = self.has_waste_inside(outline) && chosen.contains(&outline);
-                    (is_opening && !self.lies_within(line, outline)).then_some((line, outline))
-                });
+            let begins = self.ends_of_line(line).into_iter().filter_map(|end| {
+                let (_, outline) = self.room_at(line, end, &contours)?;
+                let is_opening = self.has_waste_inside(outline) && chosen.contains(&outline);
+                (is_opening && !self.lies_within(line, outline)).then_some((line, outline))
+            });
             found.extend(begins);
         }
         found
@@ -266,6 +323,7 @@ impl Job<'_> {
     fn lies_within(&self, line: usize, outline: usize) -> bool {
         let [inner, outer] = [line, outline].map(|index| &self.outlines[index].contour);
         let [of_inner, of_outer] = [inner, outer].map(|contour| contour.bounds(self.drawing));
+        let of_outer = of_outer.grown(self.units(ROUNDING));
         let first = inner.segment(self.drawing, 0);
         let middle = first.map(|first| first.geometry.point_at(0.5));
         of_outer.merged(&of_inner) == of_outer

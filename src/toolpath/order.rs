@@ -61,6 +61,9 @@ impl Job<'_> {
                 .map(|handle| self.outline_of(handle))
                 .collect::<Result<_, _>>()?,
         };
+        if handles.is_some() {
+            chosen.extend(self.common_lines_within(&chosen));
+        }
         let mut known = FxHashSet::default();
         chosen.retain(|&index| known.insert(index));
         if chosen.is_empty() {

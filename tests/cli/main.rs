@@ -2,6 +2,7 @@
 
 mod calibrate;
 mod clearances;
+mod common_line;
 mod contradictions;
 mod electrode;
 mod ends;

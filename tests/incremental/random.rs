@@ -15,9 +15,11 @@ proptest! {
             1..12,
         ),
         side in 0..4usize,
+        common_line in any::<bool>(),
     ) {
         let side = [SideSetting::Both, SideSetting::Auto, SideSetting::Opening, SideSetting::Punch][side];
-        let settings = Arc::new(Effective::of(&Settings { correction: Some(0.8), side: Some(side), ..Settings::default() }));
+        let settings = Effective::of(&Settings { correction: Some(0.8), side: Some(side), ..Settings::default() });
+        let settings = Arc::new(Effective { common_line, ..settings });
         let mut drawing = Drawing::new(None);
         for (geometry, role) in start {
             drawing.push(entity(geometry, role));

@@ -1,5 +1,6 @@
 //! Paths of several contours: leads that stay clear of what lies beside, order, marks, what the selection says.
 
+mod common_line;
 mod crowded;
 mod doubles;
 mod leads;

@@ -114,6 +114,17 @@ declare! {
     the_wire_would_cut_into_the_part(touches, tool) => "contour {touches} here: {tool} would cut into the part";
     a_cut_on_the_line_meets_a_contour => "the cut on the line meets another contour here: its kerf opens that contour";
     a_cut_on_the_line_meets_contours(count) => "along this segment a cut on the line meets another contour {count} times: its kerf opens that contour";
+    parts_share_an_edge(parts, length, lost, sizes) => "contours {parts} share an edge of {length:.3} mm: one cut on this line parts them, and each loses {lost:.3} mm along it{sizes}";
+    what_a_part_measures(part, left, drawn) => "; {part} measures {left:.3} mm across it in place of {drawn:.3}";
+    a_line_divides_a_contour(contour, length, lost) => "line of {length:.3} mm between two parts of contour {contour}: one cut on it parts them, and each loses {lost:.3} mm along it";
+    a_tab_holds_one_part(key, contour) => "{key} holds only the part on which the cut round contour {contour} ends: the others fall before";
+    parts_cannot_be_cut_apart(reason) => "the parts on this edge cannot be cut apart on it: {reason}";
+    both_lie_on_one_side_of_it => "they lie on the same side of it";
+    three_parts_share_it => "more than two of them have a stretch of it";
+    several_meet_at_a_corner(x, y) => "at {x:.3}, {y:.3}, where they meet in a corner, the outline round them has no single way on";
+    they_enclose_a_place(x, y) => "they enclose a place at {x:.3}, {y:.3} that is none of them";
+    no_end_on_the_outline => "none of its ends lies on the outline round them, where the wire could be threaded";
+    stock_would_hold_them(x, y) => "at {x:.3}, {y:.3} the outline turns in so far that stock would hold them together";
     contour_kinks_in_several_places(count, turn, x, y, tool) => "contour kinks in {count} places where it looks tangent, at most by {turn:.2}° at {x:.3}, {y:.3}: {tool} leaves marks";
     within_mm(deviation) => ", within {deviation} mm";
     chords_lie_on_one_arc(chords, radius, within, facets) => "{chords} chords lie on one arc of R {radius} mm{within}: {chords} blocks become 1{facets}";

@@ -1,6 +1,7 @@
 //! Paths of the wire, and why there is none.
 
 declare! {
+    no_room_to_thread_for_a_common_line(handle) => "beyond neither end of the common line at contour {handle} is there room to thread the wire";
     the_lead_in_cuts_through_contour(x, y, x1, y1, crossed) => "the lead-in from the thread hole ({x:.3}, {y:.3}) to ({x1:.3}, {y1:.3}) cuts through contour {crossed}";
     the_way_cuts_into_contour(x, y, x1, y1, contour) => "the jump from ({x:.3}, {y:.3}) to ({x1:.3}, {y1:.3}) cuts into contour {contour}: the wire stays threaded, since the profile's pause does not stop the machine";
     contour_has_no_length(handle) => "contour {handle} has no length";

@@ -114,6 +114,17 @@ translate! {
     the_wire_would_cut_into_the_part(touches, tool) => "轮廓在此{touches}：{tool}会切入工件";
     a_cut_on_the_line_meets_a_contour => "沿线切割在此与另一轮廓相接：割缝会切开该轮廓";
     a_cut_on_the_line_meets_contours(count) => "沿此段沿线切割与另一轮廓相接 {count} 次：割缝会切开该轮廓";
+    parts_share_an_edge(parts, length, lost, sizes) => "轮廓 {parts} 共用一条 {length:.3} mm 的边：在此线上切一次把它们分开，沿线各小 {lost:.3} mm{sizes}";
+    what_a_part_measures(part, left, drawn) => "；{part} 与此线垂直的尺寸为 {left:.3} mm，图上为 {drawn:.3}";
+    a_line_divides_a_contour(contour, length, lost) => "轮廓 {contour} 中两个零件之间的线，长 {length:.3} mm：在其上切一次把它们分开，沿线各小 {lost:.3} mm";
+    a_tab_holds_one_part(key, contour) => "{key} 只留住轮廓 {contour} 切割结束处的零件：其余的先落下";
+    parts_cannot_be_cut_apart(reason) => "这条边上的零件不能在此切开：{reason}";
+    both_lie_on_one_side_of_it => "它们在这条边的同一侧";
+    three_parts_share_it => "其中一段为两个以上的零件共用";
+    several_meet_at_a_corner(x, y) => "它们在 {x:.3}, {y:.3} 只有角相接，外围轮廓不能唯一地继续";
+    they_enclose_a_place(x, y) => "它们在 {x:.3}, {y:.3} 围住了不属于任何零件的一块";
+    no_end_on_the_outline => "它没有一端在外围轮廓上，丝无处穿入";
+    stock_would_hold_them(x, y) => "外围轮廓在 {x:.3}, {y:.3} 凹得太尖，余料会把它们连住";
     contour_kinks_in_several_places(count, turn, x, y, tool) => "轮廓有 {count} 处看似相切、实际折了，最大 {turn:.2}°，在 {x:.3}, {y:.3}：{tool}会留下切痕";
     within_mm(deviation) => "，误差不超过 {deviation} mm";
     chords_lie_on_one_arc(chords, radius, within, facets) => "{chords} 段短直线在同一圆弧 R {radius} mm 上{within}：{chords} 段程序可变为 1 段{facets}";

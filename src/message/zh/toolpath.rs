@@ -1,6 +1,7 @@
 //! Paths of the wire, and why there is none.
 
 translate! {
+    no_room_to_thread_for_a_common_line(handle) => "轮廓 {handle} 处公共线的两端之外都没有穿丝的位置";
     the_lead_in_cuts_through_contour(x, y, x1, y1, crossed) => "从穿丝孔 ({x:.3}, {y:.3}) 到 ({x1:.3}, {y1:.3}) 的引入线切穿轮廓 {crossed}";
     the_way_cuts_into_contour(x, y, x1, y1, contour) => "从 ({x:.3}, {y:.3}) 到 ({x1:.3}, {y1:.3}) 的跳步会切入轮廓 {contour}：profile 的暂停码不停机，电极丝没有拆下";
     contour_has_no_length(handle) => "轮廓 {handle} 没有长度";

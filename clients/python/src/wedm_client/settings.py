@@ -81,6 +81,7 @@ class ProgramSettings(TypedDict, total=False):
     tab_stop: str
     closing_overlap: float
     order: Literal["as-drawn", "inside-first", "nearest", "as-picked"]
+    common_line: bool
     jumps: Literal["blocks", "none"]
     compensation: Literal["path", "controller", "none"]
     digits: int
