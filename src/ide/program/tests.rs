@@ -1,4 +1,5 @@
-use super::words::{WordKind, words_of};
+use super::words::WordKind;
+use super::words_of;
 use super::*;
 use crate::ide::{CompletionKind, FoldKind, Symbol};
 use crate::program::{Document, Language, refactorings};

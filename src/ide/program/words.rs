@@ -1,7 +1,5 @@
 //! The pieces of a line in every language, mapped to one list of kinds.
 
-use super::{iso, three_b};
-use crate::program::Document;
 use std::ops::Range;
 
 /// The kind of a piece of a line, in any language.
@@ -30,15 +28,4 @@ pub(crate) enum WordKind {
 pub(crate) struct LinePart {
     pub(crate) kind: WordKind,
     pub(crate) range: Range<usize>,
-}
-
-/// The pieces of a line, one after the other; damaged lines are cut as far as possible.
-pub(crate) fn words_of(document: &Document, line: usize) -> Vec<LinePart> {
-    let text = document.text();
-    let range = text.line_range(line);
-    let bytes = text.bytes().get(range.clone()).unwrap_or_default();
-    match document {
-        Document::ThreeB(program) => three_b::line_parts(program, bytes, range.start),
-        Document::Iso(program) => iso::line_parts(program, bytes, range.start),
-    }
 }
