@@ -161,6 +161,7 @@ mod tests {
         assert_eq!(plain("Х−1。5 у–2 Ԍ".as_bytes()), "X-1.5 y-2 G");
         // The same in GBK.
         assert_eq!(plain(b"\xa7\xa39900\xa6\xa2"), "B9900B");
+        assert_eq!(plain(b"\xa7\xae02\xa1\xa3\xa7\xe7"), "M02.x");
         assert_eq!(plain(b"\xa3\xa81\xa3\xa9\xa3\xc29\xa1\xa1"), "(1)B9 ");
         assert_eq!(alike("直线 é".as_bytes()), []);
         assert_eq!(with_plain_marks("（1）B".as_bytes()).unwrap(), b"(  1)  B");

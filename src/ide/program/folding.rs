@@ -1,7 +1,7 @@
 //! Folding: contours, and comments of several lines.
 
-use super::line_part::WordKind;
-use super::words::words_of;
+use super::words::WordKind;
+use super::words_of;
 use crate::ide::{Fold, FoldKind};
 use crate::program::Document;
 use crate::program::path::cuts;

@@ -1,7 +1,7 @@
 //! After each block, its end and its radius.
 
-use super::line_part::WordKind;
-use super::words::words_of;
+use super::words::WordKind;
+use super::words_of;
 use crate::geometry::Segment;
 use crate::ide::amounts::{degrees, mm};
 use crate::ide::{HINT_LINES, Hint};

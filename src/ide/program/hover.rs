@@ -1,6 +1,6 @@
 //! The hover at a place: the block in words, and the meaning of the word under the cursor.
 
-use super::words::words_of;
+use super::words_of;
 use super::{iso, three_b};
 use crate::geometry::Segment;
 use crate::ide::Hover;

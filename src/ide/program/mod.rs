@@ -8,7 +8,6 @@ mod folding;
 mod hints;
 mod hover;
 mod iso;
-mod line_part;
 mod navigation;
 mod numbers;
 mod selection;
@@ -32,6 +31,7 @@ pub(crate) use tokens::{tokens, tokens_in};
 use super::occurrence::{Occurrence, Stop, Stopped};
 use super::{Completion, Signature};
 use crate::program::Document;
+use words::LinePart;
 
 /// What can stand at a byte, the most likely first.
 pub(crate) fn completions(document: &Document, offset: usize) -> Vec<Completion> {
@@ -59,5 +59,16 @@ pub(crate) fn signature(document: &Document, offset: usize) -> Option<Signature>
     match document {
         Document::ThreeB(program) => three_b::signature(program, offset),
         Document::Iso(program) => iso::signature(program, offset),
+    }
+}
+
+/// The pieces of a line, one after the other; damaged lines are cut as far as possible.
+fn words_of(document: &Document, line: usize) -> Vec<LinePart> {
+    let text = document.text();
+    let range = text.line_range(line);
+    let bytes = text.bytes().get(range.clone()).unwrap_or_default();
+    match document {
+        Document::ThreeB(program) => three_b::line_parts(program, bytes, range.start),
+        Document::Iso(program) => iso::line_parts(program, bytes, range.start),
     }
 }

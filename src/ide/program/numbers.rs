@@ -1,7 +1,7 @@
 //! Block numbers: found, renamed.
 
-use super::line_part::WordKind;
-use super::words::words_of;
+use super::words::WordKind;
+use super::words_of;
 use crate::program::Document;
 use crate::text::TextEdit;
 use std::ops::Range;

@@ -1,7 +1,7 @@
 //! The steps of a growing selection: the word, the block, its line, the contour, everything between two pauses,
 //! everything.
 
-use super::words::words_of;
+use super::words_of;
 use crate::ide::widen;
 use crate::program::Document;
 use crate::program::steps::CutAt;

@@ -1,5 +1,5 @@
-use super::line_part::WordKind;
-use super::words::words_of;
+use super::words::WordKind;
+use super::words_of;
 use super::*;
 use crate::ide::{CompletionKind, FoldKind, Symbol};
 use crate::program::{Document, Language, refactorings};

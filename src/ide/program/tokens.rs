@@ -1,7 +1,7 @@
 //! The words of a program, for colouring.
 
-use super::line_part::{LinePart, WordKind};
-use super::words::words_of;
+use super::words::{LinePart, WordKind};
+use super::words_of;
 use crate::ide::occurrence::{Stop, Stopped};
 use crate::ide::{Token, TokenKind};
 use crate::program::Document;

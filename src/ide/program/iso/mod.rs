@@ -18,7 +18,7 @@ pub(super) use meaning::meaning;
 pub(super) use names::named;
 pub(super) use signature::signature;
 
-use super::line_part::{LinePart, WordKind};
+use super::words::{LinePart, WordKind};
 use crate::program::iso::plain::word_in;
 use crate::program::iso::{Document, Token, words};
 use std::ops::Range;

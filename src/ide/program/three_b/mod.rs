@@ -10,7 +10,7 @@ pub(super) use completion::completions;
 pub(super) use meaning::meaning;
 pub(super) use signature::signature;
 
-use super::line_part::{LinePart, WordKind};
+use super::words::{LinePart, WordKind};
 use crate::program::three_b::Document;
 use crate::program::three_b::pieces::{Field, Piece, pieces};
 
