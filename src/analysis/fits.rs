@@ -1,15 +1,12 @@
 //! Punches that do not go into their plates: `does-not-fit`.
 
 use super::Analysis;
-use super::edited::Edited;
-use super::own_walls::Own;
 use super::report::Report;
 use crate::drawing::{ContourKey, Drawing, Outline, Role};
 use crate::finding::{Detail, Place, Rule, Severity, Side};
 use crate::fit::{self, Fitted, Laid};
 use crate::settings::{Compensation, Partners};
-use crate::toolpath::Part;
-use std::ops::Range;
+use crate::toolpath::{Part, Walls};
 use std::sync::Arc;
 
 /// A contour with more segments is not compared with its partner at every edit.
@@ -20,26 +17,27 @@ const MOST_SEGMENTS: usize = 100_000;
 pub(crate) struct KnownFit {
     /// `None` where one of the two has no path, which other findings report.
     known: Option<Arc<Fitted>>,
-    /// Where each of the two has been edited since.
-    edited: [Edited; 2],
+    /// Which of the two have been edited since.
+    edited: [bool; 2],
 }
 
 impl KnownFit {
     fn new(known: Option<Arc<Fitted>>) -> KnownFit {
-        let edited = [Edited::not(), Edited::not()];
-        KnownFit { known, edited }
+        KnownFit {
+            known,
+            edited: [false; 2],
+        }
     }
 
     /// What is known, where neither of the two has been edited.
     pub(super) fn holds(&self) -> Option<&Option<Arc<Fitted>>> {
-        let is_old = self.edited.iter().any(Edited::is_any);
-        (!is_old).then_some(&self.known)
+        (self.edited == [false; 2]).then_some(&self.known)
     }
 
     /// The parts of contours that have not been edited.
     fn unedited(&self) -> [Option<&Arc<Part>>; 2] {
         [0, 1].map(|which| {
-            let known = self.known.as_ref().filter(|_| !self.edited[which].is_any());
+            let known = self.known.as_ref().filter(|_| !self.edited[which]);
             known.map(|known| &known.parts[which])
         })
     }
@@ -60,25 +58,24 @@ pub(super) struct Paired {
 const ROLES: [Role; 2] = [Role::Punch, Role::Opening];
 
 impl Analysis {
-    /// Marks as old the results between a contour that has been edited, there or anywhere, and its
-    /// partner; parts that the edit has not touched still hold.
-    pub(super) fn outdate_fits(&mut self, key: ContourKey, there: Option<&[Range<usize>]>) {
-        if let Some(own) = self.walls.get_mut(&key) {
-            own.edited.merge(there);
-        }
+    /// Marks as old the results between a contour that has been edited and its partner, of which the part still holds.
+    pub(super) fn outdate_fits(&mut self, key: ContourKey) {
+        self.forget_walls(key);
         for ((one, other), answer) in &mut self.fits {
-            for (of, edited) in [one, other].into_iter().zip(&mut answer.edited) {
-                if *of == key {
-                    edited.merge(there);
-                }
+            for (of, is_edited) in [one, other].into_iter().zip(&mut answer.edited) {
+                *is_edited |= *of == key;
             }
         }
     }
 
-    /// Forgets the results for a contour that is gone.
-    pub(super) fn forget_fits(&mut self, key: ContourKey) {
+    fn forget_walls(&mut self, key: ContourKey) {
         self.walls.remove(&key);
         self.beside.retain(|both| !both.contains(&key));
+    }
+
+    /// Forgets the results for a contour that is gone.
+    pub(super) fn forget_fits(&mut self, key: ContourKey) {
+        self.forget_walls(key);
         self.fits
             .retain(|(one, other), _| *one != key && *other != key);
     }
@@ -136,12 +133,11 @@ impl Analysis {
                 paired.pairs = twice.map(|index| [(keys[index], index); 2]).collect();
             }
             Partners::Drawn => {
-                self.walls_again(drawing, &keys, outlines);
                 let mut walls = std::mem::take(&mut self.walls);
                 let mut walls_of = |index: usize, outline: &Outline| {
                     let own = walls.entry(keys[index]);
-                    let own = own.or_insert_with(|| Own::of(drawing, outline));
-                    own.walls.clone()
+                    own.or_insert_with(|| fit::walls_of(drawing, &outline.contour))
+                        .clone()
                 };
                 let known = |both: [usize; 2]| self.beside.contains(&both.map(|it| keys[it]));
                 let settings = &self.settings;
@@ -244,15 +240,10 @@ impl Analysis {
         let outlines = self.outlines(drawing);
         let keys = self.in_machining_order(drawing);
         let mut walls_of = |index: usize, outline: &Outline| {
-            let known = self.walls.get(&keys[index]).filter(|own| own.is_new());
-            let known = known.map(|own| own.walls.clone());
+            let known = self.walls.get(&keys[index]).cloned();
             known.unwrap_or_else(|| fit::walls_of(drawing, &outline.contour))
         };
-        let is_new = |key: &ContourKey| self.walls.get(key).is_some_and(Own::is_new);
-        let known = |both: [usize; 2]| {
-            let both = both.map(|index| keys[index]);
-            both.iter().all(is_new) && self.beside.contains(&both)
-        };
+        let known = |both: [usize; 2]| self.beside.contains(&both.map(|it| keys[it]));
         fit::partners(drawing, outlines, &self.settings, &mut walls_of, &known).0
     }
 
@@ -272,48 +263,14 @@ impl Analysis {
         }
         let is_small = punch.contour.len().max(plate.contour.len()) <= MOST_SEGMENTS;
         let old = self.fits.remove(&(one, other)).filter(|_| is_small);
-        let mut unedited = [None, None];
-        if let Some(old) = old {
-            unedited = old.unedited().map(Option::<&_>::cloned);
-            if let Some(known) = self.followed(drawing, both, old) {
-                return Some(known);
-            }
-        }
+        let unedited = old.map_or([None, None], |old| old.unedited().map(Option::<&_>::cloned));
         for (key, outline) in both.into_iter().filter(|_| is_small) {
             let own = self.walls.entry(key);
-            let own = own.or_insert_with(|| Own::of(drawing, outline));
-            if !own.is_new() {
-                *own = Own::of(drawing, outline);
-            }
+            own.or_insert_with(|| fit::walls_of(drawing, &outline.contour));
         }
         let fitted = || self.fitted(drawing, both, unedited);
         let known = is_small.then(fitted).flatten().map(Arc::new);
         (self.fits).insert((one, other), KnownFit::new(known.clone()));
-        known
-    }
-
-    /// What is known of two partners after an edit, if both parts could follow it from what was known before.
-    fn followed(
-        &mut self,
-        drawing: &Drawing,
-        both: [(ContourKey, &Outline); 2],
-        KnownFit { known, edited }: KnownFit,
-    ) -> Option<Arc<Fitted>> {
-        let outlines = [
-            (both[0].1, edited[0].within()?),
-            (both[1].1, edited[1].within()?),
-        ];
-        // They are changed in place, if nothing else shares them.
-        let mut fitted = Arc::unwrap_or_clone(known?);
-        let Fitted { parts, held } = &mut fitted;
-        let keys = (both[0].0, both[1].0);
-        let settings = &self.settings;
-        let is_cut_twice = keys.0 == keys.1;
-        if !fit::follow(drawing, outlines, settings, is_cut_twice, (parts, held)) {
-            return None;
-        }
-        let known = Some(Arc::new(fitted));
-        self.fits.insert(keys, KnownFit::new(known.clone()));
         known
     }
 
@@ -326,10 +283,7 @@ impl Analysis {
     ) -> Option<Fitted> {
         let settings = &self.settings;
         let [(one, punch), (_, plate)] = both;
-        let walls = |key: ContourKey| {
-            let own = self.walls.get(&key).filter(|own| own.is_new());
-            own.map(|own| &*own.walls)
-        };
+        let walls = |key: ContourKey| -> Option<&Walls> { self.walls.get(&key).map(|own| &**own) };
         match settings.partners()? {
             Partners::CutTwice(_) => {
                 let parts = fit::cut_twice_parts(drawing, punch, settings, walls(one)).ok()?;

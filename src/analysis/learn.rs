@@ -160,13 +160,7 @@ impl Analysis {
         }
         self.answers.retain(|(other, _), _| *other != key);
         self.lost.remove(&key);
-        let edited = self.chains.piece_of(entity).filter(|_| !is_recounted);
-        let edited = edited.zip(vertices).map(|(piece, vertices)| {
-            let own = segments_of(Some(vertices), piece.count(), geometry.is_closed());
-            own.into_iter().map(|own| within(&piece, own)).collect()
-        });
-        let edited: Option<Vec<Range<usize>>> = edited;
-        self.outdate_fits(key, edited.as_deref());
+        self.outdate_fits(key);
         let (Some(piece), Some(known)) = (self.chains.piece_of(entity), self.take_known(key))
         else {
             return false;

@@ -6,7 +6,6 @@ mod compare;
 mod contours;
 mod dead_ends;
 mod drafting;
-mod edited;
 mod electrode;
 mod end_index;
 mod fit_fixes;
@@ -20,7 +19,6 @@ mod learn;
 mod misfits;
 mod notable;
 mod observations;
-mod own_walls;
 mod pair_findings;
 mod pairs;
 mod pockets;
@@ -53,6 +51,7 @@ use crate::finding::{Finding, NoFix};
 use crate::geometry::Bounds;
 use crate::rules::{Limits, Outlook};
 use crate::settings::Effective;
+use crate::toolpath::Walls;
 use contours::set_aside;
 use drafting::{AsideEntities, LoneLines};
 use fitting::Fitting;
@@ -103,7 +102,7 @@ pub struct Analysis {
     /// What was found between partners, or for a contour that is cut twice.
     fits: BTreeMap<(ContourKey, ContourKey), fits::KnownFit>,
     /// The segments of contours that may belong to a pair, for questions about what is near.
-    walls: FxHashMap<ContourKey, own_walls::Own>,
+    walls: FxHashMap<ContourKey, Arc<Walls>>,
     /// Which contours run beside each other, each time the smaller one first.
     beside: FxHashSet<[ContourKey; 2]>,
     order: OnceLock<Vec<ContourKey>>,

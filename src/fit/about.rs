@@ -1,6 +1,5 @@
 //! What the looks at corners and walls share: the limits, and what lies near an edge.
 
-use crate::geometry::Bounds;
 use crate::toolpath::{Nearby, Part};
 
 /// Of two edges whose distances differ by no more than this share of the rounding, the first one counts.
@@ -22,8 +21,6 @@ pub(super) struct About<'a> {
     pub(super) way: Nearby<'a>,
     /// A piece of it beside which the edge before lies.
     pub(super) beside: Option<usize>,
-    /// The box of all that was asked about this edge.
-    pub(super) asked: Bounds,
 }
 
 impl About<'_> {
@@ -38,7 +35,6 @@ impl About<'_> {
             edges: Nearby::of(edges),
             way: Nearby::of(way),
             beside: None,
-            asked: Bounds::EMPTY,
         }
     }
 }

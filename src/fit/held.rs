@@ -7,7 +7,7 @@
 
 use super::Spot;
 use super::about::{About, FitLimits};
-use super::observations::{EdgeObservations, Lies, Verdict};
+use super::observations::{Lies, Verdict, verdict_on};
 use super::penetration::{Deep, depth};
 use super::places::own_places;
 use super::walls::{nearest_places, sharper, wall};
@@ -24,15 +24,15 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub(crate) struct Held {
     /// The least clearance where no edge stands too far out.
-    pub(super) unless: f64,
-    /// Corners of the punch, those of the plate, and walls of the punch.
-    pub(super) observations: [EdgeObservations; 3],
+    unless: f64,
+    /// What was seen of corners of the punch, of those of the plate, and of walls of the punch.
+    verdicts: [Vec<Verdict>; 3],
     /// The numbers of those of walls that are not about the same place as another one.
-    pub(super) places: Vec<u32>,
+    places: Vec<u32>,
     /// One place that stands for all walls, where they lie too near to each other everywhere.
-    pub(super) apart: Option<Spot>,
+    apart: Option<Spot>,
     /// What the two are called.
-    pub(super) names: [Arc<str>; 2],
+    names: [Arc<str>; 2],
 }
 
 /// A corner is examined up to this many half kerfs from where the wire turned.
@@ -49,22 +49,22 @@ const WIDER: f64 = 1.0 + 1e-3;
 
 /// Lays the punch in the plate. `names` are what the two are called.
 pub(super) fn held(parts: [&Part; 2], names: &[Arc<str>; 2], limits: &FitLimits) -> Held {
-    let observations = [0, 1, 2].map(|which| match which {
-        2 if limits.along_walls.is_some() => EdgeObservations::default(),
-        which => observations(which, parts, limits),
+    let verdicts = [0, 1, 2].map(|which| match which {
+        2 if limits.along_walls.is_some() => Vec::new(),
+        which => verdicts(which, parts, limits),
     });
     let (unless, apart) = all_apart(parts, names, limits);
     Held {
         unless,
-        places: own_places(&observations, limits.rounding),
-        observations,
+        places: own_places(&verdicts, parts[0].edges.len() as u32, limits.rounding),
+        verdicts,
         apart,
         names: names.clone(),
     }
 }
 
 /// The clearance where no edge stands too far out, and the place that stands for all walls where that is less than there should be.
-pub(super) fn all_apart(
+fn all_apart(
     [punch, plate]: [&Part; 2],
     [of_punch, of_plate]: &[Arc<str>; 2],
     limits: &FitLimits,
@@ -115,7 +115,7 @@ impl Held {
 
     /// What was seen of corners of the punch (0), of those of the plate (1), and of walls (2): each place once.
     fn verdicts(&self) -> impl Iterator<Item = (usize, &Verdict)> {
-        let [of_punch, of_plate, of_walls] = self.observations.each_ref().map(|it| &it.verdicts);
+        let [of_punch, of_plate, of_walls] = &self.verdicts;
         let of_walls = self
             .places
             .iter()
@@ -127,11 +127,11 @@ impl Held {
 
     /// The name of the part whose wire turned in a corner within `wide` of a place; the first of the two, if both did.
     pub(crate) fn corner_near(&self, parts: [&Part; 2], at: Point, wide: f64) -> Option<&Arc<str>> {
-        let of_each = self.observations.iter().zip(parts).zip(&self.names);
-        let mut first = of_each.filter_map(|((observations, part), name)| {
+        let of_each = self.verdicts.iter().zip(parts).zip(&self.names);
+        let mut first = of_each.filter_map(|((verdicts, part), name)| {
             let mut is_any = false;
             part.near.find(&Bounds::of_disc(at, wide * WIDER), |edge| {
-                let verdict = observations.of(edge);
+                let verdict = verdict_on(verdicts, edge);
                 is_any |= verdict.is_some_and(|verdict| (verdict.at - at).norm() <= wide);
                 is_any
             });
@@ -143,9 +143,9 @@ impl Held {
     /// All places where clearance is missing, of the parts that were compared.
     pub(crate) fn spots<'a>(&'a self, parts: [&'a Part; 2]) -> impl Iterator<Item = Spot> + 'a {
         let verdicts = self.verdicts();
-        let of_observations =
+        let spots =
             verdicts.filter_map(move |(which, verdict)| spot(which, verdict, parts, &self.names));
-        self.apart.iter().cloned().chain(of_observations)
+        self.apart.iter().cloned().chain(spots)
     }
 
     /// The same on all cores.
@@ -222,7 +222,7 @@ fn more_than_wanted(parts: [&Part; 2], names: &[Arc<str>; 2], limits: &FitLimits
 }
 
 /// What one kind of look says of an edge.
-pub(super) fn look(
+fn look(
     which: usize,
     [punch, plate]: [&Part; 2],
     edge: usize,
@@ -236,40 +236,23 @@ pub(super) fn look(
     }
 }
 
-/// What a look at each edge says.
-fn observations(which: usize, parts: [&Part; 2], limits: &FitLimits) -> EdgeObservations {
+/// What a look at each edge says of those that stand too far out.
+fn verdicts(which: usize, parts: [&Part; 2], limits: &FitLimits) -> Vec<Verdict> {
     let count = parts[usize::from(which == 1)].edges.len();
     let some = |edges: Range<usize>| {
-        let mut observations = EdgeObservations {
-            asked: Vec::with_capacity(edges.len()),
-            verdicts: Vec::new(),
-        };
         let mut about = About::of(which, parts);
-        for edge in edges {
-            about.asked = Bounds::EMPTY;
-            let verdict = look(which, parts, edge, &mut about, limits);
-            observations.asked.push(about.asked);
-            observations.verdicts.extend(verdict);
-        }
-        observations
+        let verdicts = edges.filter_map(|edge| look(which, parts, edge, &mut about, limits));
+        verdicts.collect::<Vec<_>>()
     };
     if count <= AT_A_TIME {
         // Waking a core would take longer.
         return some(0..count);
     }
     let steps = (0..count.div_ceil(AT_A_TIME)).into_par_iter();
-    let parts: Vec<EdgeObservations> = steps
+    let parts: Vec<Vec<Verdict>> = steps
         .map(|step| some(step * AT_A_TIME..((step + 1) * AT_A_TIME).min(count)))
         .collect();
-    let mut all = EdgeObservations {
-        asked: Vec::with_capacity(count),
-        verdicts: Vec::with_capacity(parts.iter().map(|part| part.verdicts.len()).sum()),
-    };
-    for part in parts {
-        all.asked.extend(part.asked);
-        all.verdicts.extend(part.verdicts);
-    }
-    all
+    parts.concat()
 }
 
 /// A place where the wire turned in a point, and left less than the clearance to the other part: the tightest of those straight before that
@@ -307,7 +290,6 @@ fn nearest(
 ) -> Option<Verdict> {
     let geometry = &one.edges[edge].geometry;
     let area = geometry.bounds().grown(limits.clearance);
-    about.asked.merge(&area);
     let (mut nearest, mut crossed) = (None, Vec::new());
     let mut least = limits.clearance - limits.rounding;
     about.edges.find(&area, |on| {
@@ -322,7 +304,7 @@ fn nearest(
     });
     let mut deepest: Option<Deep> = None;
     let mut look = |parts: [&Part; 2], begins: (usize, f64)| {
-        let deep = depth(parts, begins, limits, &mut about.asked);
+        let deep = depth(parts, begins, limits);
         let is_deeper = |it: &Deep| deepest.is_none_or(|known| it.depth > known.depth);
         deepest = deep.filter(is_deeper).or(deepest);
     };
@@ -376,7 +358,6 @@ fn farthest(
     let reach = (own + 2.0 * limits.clearance) / widest;
     let mut places: Vec<(f64, Point, usize)> = Vec::new();
     let area = Bounds::of_disc(turned, reach);
-    about.asked.merge(&area);
     about.edges.find(&area, |edge| {
         let geometry = &other.edges[edge].geometry;
         let ends = [geometry.start(), geometry.end()];
@@ -411,7 +392,6 @@ fn farthest(
     });
     places.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.2.cmp(&b.2)));
     let mut is_nearest = |&(far, at, _): &(f64, Point, usize)| {
-        about.asked.merge(&Bounds::of_disc(at, far));
         let from_way = far - one.edges[index].swing;
         about.way.nearer(at, from_way - limits.rounding).is_none()
     };

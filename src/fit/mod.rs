@@ -5,7 +5,6 @@
 //! lies so near that it can only be its partner. Everything is in drawing units.
 
 mod about;
-mod follow;
 mod held;
 mod laid;
 mod observations;
@@ -17,14 +16,13 @@ mod walls;
 pub(crate) use held::Held;
 pub(crate) use laid::{Fitted, Laid};
 pub use partners::Drawn;
-pub(crate) use partners::{partners, reach, still_beside, walls_of};
+pub(crate) use partners::{partners, walls_of};
 
 use crate::drawing::{Contour, Drawing, EntityId, Outline, Role, wire_side};
 use crate::geometry::{Point, Segment, Side};
 use crate::settings::{Effective, Use};
-use crate::toolpath::{Cutting, Moved, Part, Refusal, Walls, part};
+use crate::toolpath::{Cutting, Part, Refusal, Walls, part};
 use about::FitLimits;
-use std::ops::Range;
 use std::sync::Arc;
 
 /// A segment of a drawing.
@@ -167,44 +165,6 @@ fn limits(drawing: &Drawing, settings: &Effective, is_cut_twice: bool) -> FitLim
         rounding: settings.tolerances.report / unit_mm,
         along_walls: is_cut_twice.then(apart),
     }
-}
-
-/// Two parts laid in each other follow an edit of their outlines, of each of which it is known
-/// which segments may have changed. False where one of them cannot: then nothing of this holds.
-pub(crate) fn follow(
-    drawing: &Drawing,
-    outlines: [(&Outline, &[Range<usize>]); 2],
-    settings: &Effective,
-    is_cut_twice: bool,
-    (parts, held): (&mut [Arc<Part>; 2], &mut Held),
-) -> bool {
-    let follow = |which: usize, part: &mut Arc<Part>| {
-        let (outline, edited) = outlines[which];
-        if edited.is_empty() {
-            return Some(Moved::default());
-        }
-        let of = [Use::Punch, Use::Plate][which];
-        let own = is_cut_twice.then(|| settings.of_use(of));
-        let (own, is_other) = match &own {
-            Some(own) => own.as_ref().map(|(own, is_other)| (own, *is_other))?,
-            None => (settings, false),
-        };
-        let cutting = Cutting {
-            side: side_of(outline, of.role()).ok()?,
-            is_other,
-            settings: own,
-            walls: None,
-        };
-        Arc::make_mut(part).follow(drawing, &outline.contour, cutting, edited)
-    };
-    let [punch, plate] = parts;
-    let moved = [follow(0, punch), follow(1, plate)];
-    let [Some(of_punch), Some(of_plate)] = &moved else {
-        return false;
-    };
-    let limits = limits(drawing, settings, is_cut_twice);
-    held.follow([punch, plate], [of_punch, of_plate], &limits);
-    true
 }
 
 /// How far apart the walls of the two parts lie that are cut along one contour, mm.

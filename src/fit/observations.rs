@@ -1,23 +1,12 @@
-//! What was seen of the edges of a part that lies in another, and what that depends on.
+//! What was seen of the edges of a part that lies in another.
 
-use crate::geometry::{Bounds, Point};
+use crate::geometry::Point;
 
-/// What was seen of the edges of a part, in their order.
-#[derive(Clone, Debug, Default)]
-pub(super) struct EdgeObservations {
-    /// For each edge, the box of everything that was asked about it; an empty one where nothing was.
-    pub asked: Vec<Bounds>,
-    /// The verdicts on those that stand too far out.
-    pub verdicts: Vec<Verdict>,
-}
-
-impl EdgeObservations {
-    /// What was seen of an edge that stands too far out.
-    pub(super) fn of(&self, edge: usize) -> Option<&Verdict> {
-        let edge_of = |verdict: &Verdict| verdict.edge as usize;
-        let at = self.verdicts.binary_search_by_key(&edge, edge_of);
-        self.verdicts.get(at.ok()?)
-    }
+/// What was seen of an edge of a part; `verdicts` are those on the ones that stand too far out, in their order.
+pub(super) fn verdict_on(verdicts: &[Verdict], edge: usize) -> Option<&Verdict> {
+    let edge_of = |verdict: &Verdict| verdict.edge as usize;
+    let at = verdicts.binary_search_by_key(&edge, edge_of);
+    verdicts.get(at.ok()?)
 }
 
 /// An edge that stands too far out, by indices and places: to which segments they belong is found out each time it is reported.

@@ -148,7 +148,7 @@ pub(crate) fn partners(
 }
 
 /// The largest distance of partners.
-pub(crate) fn reach(drawing: &Drawing, settings: &Effective) -> f64 {
+fn reach(drawing: &Drawing, settings: &Effective) -> f64 {
     let unit_mm = settings.unit_of(drawing).mm;
     FARTHEST * settings.pair.clearance.unwrap_or(0.0) / unit_mm
 }
@@ -166,36 +166,15 @@ fn apart(a: &Bounds, b: &Bounds) -> f64 {
 fn run_together([punch, plate]: [&Walls; 2], reach: f64) -> bool {
     let keeps = |own: &Walls, other: &Walls| {
         let some = own.segments().par_chunks(AT_A_TIME);
-        some.all(|segments| are_near(&mut segments.iter(), other, reach))
+        some.all(|segments| are_near(segments, other, reach))
     };
     keeps(punch, plate) && keeps(plate, punch)
 }
 
-/// Whether a contour that was beside another one before an edit still is, where these segments are gone and these new.
-pub(crate) fn still_beside(
-    [gone, new]: [&[Segment]; 2],
-    now: &Walls,
-    other: &Walls,
-    reach: f64,
-) -> bool {
-    let mut beside_gone = Vec::new();
-    for gone in gone {
-        other.find(&gone.bounds().grown(reach), |wall| {
-            beside_gone.push(other.segment(wall));
-            false
-        });
-    }
-    are_near(&mut new.iter(), other, reach) && are_near(&mut beside_gone.into_iter(), now, reach)
-}
-
 /// True where no end of some segments, and no place between, is farther from `other` than `reach`.
-fn are_near<'a>(
-    segments: &mut impl Iterator<Item = &'a Segment>,
-    other: &Walls,
-    reach: f64,
-) -> bool {
+fn are_near(segments: &[Segment], other: &Walls, reach: f64) -> bool {
     let mut beside = None;
-    segments.all(|segment| {
+    segments.iter().all(|segment| {
         // No place of a line is farther from another line than one of its ends.
         let is_along = |wall: &usize| {
             let ends = [segment.start(), segment.end()];

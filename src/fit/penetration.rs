@@ -1,7 +1,7 @@
 //! How deep an edge, or a stretch of an outline, stands in the other part.
 
 use super::about::FitLimits;
-use crate::geometry::{Bounds, Point, Segment, Vector, meetings};
+use crate::geometry::{Point, Segment, Vector, meetings};
 use crate::toolpath::{Nearby, Part};
 
 /// The most looks at one edge.
@@ -21,8 +21,7 @@ struct Look {
 }
 
 /// The deepest place of a segment beyond what the wire has cut, half a kerf about its way; `None`
-/// where nothing of it is deeper than the rounding. `asked` grows by everything on which this
-/// depends.
+/// where nothing of it is deeper than the rounding.
 ///
 /// The depth changes by no more than the distance along the segment. And it is never more than the distance from any one piece of the wire's
 /// way allows: no place of a straight stretch is farther from a straight piece than one of its ends.
@@ -30,7 +29,6 @@ pub(super) fn deepest(
     segment: &Segment,
     way: &mut Nearby,
     [half, rounding]: [f64; 2],
-    asked: &mut Bounds,
 ) -> Option<(f64, Point)> {
     let length = segment.length();
     let walls = way.walls();
@@ -39,7 +37,6 @@ pub(super) fn deepest(
         let at = segment.point_at(share);
         let reach = near.map_or(half, |near| walls.segment(near).distance_to(at));
         let (away, nearest) = way.nearest_to(at, reach)?;
-        asked.merge(&Bounds::of_disc(at, away));
         let depth = away - half;
         if depth > rounding && worst.is_none_or(|(most, _)| depth > most) {
             worst = Some((depth, at));
@@ -92,7 +89,6 @@ pub(super) fn depth(
     [own, other]: [&Part; 2],
     begins: (usize, f64),
     limits: &FitLimits,
-    asked: &mut Bounds,
 ) -> Option<Deep> {
     let mut way = Nearby::of(&other.path);
     let (half, count) = (other.half, own.edges.len());
@@ -101,7 +97,6 @@ pub(super) fn depth(
         let (mut edge, mut from) = begins;
         for _ in 0..count {
             let geometry = &own.edges[edge].geometry;
-            asked.merge(&geometry.bounds());
             let apart = limits.rounding / geometry.length();
             let mut passes = passes(geometry, other);
             let next = match goes_on {
@@ -110,7 +105,7 @@ pub(super) fn depth(
             };
             let to = next.unwrap_or(if goes_on { 1.0 } else { 0.0 });
             let stretch = geometry.part(from.min(to), from.max(to));
-            let deep = deepest(&stretch, &mut way, [half, limits.rounding], asked);
+            let deep = deepest(&stretch, &mut way, [half, limits.rounding]);
             let is_deeper = |deep: &(f64, Point)| found.is_none_or(|(most, _)| deep.0 > most);
             found = deep.filter(is_deeper).or(found);
             if deep.is_none() || next.is_some() {

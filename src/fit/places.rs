@@ -1,18 +1,14 @@
 //! Each place in which two parts bind, once: the walls that meet in a corner say the same as the corner itself.
 
-use super::observations::{EdgeObservations, Lies, Verdict};
+use super::observations::{Lies, Verdict, verdict_on};
 
 /// The numbers of what was seen of walls of the punch, without what a neighbour or a corner already says of the same place. Clearances and places
-/// that differ by less than the rounding count as equal.
-pub(super) fn own_places(all: &[EdgeObservations; 3], rounding: f64) -> Vec<u32> {
+/// that differ by less than the rounding count as equal. The punch has `count` edges.
+pub(super) fn own_places(all: &[Vec<Verdict>; 3], count: u32, rounding: f64) -> Vec<u32> {
     let [of_punch, of_plate, of_walls] = all;
-    let count = of_walls.asked.len() as u32;
     // By the edge of the punch.
-    let corners = of_punch
-        .verdicts
-        .iter()
-        .map(|verdict| (verdict.edge, verdict));
-    let of_plate = of_plate.verdicts.iter();
+    let corners = of_punch.iter().map(|verdict| (verdict.edge, verdict));
+    let of_plate = of_plate.iter();
     let mut corners: Vec<_> = corners
         .chain(of_plate.map(|verdict| (verdict.other, verdict)))
         .collect();
@@ -57,16 +53,14 @@ pub(super) fn own_places(all: &[EdgeObservations; 3], rounding: f64) -> Vec<u32>
         .into_iter()
         .flatten();
         told.any(|edge| {
-            of_walls
-                .of(edge as usize)
-                .is_some_and(|other| is_told_by(other, verdict))
+            verdict_on(of_walls, edge as usize).is_some_and(|other| is_told_by(other, verdict))
         })
     };
     let is_own = |verdict: &Verdict| match verdict.lies {
         Lies::AllAlong => true,
         _ => !is_in_corner(verdict) && !is_beside(verdict),
     };
-    let walls = (0..).zip(&of_walls.verdicts);
+    let walls = (0..).zip(of_walls);
     let own = walls.filter(|(_, verdict)| is_own(verdict));
     own.map(|(number, _)| number).collect()
 }

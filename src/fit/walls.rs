@@ -4,7 +4,7 @@ use super::Sharper;
 use super::about::{About, FitLimits, TIE};
 use super::observations::{Lies, Verdict};
 use super::penetration::deepest;
-use crate::geometry::{Bounds, Point, Segment, facing, turn};
+use crate::geometry::{Point, Segment, facing, turn};
 use crate::toolpath::{Nearby, Part};
 use std::f64::consts::PI;
 
@@ -34,7 +34,6 @@ pub(super) fn wall(
     let geometry = &punch.edges[index].geometry;
     let mut nearest: (f64, Option<usize>) = (limits.clearance - limits.rounding, None);
     let area = geometry.bounds().grown(limits.clearance);
-    about.asked.merge(&area);
     about.edges.find(&area, |other| {
         let most = nearest.0 + TIE * limits.rounding;
         if plain(plate, other)
@@ -49,7 +48,6 @@ pub(super) fn wall(
     // What lies beyond the other's edge, or crosses it, is as deep as its distance from what the wire has cut.
     let mut is_deep = |at: Point| {
         let reach = plate.half + limits.rounding;
-        about.asked.merge(&Bounds::of_disc(at, reach));
         about.beside = plate.path.nearer_from(about.beside, at, reach);
         about.beside.is_none()
     };
@@ -57,7 +55,7 @@ pub(super) fn wall(
     let stands_out = match is_through || is_deep(geometry.start()) {
         true => {
             let reach = [plate.half, limits.rounding];
-            deepest(geometry, &mut about.way, reach, &mut about.asked)
+            deepest(geometry, &mut about.way, reach)
         }
         false => None,
     };
@@ -82,8 +80,7 @@ pub(super) fn wall(
     };
     let lies = lies(geometry, (clearance, at), plate, about, limits);
     let nearest_edge = || {
-        let (away, edge) = about.edges.nearest_to(at, plate.half)?;
-        about.asked.merge(&Bounds::of_disc(at, away));
+        let (_, edge) = about.edges.nearest_to(at, plate.half)?;
         Some(edge)
     };
     Some(Verdict {
@@ -147,9 +144,6 @@ fn lies(
     let mut is_as_deep = |share: f64| {
         let place = wall.point_at(share);
         let away = about.way.nearest_to(place, reach).map(|(away, _)| away);
-        about
-            .asked
-            .merge(&Bounds::of_disc(place, away.unwrap_or(reach)));
         away.is_some_and(|away| plate.half - away <= clearance + limits.rounding)
     };
     let is_even = is_as_deep(0.5) && is_as_deep(0.0) && is_as_deep(1.0);
@@ -178,14 +172,13 @@ fn tip(
     let wall = &punch.edges[index].geometry;
     let mut way = Nearby::of(&punch.path);
     let area = wall.bounds().grown(punch.half + AROUND * limits.clearance);
-    about.asked.merge(&area);
-    let (mut found, mut asked) = (None, Bounds::EMPTY);
+    let mut found = None;
     let mut most = depth + limits.rounding;
     about.edges.find(&area, |other| {
         let edge = &plate.edges[other];
         let reach = [punch.half, limits.rounding];
         if edge.turned_about.is_none()
-            && let Some((deep, at)) = deepest(&edge.geometry, &mut way, reach, &mut asked)
+            && let Some((deep, at)) = deepest(&edge.geometry, &mut way, reach)
             && deep > most
             && wall.distance_to(at) <= deep + limits.rounding
         {
@@ -194,7 +187,6 @@ fn tip(
         }
         false
     });
-    about.asked.merge(&asked);
     found
 }
 

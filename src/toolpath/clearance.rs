@@ -48,101 +48,23 @@ impl Walls {
     }
 
     fn within(segments: Vec<Segment>, boxes: Vec<Bounds>) -> Walls {
-        let mut walls = Walls {
+        let (mut levels, mut order) = (vec![boxes], Vec::new());
+        while let Some(level) = levels.last().filter(|level| level.len() > 1) {
+            let above = level.chunks(FAN).map(|boxes| merged(boxes.iter()));
+            let mut above: Vec<Bounds> = above.collect();
+            if levels.len() == 1 && segments.len() > MOST_IN_ORDER {
+                order = by_place(&above);
+                above = order.iter().map(|&few| above[few as usize]).collect();
+            }
+            levels.push(above);
+        }
+        Walls {
             segments,
-            levels: vec![boxes],
-            order: Vec::new(),
+            levels,
+            order,
             about: OnceLock::new(),
             tangents: OnceLock::new(),
             twice_area: OnceLock::new(),
-        };
-        walls.box_all();
-        walls
-    }
-
-    /// The boxes of boxes, where those of all segments are known; a few that are as many as there were stand in the order in which they stood.
-    fn box_all(&mut self) {
-        self.levels.truncate(1);
-        while let Some(level) = self.levels.last().filter(|level| level.len() > 1) {
-            let above = level.chunks(FAN).map(|boxes| merged(boxes.iter()));
-            let mut above: Vec<Bounds> = above.collect();
-            if self.levels.len() == 1 {
-                match self.segments.len() > MOST_IN_ORDER {
-                    true if self.order.len() != above.len() => self.order = by_place(&above),
-                    true => {}
-                    false => self.order.clear(),
-                }
-                if !self.order.is_empty() {
-                    above = self.order.iter().map(|&few| above[few as usize]).collect();
-                }
-            }
-            self.levels.push(above);
-        }
-    }
-
-    /// Replaces a stretch of segments. Of several stretches that are changed at once, which begin and end where they did, all
-    /// areas are those about one `origin`.
-    pub(super) fn splice(&mut self, stretch: Range<usize>, new: &[Segment], origin: Point) {
-        self.about = OnceLock::new();
-        if let Some(tangents) = self.tangents.get_mut() {
-            tangents.splice(stretch.clone(), new.iter().map(tangents_of));
-        }
-        self.levels[0].splice(stretch.clone(), new.iter().map(Segment::bounds));
-        let gone = self.segments.splice(stretch.clone(), new.iter().copied());
-        let gone: Vec<Segment> = gone.collect();
-        if let Some(twice_area) = self.twice_area.get_mut() {
-            *twice_area += area_about(new, origin) - area_about(&gone, origin);
-        }
-        let few = stretch.start / FAN..stretch.end.div_ceil(FAN);
-        match gone.len() == new.len() {
-            true => few.for_each(|few| self.box_again(few)),
-            false => self.box_all(),
-        }
-    }
-
-    /// Puts others in the place of some segments, by index, and hands out those. The ends of stretches of the contour stay.
-    pub(crate) fn replace(&mut self, new: &[(usize, Segment)]) -> Vec<(usize, Segment)> {
-        self.about = OnceLock::new();
-        let origin = new.first().map(|(_, first)| first.start());
-        let mut grown = 0.0;
-        let gone = new.iter().map(|&(index, segment)| {
-            let gone = std::mem::replace(&mut self.segments[index], segment);
-            if let Some(tangents) = self.tangents.get_mut() {
-                tangents[index] = tangents_of(&segment);
-            }
-            let area_of = |segment: &Segment| origin.map_or(0.0, |it| segment.twice_area(it));
-            grown += area_of(&segment) - area_of(&gone);
-            (index, gone)
-        });
-        let gone = gone.collect();
-        if let Some(twice_area) = self.twice_area.get_mut() {
-            *twice_area += grown;
-        }
-        for &(index, _) in new {
-            self.levels[0][index] = self.segments[index].bounds();
-        }
-        let mut last = None;
-        for few in new.iter().map(|(index, _)| index / FAN) {
-            if last.replace(few) != Some(few) {
-                self.box_again(few);
-            }
-        }
-        gone
-    }
-
-    /// The boxes of a few segments and of all that holds these, where a segment has changed.
-    fn box_again(&mut self, few: usize) {
-        let (mut within, mut at) = (few, few);
-        for level in 1..self.levels.len() {
-            if let (1, Some(place)) = (level, self.order.iter().position(|of| *of as usize == few))
-            {
-                at = place;
-            }
-            let boxes = self.levels[level - 1].chunks(FAN).nth(within);
-            let all = boxes.map_or(Bounds::EMPTY, |boxes| merged(boxes.iter()));
-            self.levels[level][at] = all;
-            at /= FAN;
-            within = at;
         }
     }
 
@@ -182,10 +104,6 @@ impl Walls {
     /// The box of all.
     pub(crate) fn bounds(&self) -> Bounds {
         merged(self.levels.last().into_iter().flatten())
-    }
-
-    pub(crate) fn bounds_of(&self, index: usize) -> &Bounds {
-        &self.levels[0][index]
     }
 
     /// The first wall found to which `path` comes nearer than `distance`.
@@ -400,12 +318,6 @@ pub(super) fn nearest_by(
         }
         reach *= 4.0;
     }
-}
-
-/// The contribution of some segments to twice the area of their contour, about a point.
-pub(super) fn area_about(segments: &[Segment], origin: Point) -> f64 {
-    let areas = segments.iter().map(|segment| segment.twice_area(origin));
-    areas.sum()
 }
 
 /// The directions of a segment at its ends; of an arc by where they lie about its centre, if that is known well.

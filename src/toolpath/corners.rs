@@ -311,15 +311,11 @@ impl<'a> Raw<'a> {
         self.offsets.geometry(self.key(index))
     }
 
-    /// The first element of a wall.
-    pub(super) fn first_of(&self, wall: usize) -> usize {
-        self.keys.partition_point(|key| (key / 2) < wall as u32)
-    }
-
     /// For an open contour that is travelled there and back, with this many walls either way: the
     /// element that leads round its end. Those before it lie on the side of the wire.
     pub(crate) fn end_roll(&self, walls: usize) -> usize {
-        self.first_of(walls).saturating_sub(1)
+        let behind = self.keys.partition_point(|key| (key / 2) < walls as u32);
+        behind.saturating_sub(1)
     }
 }
 

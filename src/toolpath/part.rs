@@ -10,12 +10,10 @@ use super::corners::{Element, elements};
 use super::job::Job;
 use super::offset::Wall;
 use super::path::{Refusal, Source};
-use super::reuse::follows;
 use super::skim::Rough;
 use crate::drawing::{Contour, ContourSegment, Drawing, EntityId};
 use crate::geometry::{Arc, Point, Segment, Side};
-use crate::settings::{Corner, Effective, SkimCorner};
-use std::sync::atomic::Ordering::Relaxed;
+use crate::settings::{Effective, SkimCorner};
 
 /// One edge of the outline of a part.
 #[derive(Clone, Copy, Debug)]
@@ -41,29 +39,17 @@ pub(crate) struct Part {
     /// Half the kerf of the last pass.
     pub half: f64,
     /// The contour as it is drawn.
-    pub(super) drawn: Vec<Wall>,
-    /// The same, to ask what is near.
-    pub(super) own: Option<Walls>,
-    /// The pieces of the path.
-    pub(super) ways: Vec<Wall>,
-    /// For each piece of the path its wall; nothing where it has not been proved beside the contour
-    /// at the correction.
-    pub(super) path_follows: Vec<u32>,
-    /// For each edge the piece of the path; nothing where it is not the offset of the path.
-    pub(super) edges_follow: Vec<u32>,
-    /// The path, and the outline, are those of neighbours cut with each other.
-    pub(super) is_by_neighbours: [bool; 2],
+    drawn: Vec<Wall>,
 }
 
 impl Edge {
-    /// The edge of an element beside a path of which it is known what each piece follows.
-    pub(super) fn of(element: &Element, path_follows: &[u32]) -> Edge {
-        let wall = |piece: usize| path_follows[piece] as usize / 2;
+    /// The edge of an element beside a path.
+    fn of(element: &Element, path: &[Element]) -> Edge {
         let next = match element.wall + 1 {
-            next if next < path_follows.len() => next,
+            next if next < path.len() => next,
             _ => 0,
         };
-        let before = wall(element.wall);
+        let before = path[element.wall].wall;
         let geometry = element.geometry;
         let turn = geometry.as_arc().filter(|_| element.is_roll());
         Edge {
@@ -73,7 +59,7 @@ impl Edge {
             walls: [
                 before,
                 if element.is_roll() {
-                    wall(next)
+                    path[next].wall
                 } else {
                     before
                 },
@@ -147,13 +133,9 @@ pub(crate) fn part(
     };
     let Last {
         walls: drawn,
-        own,
         path,
-        is_proved,
         swing,
     } = cut.last_path(contour)?;
-    let is_path_by_neighbours = !cut.job.searched.load(Relaxed);
-    let path_follows = follows(&path);
     let beside: Vec<Wall> = path
         .iter()
         .map(|element| Wall {
@@ -183,11 +165,6 @@ pub(crate) fn part(
             path: near_path,
             half,
             drawn,
-            own,
-            ways: beside,
-            path_follows: Vec::new(),
-            edges_follow: Vec::new(),
-            is_by_neighbours: [false; 2],
         });
     }
     let back = Along {
@@ -201,10 +178,9 @@ pub(crate) fn part(
         Err(fault) => Err(fault),
     };
     let outline = outline.map_err(|fault| job.no_path(&fault, &beside, half))?;
-    let is_by_neighbours = [is_path_by_neighbours, !job.searched.load(Relaxed)];
     let rounding = job.units(super::job::ROUNDING);
     let edge = |element: &Element| {
-        let edge = Edge::of(element, &path_follows);
+        let edge = Edge::of(element, &path);
         let piece = beside[element.wall].geometry;
         let swung = piece.as_arc().filter(|arc| {
             let is_inside = arc.sweep.signum() == side.sign();
@@ -226,27 +202,22 @@ pub(crate) fn part(
         path: near_path,
         half,
         drawn,
-        own,
-        ways: beside,
-        path_follows: if is_proved { path_follows } else { Vec::new() },
-        edges_follow: follows(&outline),
-        is_by_neighbours,
     })
 }
 
 /// What a part is cut by.
-pub(super) struct Cut<'a> {
-    pub(super) job: Job<'a>,
+struct Cut<'a> {
+    job: Job<'a>,
     /// Half the kerf of the last pass, drawing units.
-    pub(super) half: f64,
+    half: f64,
     /// How the last pass runs along the contour.
-    pub(super) last: Along,
+    last: Along,
     /// The correction of the first pass, from the same side.
     rough: f64,
 }
 
 impl<'a> Cut<'a> {
-    pub(super) fn of(
+    fn of(
         drawing: &'a Drawing,
         cutting: Cutting<'a>,
         goes_on: &'a (dyn Fn() -> bool + Sync),
@@ -281,26 +252,9 @@ impl<'a> Cut<'a> {
 /// The path of the last pass along a closed contour.
 struct Last {
     walls: Vec<Wall>,
-    /// The walls once more, by place; nothing until that has been asked for.
-    own: Option<Walls>,
     path: Vec<Element>,
-    /// It has been proved at its correction.
-    is_proved: bool,
     /// The radius of its way about a point in which the first pass turned; 0 where it turns there itself.
     swing: f64,
-}
-
-impl Last {
-    /// One that has not been proved, and turns where the first pass does.
-    fn of(walls: Vec<Wall>, own: Option<Walls>, path: Vec<Element>) -> Last {
-        Last {
-            walls,
-            own,
-            path,
-            is_proved: false,
-            swing: 0.0,
-        }
-    }
 }
 
 /// The segments of a closed contour in the direction of travel.
@@ -325,9 +279,12 @@ impl Cut<'_> {
             let shortest = job.settings.tolerances.zero_length;
             let walls = job.walls_of(contour.count, contour.segment, true, shortest);
             let path = elements(&walls);
-            return Ok(Last::of(walls, None, path));
+            return Ok(Last {
+                walls,
+                path,
+                swing: 0.0,
+            });
         }
-        let is_plain = !is_after_rough && job.settings.corner == Corner::Arc;
         let first = Along {
             correction: *rough,
             ..*last
@@ -357,9 +314,9 @@ impl Cut<'_> {
                 let path =
                     job.with_corners(path, (&walls, &own), last.correction, &|_: &Segment| false);
                 Ok(Last {
-                    is_proved: is_plain,
+                    walls,
+                    path,
                     swing: if is_beside_rough { swing } else { 0.0 },
-                    ..Last::of(walls, Some(own), path)
                 })
             }
             Ok(Laid::Point(stand)) => {
@@ -368,7 +325,11 @@ impl Cut<'_> {
                     source: Source::Tab,
                     wall: 0,
                 };
-                Ok(Last::of(walls, Some(own), vec![element]))
+                Ok(Last {
+                    walls,
+                    path: vec![element],
+                    swing: 0.0,
+                })
             }
             Err(fault) => Err(job.no_path(&fault, &walls, first.correction).into()),
         }

@@ -35,13 +35,7 @@ impl Pieces {
 /// element that it is of. Right wherever corners do not reach past their neighbours; whether it is, `proof` says. `None`
 /// where nothing is left or neighbours do not meet.
 pub(super) fn trimmed(raw: &Raw) -> Option<Pieces> {
-    trimmed_from(raw, 0)
-}
-
-/// The same for the elements of a stretch of a contour. The contour begins with the element `first`: what is used up is looked for
-/// in the order of the contour.
-pub(super) fn trimmed_from(raw: &Raw, first: usize) -> Option<Pieces> {
-    Ring::new(raw, first).resolve()
+    Ring::new(raw).resolve()
 }
 
 /// The elements round a contour, from which what is used up is taken out.
@@ -53,12 +47,10 @@ struct Ring<'a> {
     after: Vec<u32>,
     alive: Vec<bool>,
     count: usize,
-    /// The element with which the contour begins.
-    first: usize,
 }
 
 impl<'a> Ring<'a> {
-    fn new(raw: &'a Raw<'a>, first: usize) -> Ring<'a> {
+    fn new(raw: &'a Raw<'a>) -> Ring<'a> {
         let count = raw.len();
         let last = count.saturating_sub(1) as u32;
         Ring {
@@ -68,7 +60,6 @@ impl<'a> Ring<'a> {
             after: (1..=last).chain([0]).collect(),
             alive: vec![true; count],
             count,
-            first,
         }
     }
 
@@ -93,11 +84,8 @@ impl<'a> Ring<'a> {
         if self.count < 2 {
             return None;
         }
-        let (before, behind) = {
-            let tight = &self.raw.tight;
-            tight.split_at(tight.partition_point(|(index, _)| *index < self.first))
-        };
-        for &(index, center) in behind.iter().chain(before) {
+        let raw = self.raw;
+        for &(index, center) in &raw.tight {
             self.remove(index, center)?;
         }
         Some(())
@@ -117,8 +105,7 @@ impl<'a> Ring<'a> {
         let is_fine = each(self.raw.len(), AT_A_TIME, |index| {
             !self.alive[index] || runs_forward(index)
         });
-        let all = (0..self.first).rev();
-        let all = all.chain((self.first..self.raw.len()).rev());
+        let all = (0..self.raw.len()).rev();
         all.filter(|&index| !is_fine[index]).collect()
     }
 
@@ -337,7 +324,7 @@ mod tests {
                 joining: &joining,
             });
             let told = |path: Option<Pieces>| format!("{path:?}");
-            let mut one_by_one = Ring::new(&raw, 0);
+            let mut one_by_one = Ring::new(&raw);
             let one_by_one = match one_by_one.remove_tight() {
                 Some(()) => {
                     let all = (0..raw.len()).rev().collect();

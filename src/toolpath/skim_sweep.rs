@@ -9,7 +9,6 @@ use super::corners::{
 use super::nest::Before;
 use super::proof::{Proof, There};
 use super::quick_tests::is_rest_about_foot;
-use super::reuse::follows_of;
 use super::ring::{is_point, meeting};
 use crate::geometry::{Point, Segment};
 use rayon::iter::{
@@ -131,7 +130,7 @@ impl<'a> Sweep<'a> {
 
     fn key(&self, at: usize) -> usize {
         let element = &self.before.path[at];
-        follows_of(element.wall as u32, element) as usize
+        2 * element.wall + usize::from(element.is_roll())
     }
 
     /// The whole element that a piece is cut from.

@@ -1,4 +1,4 @@
-//! Pairs of contours so long that only a stretch of them is looked at again.
+//! Pairs of long contours.
 
 use super::*;
 use crate::size::by_day;
