@@ -10,7 +10,6 @@ use crate::drawing::{
 };
 use crate::rules::{AtHand, CONTOUR_RULES, NEIGHBOURS, Outlook, units};
 use rayon::prelude::*;
-use rustc_hash::FxHashSet;
 use std::collections::BTreeSet;
 use std::iter::once;
 use std::ops::Range;
@@ -165,17 +164,12 @@ impl Analysis {
         else {
             return false;
         };
-        let mut known = Arc::unwrap_or_clone(known);
-        let mut forgotten = FxHashSet::default();
-        let spliced = vertices
-            .filter(|_| is_recounted)
-            .and_then(|vertices| self.splice(drawing, key, &mut known, vertices, &mut forgotten));
-        if is_recounted && spliced.is_none() {
+        if is_recounted {
             self.pairs.forget(key, &known.index);
             self.learn(drawing, &[key]);
             return true;
         }
-        let vertices = spliced.or(vertices);
+        let mut known = Arc::unwrap_or_clone(known);
         let Some(contour) = self.chains.get(key) else {
             return false;
         };
@@ -190,8 +184,7 @@ impl Analysis {
         }
         let ranges = own.into_iter().map(|range| within(&piece, range));
         let ranges: Vec<Range<usize>> = ranges.collect();
-        let mut runs = self.runs_beside(key, contour, &known.index, (&ranges, changed));
-        runs.extend(&forgotten);
+        let runs = self.runs_beside(key, contour, &known.index, (&ranges, changed));
         // Two closed outlines that lie on each other may begin anywhere: what is known of both is kept where one of them begins.
         let is_ring = geometry.is_closed() && known.index.run_count() > 1;
         let beginnings = match is_ring {
@@ -205,10 +198,8 @@ impl Analysis {
             }
         }
         for &run in &runs {
-            if forgotten.insert(run) {
-                self.pairs
-                    .forget_run((key, run as u32), &known.index.bounds_of_run(run));
-            }
+            self.pairs
+                .forget_run((key, run as u32), &known.index.bounds_of_run(run));
         }
         for range in ranges {
             let runs = known.index.runs_over(range.clone());
