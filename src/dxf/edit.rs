@@ -1,17 +1,21 @@
 //! An edit of the text: only what it touched is read again.
 //!
-//! An edit within the vertices of a LWPOLYLINE rereads a few of them; other edits reread the items around them. An edit with effects
-//! further away (sections, ordinals as names) rereads everything.
+//! An edit within the vertices of a polyline rereads a few of them, and one of a number of a VERTEX
+//! that VERTEX alone; other edits reread the items around them. An edit with effects further away (sections, ordinals as names) rereads everything.
 
 use super::Document;
+use super::entities::mirror;
 use super::foreign;
 use super::frame;
 use super::lexer::LOOKAHEAD;
 use super::lines::Lines;
+use super::number::{self, Code, Number};
 use super::reader::range_key;
-use crate::drawing::Delta;
+use super::table::Became;
+use crate::drawing::{Delta, EntityId, Vertex};
 use crate::finding::{Finding, Place, Rule};
 use std::ops::Range;
+use std::sync::Arc;
 
 /// Reading begins at least this many lines before an edit: decisions there may have looked at the edited lines.
 pub(super) const LOOKBACK: usize = LOOKAHEAD + 4;
@@ -22,6 +26,18 @@ pub(super) const FEW: usize = 64;
 
 /// From this many bytes on an edit leaves the text in two pieces. In tests every text is large.
 const LARGE: usize = if cfg!(test) { 1 } else { 64 * 1024 };
+
+/// The VERTEX record that holds an edit: its lines before the edit, and what must stay as it is.
+struct VertexZone {
+    entity: EntityId,
+    item: usize,
+    index: usize,
+    lines: Range<usize>,
+    others: Others,
+}
+
+/// The tags of a VERTEX that are not its geometry but decide what it is: z and flags.
+type Others = [Option<f64>; 2];
 
 /// What was known before the edit of everything that it can have touched.
 pub(super) struct ItemZone {
@@ -37,6 +53,7 @@ impl Document {
     pub fn edit(&mut self, range: Range<usize>, replacement: &str) -> Delta {
         let end = range.end.min(self.text.len());
         let range = range.start.min(end)..end;
+        let vertex = self.vertex_zone(&range);
         let reference = self.reference_zone(&range, replacement);
         let run = self.vertex_run(&range);
         let zone = self
@@ -52,6 +69,11 @@ impl Document {
         let bytes = self.text.len() as i64 - old_length as i64;
         if range.start >= HEAD || foreign::recognise(self.head()).is_none() {
             if let Some(delta) = run.and_then(|run| self.reread_run(run, lines, bytes)) {
+                return delta;
+            }
+            if let Some(zone) = vertex
+                && let Some(delta) = self.reread_vertex(&zone, &range, lines, bytes)
+            {
                 return delta;
             }
             if let Some(zone) = reference
@@ -74,6 +96,39 @@ impl Document {
             .unwrap_or_default()
     }
 
+    /// The vertex that holds the edit, if its first and last byte stay. The last vertex of a POLYLINE does not count:
+    /// SEQEND follows in the same lines.
+    fn vertex_zone(&self, range: &Range<usize>) -> Option<VertexZone> {
+        let line = self.text.line_of(range.start);
+        let item = self.table.item_at(line)?;
+        let Became::Entity(entity) = self.table.items.get(item)?.became else {
+            return None;
+        };
+        let vertices = self.table.vertices.get(&entity)?;
+        let lines = Lines::new(&self.text);
+        let start = self.table.lines_of(item, lines.count()).start;
+        let relative = line.checked_sub(start)?;
+        let index = vertices
+            .lines
+            .partition_point(|&vertex| vertex as usize <= relative)
+            .checked_sub(1)?;
+        let zone = self.vertex_lines(entity, index)?;
+        let inside = range.start > self.text.line_start(zone.start)
+            && range.end < self.text.line_start(zone.end)
+            && zone.end < lines.count();
+        if !inside || self.is_at_fault(zone.start, zone.end) {
+            return None;
+        }
+        let (_, others) = plain_vertex(lines, zone.clone())?;
+        Some(VertexZone {
+            entity,
+            item,
+            index,
+            lines: zone,
+            others,
+        })
+    }
+
     /// True where a fault that begins before the line `end` may have been judged by the line `from`, or lies after it.
     pub(super) fn is_at_fault(&self, from: usize, end: usize) -> bool {
         let near = self.text.line_start(from.saturating_sub(LOOKBACK));
@@ -92,6 +147,43 @@ impl Document {
                 matches!(&finding.place, Place::Text { range } if range.end >= near)
                     && finding.rule == Rule::Syntax
             })
+    }
+
+    fn reread_vertex(
+        &mut self,
+        zone: &VertexZone,
+        range: &Range<usize>,
+        lines: i64,
+        bytes: i64,
+    ) -> Option<Delta> {
+        let VertexZone {
+            entity,
+            item,
+            index,
+            lines: ref old,
+            others,
+        } = *zone;
+        let end = old.end.checked_add_signed(lines as isize)?;
+        let (mut vertex, others_now) = plain_vertex(Lines::new(&self.text), old.start..end)?;
+        if others_now != others {
+            return None;
+        }
+        let table = self.table.vertices.get_mut(&entity)?;
+        if table.in_space {
+            vertex.bulge = 0.0;
+        }
+        if table.mirrored {
+            mirror(&mut vertex);
+        }
+        shift(&mut table.lines, index + 1, lines);
+        shift(&mut self.table.lines, item + 1, lines);
+        self.shift_findings(range.end, bytes);
+        let touched = Arc::make_mut(&mut self.drawing)
+            .splice(entity, index, 1, &[vertex])
+            .ok()?;
+        Some(Delta {
+            touched: vec![touched],
+        })
     }
 
     pub(super) fn shift_findings(&mut self, from: usize, bytes: i64) {
@@ -126,6 +218,44 @@ impl Document {
         };
         !self.table.frames.is_empty() && frame::is_named_in(lines, range())
     }
+}
+
+/// A VERTEX record that holds only sound tags of a vertex: as it stands in the text, and its other tags.
+fn plain_vertex(lines: Lines, range: Range<usize>) -> Option<(Vertex, Others)> {
+    if !range.len().is_multiple_of(2) || range.end > lines.count() {
+        return None;
+    }
+    let begins = number::code(lines.content(range.start)) == Code::Known(0);
+    if !begins || lines.trimmed(range.start + 1) != b"VERTEX" {
+        return None;
+    }
+    let [mut x, mut y, mut bulge, mut z, mut flags] = [None; 5];
+    for line in range.clone().step_by(2) {
+        let Code::Known(code) = number::code(lines.content(line)) else {
+            return None;
+        };
+        let value = match code {
+            10 => &mut x,
+            20 => &mut y,
+            42 => &mut bulge,
+            30 => &mut z,
+            70 => &mut flags,
+            0 if line == range.start => continue,
+            5 | 6 | 8 | 40 | 41 | 50 | 62 | 91 | 100 | 330 => continue,
+            _ => return None,
+        };
+        // A second x begins another vertex.
+        let another = code == 10 && value.is_some();
+        if another || (code == 70 && !lines.trimmed(line + 1).iter().all(u8::is_ascii_digit)) {
+            return None;
+        }
+        let Number::Exact(number) = number::number(lines.content(line + 1)) else {
+            return None;
+        };
+        *value = Some(number);
+    }
+    let vertex = Vertex::new(x?, y?, bulge.unwrap_or(0.0));
+    vertex.is_finite().then_some((vertex, [z, flags]))
 }
 
 pub(super) fn shift(lines: &mut [u32], from: usize, by: i64) {
