@@ -52,6 +52,33 @@ impl Observed {
     pub(super) fn is_told(&self) -> bool {
         PAIR_RULES[self.rule].pair_by_pair
     }
+
+    /// Segments of a contour from `first` on have other indices.
+    pub(super) fn shift(&mut self, key: ContourKey, first: usize, by: isize) {
+        for (_, index) in [&mut self.one, &mut self.other]
+            .into_iter()
+            .filter(|segment| segment.0 == key)
+        {
+            *index = shifted(*index, first, by);
+        }
+        // The walls of a dead end are of one contour.
+        if self.one.0 == key
+            && let Some(Ended { walls, left }) = &mut self.ended
+        {
+            *walls = walls.map(|wall| shifted(wall, first, by));
+            if let Some(left) = left {
+                left.index = shifted(left.index, first, by);
+            }
+        }
+    }
+}
+
+/// The new index of a segment, where those from `first` on have changed.
+fn shifted(index: usize, first: usize, by: isize) -> usize {
+    match index < first {
+        true => index,
+        false => index.wrapping_add_signed(by),
+    }
 }
 
 /// What the rules on two segments that come near each other cost, in looks.

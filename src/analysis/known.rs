@@ -125,6 +125,15 @@ impl Known {
         }
     }
 
+    /// Records that the segments of the runs from `behind` on have indices larger by so many.
+    pub(crate) fn shift(&mut self, behind: usize, by: isize) {
+        let of_runs = self.by_rule.iter_mut();
+        let later = of_runs.flat_map(|seen| seen.iter_mut().skip(behind));
+        for observation in later.flatten() {
+            observation.index = (observation.index as usize).wrapping_add_signed(by) as u32;
+        }
+    }
+
     /// True when a local rule has an observation.
     pub(crate) fn has_observations(&self) -> bool {
         !self.by_rule.iter().flatten().all(Vec::is_empty)

@@ -10,6 +10,7 @@ use crate::drawing::{
 };
 use crate::rules::{AtHand, CONTOUR_RULES, NEIGHBOURS, Outlook, units};
 use rayon::prelude::*;
+use rustc_hash::FxHashSet;
 use std::collections::BTreeSet;
 use std::iter::once;
 use std::ops::Range;
@@ -164,12 +165,17 @@ impl Analysis {
         else {
             return false;
         };
-        if is_recounted {
+        let mut known = Arc::unwrap_or_clone(known);
+        let mut forgotten = FxHashSet::default();
+        let spliced = vertices
+            .filter(|_| is_recounted)
+            .and_then(|vertices| self.splice(drawing, key, &mut known, vertices, &mut forgotten));
+        if is_recounted && spliced.is_none() {
             self.pairs.forget(key, &known.index);
             self.learn(drawing, &[key]);
             return true;
         }
-        let mut known = Arc::unwrap_or_clone(known);
+        let vertices = spliced.or(vertices);
         let Some(contour) = self.chains.get(key) else {
             return false;
         };
@@ -184,7 +190,8 @@ impl Analysis {
         }
         let ranges = own.into_iter().map(|range| within(&piece, range));
         let ranges: Vec<Range<usize>> = ranges.collect();
-        let runs = self.runs_beside(key, contour, &known.index, (&ranges, changed));
+        let mut runs = self.runs_beside(key, contour, &known.index, (&ranges, changed));
+        runs.extend(&forgotten);
         // Two closed outlines that lie on each other may begin anywhere: what is known of both is kept where one of them begins.
         let is_ring = geometry.is_closed() && known.index.run_count() > 1;
         let beginnings = match is_ring {
@@ -198,8 +205,10 @@ impl Analysis {
             }
         }
         for &run in &runs {
-            self.pairs
-                .forget_run((key, run as u32), &known.index.bounds_of_run(run));
+            if forgotten.insert(run) {
+                self.pairs
+                    .forget_run((key, run as u32), &known.index.bounds_of_run(run));
+            }
         }
         for range in ranges {
             let runs = known.index.runs_over(range.clone());

@@ -30,6 +30,7 @@ mod report;
 mod runs;
 mod said_twice;
 mod search;
+mod splice;
 mod suppressed;
 mod together;
 mod told;

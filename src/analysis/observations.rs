@@ -59,6 +59,20 @@ impl Observations {
         Some(gone)
     }
 
+    /// Segments of a contour from `first` on have other indices.
+    pub(super) fn shift(
+        &mut self,
+        pair: &(RunId, RunId),
+        key: ContourKey,
+        first: usize,
+        by: isize,
+    ) {
+        let of_pair = [self.between.get_mut(pair), self.ends.get_mut(pair)];
+        for each in of_pair.into_iter().flatten().flatten() {
+            each.shift(key, first, by);
+        }
+    }
+
     fn own_of(&mut self, each: &Observed) -> Option<&mut FxHashMap<ContourKey, usize>> {
         if each.one.0 != each.other.0 || each.blocked {
             return None;

@@ -208,6 +208,11 @@ impl Pairs {
         }
     }
 
+    /// Runs with observations in common with this one.
+    pub(super) fn partners_of(&self, run: RunId) -> impl Iterator<Item = RunId> {
+        self.partners.get(&run).into_iter().flatten().copied()
+    }
+
     /// Compares new runs with each other and with all that come near them.
     pub(crate) fn check(
         &mut self,

@@ -1,5 +1,5 @@
 //! A contour cut into runs of consecutive segments, each with its box, its share of the area and its tight arcs. An
-//! edit that moves vertices touches one run or two, however long the contour is.
+//! edit touches one run or two, however long the contour is: where segments come or go, the run has more or fewer.
 
 use super::{Contour, ContourSegment, Drawing};
 use crate::geometry::{Bounds, Point};
@@ -9,6 +9,9 @@ use std::ops::Range;
 /// Segments in one run. Few enough to look through in a microsecond, many enough that a million segments make only some
 /// thousand boxes.
 pub(crate) const RUN: usize = 64;
+
+/// Segments that a run has at the most, after some have come into it.
+const LONGEST: usize = 4 * RUN;
 
 /// An area below this share of the square about a contour has no sign: it does not tell the direction of the contour.
 const ROUNDING: f64 = 1e-12;
@@ -36,6 +39,8 @@ pub(crate) struct ContourIndex {
     /// Indices within the contour of arcs with a radius below a threshold, rising.
     tight: Vec<u32>,
     segments: u32,
+    /// The first segment of each run; none where all but the last have [`RUN`] segments, as afresh.
+    starts: Option<Box<[u32]>>,
     /// The area is summed relative to a point near the contour, so that far-off coordinates cost no digits.
     origin: Point,
 }
@@ -52,6 +57,7 @@ impl ContourIndex {
             others: Vec::with_capacity(segments.div_ceil(RUN).saturating_sub(1)),
             tight: Vec::new(),
             segments: segments as u32,
+            starts: None,
             origin,
         };
         for run in 0..index.run_count() {
@@ -74,6 +80,7 @@ impl ContourIndex {
             others: Vec::new(),
             tight: Vec::new(),
             segments: segments.len() as u32,
+            starts: None,
             origin: segments
                 .first()
                 .map_or_else(Point::origin, |first| first.geometry.start()),
@@ -104,6 +111,51 @@ impl ContourIndex {
             let old = self.tight_before(range.start)..self.tight_before(range.end);
             self.tight.splice(old, tight);
         }
+    }
+
+    /// Records that some segments, those of `gone`, have been replaced by so many others: `come`. Nothing but the runs in which
+    /// they lie changes, but later segments have other indices. False, with nothing done, where these runs would become too
+    /// long, or have none left, or are more than two: the contour is to be read again.
+    pub(crate) fn splice(
+        &mut self,
+        drawing: &Drawing,
+        contour: &Contour,
+        threshold: f64,
+        (gone, come): (Range<usize>, usize),
+    ) -> bool {
+        if gone.is_empty() || gone.end > self.len() {
+            return false;
+        }
+        let runs = self.runs_over(gone.clone());
+        let moved = |start: usize| start + come - gone.len();
+        let new_end = gone.start + come;
+        let mut starts: Vec<u32> = (0..self.run_count())
+            .map(|run| self.range_of(run).start)
+            .map(|start| match start {
+                _ if start <= gone.start => start as u32,
+                _ if start < gone.end => start.min(new_end) as u32,
+                _ => moved(start) as u32,
+            })
+            .collect();
+        let end = moved(self.len());
+        let length = |run: usize| {
+            let behind = starts.get(run + 1).map_or(end, |&start| start as usize);
+            behind.checked_sub(starts[run] as usize)
+        };
+        let fits = |run: usize| length(run).is_some_and(|it| (1..=LONGEST).contains(&it));
+        if runs.len() > 2 || end != contour.len() || !runs.clone().all(fits) {
+            return false;
+        }
+        let old = self.tight_before(gone.start)..self.tight_before(gone.end);
+        self.tight.drain(old.clone());
+        for tight in self.tight.iter_mut().skip(old.start) {
+            *tight = moved(*tight as usize) as u32;
+        }
+        self.segments = end as u32;
+        starts.shrink_to_fit();
+        self.starts = Some(starts.into());
+        self.look_again(drawing, contour, threshold, runs);
+        true
     }
 
     /// The number of tight arcs before the segment at `index`.
@@ -147,12 +199,24 @@ impl ContourIndex {
 
     /// Segments of a run.
     pub(crate) fn range_of(&self, run: usize) -> Range<usize> {
-        run * RUN..((run + 1) * RUN).min(self.len())
+        match &self.starts {
+            None => run * RUN..((run + 1) * RUN).min(self.len()),
+            Some(starts) => {
+                let start = |run| starts.get(run).map_or(self.len(), |&start| start as usize);
+                start(run)..start(run + 1)
+            }
+        }
     }
 
     /// The run with a segment.
     pub(crate) fn run_of(&self, segment: usize) -> usize {
-        segment / RUN
+        match &self.starts {
+            None => segment / RUN,
+            Some(starts) => {
+                let begun = starts.partition_point(|&start| start as usize <= segment);
+                begun.saturating_sub(1)
+            }
+        }
     }
 
     /// The runs with some segments.
@@ -181,7 +245,10 @@ impl ContourIndex {
 
     /// Number of runs.
     pub(crate) fn run_count(&self) -> usize {
-        self.len().div_ceil(RUN)
+        match &self.starts {
+            None => self.len().div_ceil(RUN),
+            Some(starts) => starts.len(),
+        }
     }
 
     /// The box of a run; empty past the last one.

@@ -1,4 +1,4 @@
-//! Vertices come into a long polyline and leave it.
+//! Vertices come into a long polyline and leave it: what was seen of those behind them stays, under other indices.
 
 use super::*;
 
