@@ -9,7 +9,6 @@ use crate::program::Format;
 use crate::program::iso::block::{Block, Stop};
 use crate::settings::{Effective, Jumps, Lead};
 use crate::toolpath::{Nesting, WirePath, Work};
-use std::collections::BTreeSet;
 
 /// The most contours named in one sentence.
 const MOST_NAMED: usize = 8;
@@ -154,30 +153,27 @@ fn longest_alone(snapshot: &Snapshot, night: &[Watch]) -> Option<(f64, Vec<usize
     }
     let chosen: Vec<usize> = stays.iter().map(|stay| stay.outline).collect();
     let around = Nesting::new(&snapshot.drawing, &snapshot.outlines, &chosen).around;
-    let mut taken: BTreeSet<usize> = BTreeSet::new();
-    let mut order = Vec::new();
-    let can_be_next = |index: usize, taken: &BTreeSet<usize>| {
-        let mut inner = (0..stays.len()).filter(|&inner| around[inner].contains(&index));
-        !taken.contains(&index) && inner.all(|inner| taken.contains(&inner))
+    let mut left: Vec<(usize, &Stay, Vec<usize>)> = (0..)
+        .zip(&stays)
+        .zip(around)
+        .map(|((place, stay), around)| (place, stay, around))
+        .collect();
+    let holds_none = |left: &[(usize, &Stay, Vec<usize>)], place: usize| {
+        left.iter().all(|(_, _, around)| !around.contains(&place))
     };
-    let runs_on = |index: &usize| !waits_between && !stays[*index].waits_within;
-    while let Some(next) = (0..stays.len())
-        .filter(runs_on)
-        .find(|&index| can_be_next(index, &taken))
-    {
-        taken.insert(next);
-        order.push(next);
+    let mut order = Vec::new();
+    while let Some(next) = left.iter().position(|(place, stay, _)| {
+        !waits_between && !stay.waits_within && holds_none(&left, *place)
+    }) {
+        order.push(left.remove(next).1);
     }
-    let last = (0..stays.len()).filter(|&index| can_be_next(index, &taken));
-    order.extend(last.max_by(|&one, &other| stays[one].alone.total_cmp(&stays[other].alone)));
-    let minutes = order.iter().map(|&index| stays[index].alone).sum();
-    Some((
-        minutes,
-        order
-            .into_iter()
-            .map(|index| stays[index].outline)
-            .collect(),
-    ))
+    let last = left
+        .iter()
+        .filter(|(place, ..)| holds_none(&left, *place))
+        .map(|(_, stay, _)| *stay);
+    order.extend(last.max_by(|one, other| one.alone.total_cmp(&other.alone)));
+    let minutes = order.iter().map(|stay| stay.alone).sum();
+    Some((minutes, order.iter().map(|stay| stay.outline).collect()))
 }
 
 fn waits_before(path: &WirePath, next: &WirePath, settings: &Effective, format: Format) -> bool {

@@ -251,7 +251,7 @@ REFUSALS = [
     ("wedm/simulate", {"uri": PROGRAM, "feed": "fast"}, -32602, "fast"),
     ("wedm/simulate", {"uri": PROGRAM, "feed": -1}, -32602, "feed is -1, expected mm/min above 0"),
     ("wedm/calibrate", {"measurements": [OUTER], "corrections": [-0.1]}, -32602, "expected a length"),
-    ("wedm/calibrate", {"measurements": [], "corrections": [0.1]}, -32602, "nothing"),
+    ("wedm/calibrate", {"measurements": [], "corrections": [0.1]}, -32602, "no measurement is in it"),
     ("wedm/calibrate", {"measurements": [OUTER, {**INNER, "measured": 10.4}], "corrections": [0.155]}, -32803, "outer"),
     ("wedm/rulePage", {"rule": "tight"}, -32602, "no rule named tight"),
     ("wedm/settings", {"uri": 7}, -32602, "expected a string"),
