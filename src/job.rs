@@ -375,7 +375,7 @@ fn written(
     let is_left_out = |one: &&Finding| chosen.is_none() && one.rule == Rule::UnsupportedEntity;
     let left_out = findings.iter().filter(is_left_out).cloned().collect();
     let mut warnings = findings;
-    warnings.retain(|finding| finding.severity <= Severity::Warning);
+    warnings.retain(|finding| finding.severity <= Severity::Warning || is_of_program(finding));
     if snapshot
         .outlines
         .iter()

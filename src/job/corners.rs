@@ -42,7 +42,10 @@ pub(super) fn cut_off(snapshot: &Snapshot, program: &ProvedProgram) -> Vec<Findi
     found
 }
 
-/// True for a finding of [`cut_off`]: it is about a program, and not in the drawing.
+/// True for a finding of [`cut_off`], and for what parts lose along a common line: a program is handed out with it.
 pub(crate) fn is_of_program(finding: &Finding) -> bool {
-    finding.rule == Rule::SharpCorner && matches!(finding.detail, Detail::Said(_))
+    let is_of_common_line =
+        finding.rule == Rule::NarrowSlot && finding.severity == Severity::Information;
+    (finding.rule == Rule::SharpCorner || is_of_common_line)
+        && matches!(finding.detail, Detail::Said(_))
 }

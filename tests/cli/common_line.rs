@@ -32,6 +32,8 @@ fn programs_of_parts_that_share_an_edge_are_read_back_as_their_drawing() {
         ));
         assert_eq!(made.code, Some(0), "{format} {more}: {made:?}");
         assert!(made.stderr.contains("3 contours"), "{format}: {made:?}");
+        let lost = "and each loses";
+        assert!(made.stderr.contains(lost), "{format}: {made:?}");
         let checked = desk.run(&format!("check plates.{ending}"));
         assert_eq!(checked.code, Some(0), "{format} {more}: {checked:?}");
         assert!(
